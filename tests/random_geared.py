@@ -39,7 +39,7 @@ import linkwright as lw
 
 STRIDE = 1_000_000  # mechanisms of one seed
 #: Codes of what a kind of joint does not offer.
-LACKING = ("model.kind_lacks", "joints.cam_sums", "joints.cam_turned")
+LACKING = ("model.kind_lacks", "joints.cam_sums")
 AGREES, UNJUDGED, UNOFFERED = "agrees", "not judged", "not offered"
 
 

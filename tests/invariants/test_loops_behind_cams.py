@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 from tests.reference import joint_cells
+from tests.reference.geared_judge import disagreements, well_placed
 from tests.reference.geared_mechanisms import GearedDraft, case_of
 from tests.reference.multibody import FRAME
-from tests.refusals import refused
 
 import linkwright as lw
 
@@ -70,14 +70,21 @@ def test_sweeps_pass_where_a_rise_begins(law: str) -> None:
         assert largest == pytest.approx(alone.link("plate").angle.max(), abs=1e-3)
 
 
-def test_behind_a_cam_that_a_linkage_turns_what_cannot_be_followed_is_refused() -> None:
-    d = GearedDraft(np.random.default_rng([91, 0]))
-    crank = d.link((0.0, 0.0))
-    d.pin(FRAME, crank, (0.0, 0.0))
-    d.mark(crank, (0.3, 0.0), joint_cells.CRANK_END)
-    joint_cells.GROUPS["RRR"](d)
-    joint_cells.JOINTS["cam"](d, d.pins[-1])
-    joint_cells.JOINTS["revolute"](d, d.pins[-1])
-    joint_cells.JOINTS["gear"](d, d.pins[-1])
-    with refused("joints.cam_turned", cam="l3"):
-        lw.solve_motion(lw.loads(case_of(d).text), steps=12)
+def test_wheels_behind_a_cam_that_a_linkage_turns_are_followed() -> None:
+    """Against the reference, as far as it comes."""
+    compared = 0
+    for seed in range(6):
+        d = GearedDraft(np.random.default_rng([91, seed]))
+        crank = d.link((0.0, 0.0))
+        d.pin(FRAME, crank, (0.0, 0.0))
+        d.mark(crank, (0.3, 0.0), joint_cells.CRANK_END)
+        joint_cells.GROUPS["RRR"](d)
+        joint_cells.JOINTS["cam"](d, d.pins[-1])
+        joint_cells.JOINTS["revolute"](d, d.pins[-1])
+        joint_cells.JOINTS["gear"](d, d.pins[-1])
+        case = case_of(d)
+        reference = well_placed(case)
+        if reference is not None:
+            assert list(disagreements(case, reference, case.text)) == []
+            compared += 1
+    assert compared > 1

@@ -49,7 +49,6 @@ def test_the_assembly_of_the_drawing_is_kept(name: str, steps: int) -> None:
     motion, path = lw.solve_motion(fault(name), steps=steps), fine_path(name)
     assert path.reached == len(motion.time[:: steps // FINE])
     assert worst(motion, path, steps // FINE) < 1e-9
-    assert all(outcome.certified and outcome.margin > 0.0 for outcome in motion.outcomes)
 
 
 def test_positions_before_a_singular_one_are_given_and_those_behind_are_not() -> None:

@@ -42,9 +42,6 @@ def motion(machine: Machine) -> Entries:
     kinds = [each.kind for each in found.outcomes]
     yield "outcomes", "", runs(kinds)
     yield "failing groups", "", runs([str(each.group) for each in found.outcomes])
-    yield "certified", "", runs([str(each.certified) for each in found.outcomes])
-    margins = [each.margin for each in found.outcomes if each.margin is not None]
-    yield "margins", "", curve(margins)
     yield "notes", "", codes(found.notes)
 
 

@@ -282,10 +282,7 @@ function notes(page: Page, session: Session): string[] {
   if (model.changed && held.length) found.push(page.say("not_found_again", { names: held.join(", ") }));
   if (model.solver.locking) found.push(page.say("locking"));
   if (model.solver.doubtful) found.push(page.say("doubtful"));
-  // A proof is for machines at rest.
-  const uncertain = session.moving ? null : model.uncertain;
-  if (uncertain !== null) found.push(uncertain ? page.say("uncertain", { count: String(uncertain), all: String(model.n) }) : page.say("certified"));
-  else if (model.solver.iterated) found.push(page.say("followed", { value: digits(model.solver.margin ?? 0, 2) }));
+  if (model.solver.iterated) found.push(page.say("followed", { value: digits(model.solver.margin ?? 0, 2) }));
   if (session.data.undrawn.length) found.push(page.say("undrawn", { names: session.data.undrawn.join(", ") }));
   if (session.data.module === null) found.push(page.say("text_kernel"));
   return found;

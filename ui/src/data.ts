@@ -117,25 +117,6 @@ export interface FrictionTerm {
   on: string[];
 }
 
-/** Closed loops as sums of turned arms; `begin`: their unknowns at the first position of the original. */
-export interface LoopData {
-  unknowns: ["turn" | "slide", string][];
-  drivers: string[];
-  turning: number[][];
-  sliding: number[][];
-  owner: number[];
-  /** Rotation, loop, link and key of a point ("" and an address: a dimension; "" twice: a constant), real and imaginary
-   *  part of its factor. */
-  arms: [number, number, string, string, number, number][];
-  slides: [number, number][][];
-  size: number;
-  begin: number[];
-  /** Dimensions that change more than arms and directions of slides. */
-  fixed: string[];
-  /** By how much of a dimension's change every arm, then every slide in every loop is turned. */
-  turns: Record<string, number[]>;
-}
-
 /** When a load acts: while an output moves, or goes from one of its limits to the other, or in a part of that way. */
 export interface Phase {
   load: string;
@@ -194,10 +175,6 @@ export interface ModelData {
   };
   fields: Record<string, string>;
   starts: Record<string, number | string>;
-  /** What a page certifies assemblies with; null: all groups have closed forms, or the original is not certified. */
-  loops: LoopData | null;
-  /** Positions of the original whose assembly is followed, but not certified; null: all have closed forms. */
-  uncertain: number | null;
   /** Loads whose course is that of the original. */
   held: string[];
   phases: Phase[];

@@ -1,5 +1,4 @@
 // A machine of the page: its dimensions as they are now, its curves and design numbers, and what a change may do.
-import type { Branch } from "./branch";
 import { floats, type ModelData, type Signal } from "./data";
 import type { Call, Code } from "./engine";
 import { unwrap } from "./loads";
@@ -20,8 +19,6 @@ const BEFORE = 1e-7;
 
 export class Model {
   readonly solver: Solver;
-  private readonly branch: Branch | null;
-  private certified: { values: Values; uncertain: number | null } | null = null;
   /** What has been found of the machine with these values. */
   private found: { values: Values; rounding: number; size: number; extremes: Record<string, Extreme> } | null = null;
   original: Design;
@@ -34,7 +31,6 @@ export class Model {
 
   constructor(readonly data: ModelData, code: Code) {
     this.solver = new Solver(data, code);
-    this.branch = data.loops && new (globalThis as unknown as { Branch: typeof Branch }).Branch(this.solver);
     const { inputs } = this.solver, { time } = data.positions, way = Math.sign(inputs[1] - inputs[0]);
     const forward = inputs.every((q, i) => i === 0 || Math.sign(q - inputs[i - 1]) === way);
     this.axis = forward || time === null
@@ -70,14 +66,6 @@ export class Model {
   /** Whether forces can be shown: what is held is that of the original. */
   get forces(): boolean {
     return !this.solver.doubtful && !this.solver.locking && !(this.data.held.length && this.changed);
-  }
-
-  /** At how many positions the assembly is followed, but not proved to be the original's; null: no proof is tried. */
-  get uncertain(): number | null {
-    if (!this.changed) return this.data.uncertain;
-    const { values, branch } = this;
-    if (this.certified?.values !== values) this.certified = { values, uncertain: branch && branch.uncertain(values) };
-    return this.certified.uncertain;
   }
 
   /** Fills the rows for these values; returns the wall in the way, or null where every position is reached. */

@@ -10,7 +10,6 @@ import { Optimise } from "./optimise";
 import { Paper } from "./paper";
 import type { Tool } from "./picture";
 import { quantity } from "./words";
-import "./proof";
 import "./studio.css";
 
 const TOOLS: Tool[] = ["select", "fixed", "link", "guide", "slot", "gear", "rack", "cam", "driver", "mass", "load", "curve", "photo", "remove"];

@@ -47,7 +47,7 @@ export function sliderCrank(count: number): { data: ModelData; code: Code } {
       steady: { driver: "driver", turns: true, start: 0, step, speed: SPEED, begin: 0 },
       inputs: [{ name: "driver", turns: true, values: null }],
     },
-    fields: {}, starts: {}, loops: null, uncertain: null, held: [], phases: [], angles: [], friction: [],
+    fields: {}, starts: {}, held: [], phases: [], angles: [], friction: [],
     groups: [{ name: "slide", signature: "RRP", links: ["rod", "slider"], facts: ["height", "length²"], wheels: [], dyad: true }],
     signals: [
       { id: "s:guide", form: "row", rows: ["s:guide"], kind: "length", name: said("way") },

@@ -21,8 +21,8 @@ from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Backend, Run, Stage
 from linkwright.engine.trace import Mask, Scalar, Trace, select, sqrt
-from linkwright.kinematics.branch import CORRECTION
 from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.step_rule import CORRECTION
 from linkwright.loads.strokes import TURN
 from linkwright.mechanism.geometry import mechanism_size
 

@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from linkwright.fields.nodes import Node
     from linkwright.fields.reading import Place as Where
     from linkwright.fields.reading import Reader
-    from linkwright.kinematics.closed_loops import Body, LoopBuilder
 
 #: The size of a joint's force, from that force.
 Size = Callable[[Scalar], Scalar]
@@ -259,18 +258,16 @@ class Joint(ABC):
         radius, m; 0 without friction."""
         return 0.0
 
-    def hang_in_loop(self, build: LoopBuilder, step: TreeJoint, group: str) -> Body:
-        """The child as a body of the closed loops."""
-        raise self.lacks("hang_in_loop")
-
-    def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
-        """Adds the equations of the cut joint to the closed loops; by default those of :meth:`sums`."""
-        build.sum(*self.sums(build.mechanism))
-
     def sums(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float], float]:
         """The row of a higher pair as a sum that is zero: factors of links' rotations (rad, with turns), factors of
         guides' displacements (m), and a constant."""
         raise self.lacks("sums")
+
+    def gains(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float]]:
+        """Factors of links' rotations and of guides' displacements that together gain nothing while the drivers come
+        back; by default those of :meth:`sums`."""
+        rotations, slides, _ = self.sums(mechanism)
+        return rotations, slides
 
     def tied(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float]]:
         """Factors of the speeds, of links' rotations and of guides' displacements, that the row of a higher pair ties

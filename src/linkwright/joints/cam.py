@@ -33,7 +33,6 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
     from linkwright.elements.topology import Connection, Group
-    from linkwright.kinematics.closed_loops import LoopBuilder
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve
 
@@ -302,21 +301,9 @@ class CamJoint(HigherPair):
         reach = line.square + arm.square - radius * radius
         return sqrt(arm.square), acos(reach / (2.0 * c * sqrt(arm.square))), side, arm, line
 
-    def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
-        """The follower's coordinate and the lift, which gains nothing over whole turns of the cam."""
-        if build.gains:
-            turning = {self.follower: 1.0, self.carrier: -1.0} if self.side else {}
-            build.sum(turning, {} if self.side else {self.holder: 1.0}, 0.0)
-            return
-        held = self.geometry(build.mechanism)
-        unit = 1.0 if self.side else build.mechanism.size
-        lift = build.lifted(self.name, self.cam, self.carrier, self._lifted, unit)
-        if self.side:
-            side = 1.0 if self.side == "left" else -1.0
-            turning = {self.follower: 1.0, self.carrier: -1.0}
-            build.sum(turning, {}, self._between(held) - side * held.start, {lift: -side})
-        else:
-            build.sum({}, {self.holder: 1.0}, held.ahead - held.start, {lift: -1.0})
+    def gains(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float]]:
+        """The follower's coordinate, as the lift gains nothing over whole turns of the cam."""
+        return ({self.follower: 1.0, self.carrier: -1.0}, {}) if self.side else ({}, {self.holder: 1.0})
 
     def _lifted(self, turn: Any) -> tuple[Any, Any, Any]:
         """The lift with two derivatives by the cam's angle to its carrier."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -21,8 +20,7 @@ from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
     from linkwright.elements.model import Sizes
-    from linkwright.elements.topology import Connection, TreeJoint
-    from linkwright.kinematics.closed_loops import Body, LoopBuilder
+    from linkwright.elements.topology import TreeJoint
 
 
 @JOINTS.register("prismatic")
@@ -149,21 +147,3 @@ class PrismaticJoint(SlidingJoint):
             along = self.slide_direction(dimensions).angle(round(self.direction / math.pi))
         turn = along - dimensions(f"{self.name}.block_angle")
         return turn if step.child == self.block else -turn
-
-    def hang_in_loop(self, build: LoopBuilder, step: TreeJoint, group: str) -> Body:
-        parent = build.bodies[step.parent]
-        key = ("drive", step.driver) if step.driver else build.unknown("slide", self.name, group)
-        outward = step.child == self.block
-        on_parent, on_child = (self.through, self.at) if outward else (self.at, self.through)
-        sign = 1.0 if outward else -1.0
-        place = dict(build.place(step.parent, on_parent))
-        along = parent.offset + (self.direction if outward else self.block_angle)
-        build.slide(place, key, parent.rotation, sign * cmath.exp(1j * along), self.offset)
-        turn = parent.offset + sign * (self.direction - self.block_angle)
-        return build.body(parent.rotation, turn, build.local(step.child, on_child), place)
-
-    def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
-        start, guide = dict(build.place(self.guide, self.through)), build.bodies[self.guide]
-        along = cmath.exp(1j * (guide.offset + self.direction))
-        build.slide(start, build.unknown("slide", self.name, group), guide.rotation, along, self.offset)
-        build.loop(group, start, build.place(self.block, self.at))

@@ -14,8 +14,7 @@ from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower import TurningJoint
 
 if TYPE_CHECKING:
-    from linkwright.elements.topology import Connection, TreeJoint
-    from linkwright.kinematics.closed_loops import Body, LoopBuilder
+    from linkwright.elements.topology import TreeJoint
 
 FRICTION = Quantity("dimensionless", minimum=0, doc="coefficient of Coulomb friction (default 0)")
 
@@ -62,17 +61,6 @@ class RevoluteJoint(TurningJoint):
 
     def hang(self, at: Ends, step: TreeJoint, coordinate: Scalar) -> Hung:
         return Hung(at.local(step.child, self.name), at.point(step.parent, self.name))
-
-    def hang_in_loop(self, build: LoopBuilder, step: TreeJoint, group: str) -> Body:
-        place, anchor = build.place(step.parent, self.name), build.local(step.child, self.name)
-        if step.driver is None:
-            return build.body(build.free_rotation(step.child, group), 0.0, anchor, place)
-        parent = build.bodies[step.parent]
-        sign = 1.0 if step.child == build.mechanism.drivers[step.driver].link else -1.0
-        return build.body(build.driven(parent.rotation, step.driver, sign), parent.offset, anchor, place)
-
-    def close_loop(self, build: LoopBuilder, cut: Connection, group: str) -> None:
-        build.loop(group, build.place(cut.a, self.name), build.place(cut.b, self.name))
 
     @property
     def seats(self) -> tuple[tuple[str, str], ...]:

@@ -17,7 +17,6 @@ from linkwright.joints.lower import RigidJoint
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import TreeJoint
-    from linkwright.kinematics.closed_loops import Body, LoopBuilder
 
 
 @JOINTS.register("weld")
@@ -70,9 +69,3 @@ class WeldJoint(RigidJoint):
     def turned(self, step: TreeJoint, dimensions: Sizes) -> Scalar:
         turn = dimensions(f"{self.name}.angle")
         return turn if step.child == self.links[1] else -turn
-
-    def hang_in_loop(self, build: LoopBuilder, step: TreeJoint, group: str) -> Body:
-        parent = build.bodies[step.parent]
-        turn = self.angle if step.child == self.links[1] else -self.angle
-        place, anchor = build.place(step.parent, self.at), build.local(step.child, self.at)
-        return build.body(parent.rotation, parent.offset + turn, anchor, place)

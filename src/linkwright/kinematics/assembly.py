@@ -18,6 +18,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.groups import dyad_shape, iterated, state_name
 from linkwright.kinematics.trace import MotionTrace, trace_motion
+from linkwright.kinematics.upstream import counted
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import nearest, offered
@@ -161,17 +162,9 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
             else:
                 angle = drawing.angle(step.child) or 0.0
                 states[f"{name}.x"], states[f"{name}.y"] = math.cos(angle), math.sin(angle)
-    for link in _counted(mechanism, structure):
+    for link in counted(structure, mechanism):
         states[turn_state(link)] = drawing.angle(link) or 0.0
     return states
-
-
-def _counted(mechanism: Mechanism, structure: Structure) -> list[str]:
-    if not mechanism.higher:
-        return []
-    from linkwright.kinematics.closed_loops import counted
-
-    return counted(structure, mechanism)
 
 
 def _from_drawing(mechanism: Mechanism, structure: Structure, assembly: Assembly) -> None:

@@ -143,7 +143,7 @@ class Between:
             return {}
         followed = self.motion.followed
         assert followed is not None
-        inputs = [positions.coordinates[name][0] for name in followed.follower.loops.drivers]
+        inputs = [positions.coordinates[name][0] for name in followed.follower.drivers]
         found = followed.between(self._place(positions.time), np.stack(inputs, axis=1))
         for beside in (before, (before + 1) % self.motion.steps):
             lost = np.flatnonzero(~np.isfinite(next(iter(found.values()))))

@@ -1,251 +1,286 @@
-"""One assembly followed along a way of the drivers, step by step, with a proof where one can be had.
+"""One assembly followed along a way of the drivers by the rule of steps (:mod:`linkwright.kinematics.step_rule`).
 
-A step is predicted with the exact rates, corrected by Newton's method, and certified
-(:mod:`linkwright.kinematics.certificate`); where the certificate fails it is cut. The steps are as long as the proof
-allows, whatever positions are asked for: those within a step are read from its cubic and corrected inside its tube.
-Below :data:`FLOOR` a step is followed if the determinant keeps its sign, the correction is small against the step
-and the exact rates at both ends fit each other; else the way ends there.
+A step leads from the drivers' coordinates at one place of the way to those at another in a straight line, since
+groups are where their drivers are, whatever the laws of time: corners of laws are passed like any other place. The
+steps are as long as the rule allows, whatever positions are asked for; those within a step are read from its quintic
+and corrected by Newton's method. The way ends where a step would have to be shorter than :data:`FLOOR`.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
-from dataclasses import field
+from dataclasses import field, replace
+from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import Law
-from linkwright.kinematics.certificate import REFUSED, Certificate, End, certify, cubic
-from linkwright.kinematics.closed_loops import ClosedLoops
+from linkwright.kinematics.followed_formula import FollowedGroups, Root
+from linkwright.kinematics.step_rule import CORRECTION, LARGEST, ROUNDING, doubt
 
-Drive = Callable[[Floats], tuple[Floats, Floats, Floats]]
-
-#: Parts of the time of a way at which laws that are no straight lines are compared with their cubics.
-CHECKS = 720
-#: Longest and shortest step of a driver, rad or share of the mechanism's size.
+#: Longest and shortest step of the drivers, rad or share of the mechanism's size.
 LONGEST, FLOOR = 0.5, 1e-7
-#: A certified step aims at this contraction.
-WANTED = 0.5
-#: Tries after which the rest of a way is only followed.
-PATIENCE = 6000
-#: Largest correction, and largest misfit of both ends' rates, as share of the step.
-CORRECTION, MISFIT = 0.1, 0.01
+#: A step aims at this doubt.
+WANTED = 0.3
+#: Tries after which a way is given up.
+PATIENCE = 50_000
+#: How far, beyond this share of a step, laws may leave its straight line: rad or share of the size.
+BESIDE = 0.02
+#: Places of a law at which its largest rate is looked for.
+LOOKS = 720
 
 
 @dataclass(frozen=True)
 class Way:
-    """A way of the drivers: ``drive`` gives their coordinates (m, d) with two derivatives at places x (m,).
+    """A way of the drivers: ``drive`` gives their coordinates (m, d) at places x (m,).
 
-    ``places`` (k,), rising: where positions are asked for. ``checks``: further places at which the drivers are
-    compared with the step's cubic, for laws that are no straight lines. ``pace``: the largest rate of a driver,
-    rad or shares of the size per unit of x.
+    ``pace``: the largest rate of a driver, rad or shares of the size per unit of x; ``unit`` (d,): of each driver, 1
+    rad or the size; ``breaks``: places at which the drivers may turn corners, in order; ``lap`` (d,): by how much the
+    laws are ahead of it.
     """
 
-    drive: Drive
+    drive: Callable[[Floats], Floats]
     start: float
     end: float
-    places: Floats
     pace: float
-    checks: Floats = field(default_factory=lambda: np.zeros(0))
+    unit: Floats
+    breaks: Floats = field(default_factory=lambda: np.zeros(0))
+    lap: Floats | float = 0.0
+
+
+def straight(begin: Floats, end: Floats, unit: Floats) -> Way:
+    """The straight way of the drivers between two sets of coordinates (d,), from 0 to 1."""
+    delta = end - begin
+    pace = float(np.abs(delta / unit).max(initial=0.0))
+    return Way(lambda x: begin + x[:, None] * delta, 0.0, 1.0, pace, unit)
+
+
+def lawful(laws: Sequence[Law], unit: Floats, begin: float, end: float, shift: float = 0.0) -> Way:
+    """The way of drivers by their laws from one time to another, s.
+
+    ``shift``: of all times, by a period, with coordinates as they were before it. Places are times, those of a way
+    back with the other sign.
+    """
+    sense = 1.0 if end >= begin else -1.0
+    lap = np.array([law.at(begin + shift) - law.at(begin) for law in laws])
+
+    def drive(x: Floats) -> Floats:
+        rows = [law.coordinate(sense * x + shift)[0] - gained for law, gained in zip(laws, lap, strict=True)]
+        return np.stack(rows, axis=1) if rows else np.zeros((len(x), 0))
+
+    low, high = min(begin, end) + shift, max(begin, end) + shift
+    pace, breaks = 0.0, [np.zeros(0)]
+    for law, one in zip(laws, unit, strict=True):
+        times = np.linspace(low, high, 2 if law.constant_speed is not None else LOOKS + 1)
+        pace = max(pace, float(np.abs(law.coordinate(times)[1]).max()) / one)
+        breaks.append(law.breaks(low, high))
+    corners = np.unique(np.concatenate(breaks))
+    inner = np.sort(sense * (corners[(corners > low) & (corners < high)] - shift))
+    return Way(drive, sense * begin, sense * end, pace, unit, inner, lap)
+
+
+@dataclass(frozen=True)
+class Node:
+    """A place of a way: the drivers there, and the assembly with its rates along ``ahead`` (d,)."""
+
+    x: float
+    q: Floats
+    ahead: Floats
+    root: Root
 
 
 @dataclass(frozen=True)
 class Branch:
-    """What was found: coordinates (k, n + d) at the places of a way as far as it goes, which of them are certified.
+    """What was followed of a way: its steps, each with both ends as their rates are along it.
 
-    ``reached``: the place to which it goes; ``last``: the coordinates there; ``complete``: whether that is the end.
+    ``end``: how far it goes, None where it does not begin; ``complete``: whether that is the end of the way.
     """
 
-    found: Floats
-    certified: Flags
-    reached: float
-    last: Floats
+    way: Way
+    steps: list[tuple[Node, Node]]
+    end: Node | None
     complete: bool
 
+    @property
+    def reached(self) -> float:
+        """The place to which it goes."""
+        return self.way.start if self.end is None else self.end.x
 
-def follow(loops: ClosedLoops, way: Way, start: Floats) -> Branch:
-    """Follows the assembly of the unknowns ``start`` (n,) at the beginning of a way."""
-    return _Walk(loops, way, start).branch()
+    @property
+    def last(self) -> Floats | None:
+        """Coordinates (n,) there; None where it does not begin."""
+        return None if self.end is None else np.array(self.end.root.z)
+
+    @cached_property
+    def _rows(self) -> tuple[Floats, ...]:
+        """Of all steps: ends of places, drivers, and coordinates with two derivatives."""
+        ends = [
+            (np.array([each.x for each in side]), np.array([each.q for each in side])) for side in self._sides
+        ]
+        roots = [
+            np.array([[each.root.z, each.root.rate, each.root.second] for each in side])
+            for side in self._sides
+        ]
+        return (*ends[0], *ends[1], *roots)
+
+    @property
+    def _sides(self) -> list[list[Node]]:
+        return [[step[k] for step in self.steps] for k in (0, 1)]
+
+    def read(self, x: Floats, q: Floats) -> tuple[Floats, Floats, Flags]:
+        """Expected coordinates (m, n) at places x (m,) with the drivers at q (m, d); the largest change (m, n) in
+        their steps; which of the places the branch reaches."""
+        beyond = 1e-12 * (1.0 + abs(self.reached))
+        assert self.end is not None
+        known = (x >= self.way.start - beyond) & (x <= self.reached + beyond)
+        if not self.steps:
+            still = np.tile(self.end.root.z, (len(x), 1))
+            return still, np.zeros(still.shape), known
+        x0, q0, x1, q1, a, b = self._rows
+        k = np.clip(np.searchsorted(x1, x), 0, len(x1) - 1)
+        gone = (q1 - q0) / self.way.unit
+        square = (gone * gone).sum(axis=1)
+        with np.errstate(all="ignore"):
+            along = ((q - q0[k]) / self.way.unit * gone[k]).sum(axis=1) / square[k]
+            t = np.where(square[k] > 0.0, along, (x - x0[k]) / (x1 - x0)[k])[:, None]
+        z, v, s = (a[k, i] for i in range(3))
+        rise, dv, ds = (b[k, i] - each for i, each in enumerate((z, v, s)))
+        d = rise - v - 0.5 * s
+        dv = dv - s
+        cubic = 10.0 * d - 4.0 * dv + 0.5 * ds
+        fourth = 7.0 * dv - 15.0 * d - ds
+        fifth = 6.0 * d - 3.0 * dv + 0.5 * ds
+        near = z + t * (v + t * (0.5 * s + t * (cubic + t * (fourth + t * fifth))))
+        return near, np.abs(rise), known
+
+
+def follow(groups: FollowedGroups, way: Way, start: Sequence[float]) -> Branch:
+    """Follows the assembly with the coordinates ``start`` (n,) at the beginning of a way."""
+    return _Walk(groups, way, start).branch()
 
 
 class _Walk:
-    def __init__(self, loops: ClosedLoops, way: Way, start: Floats) -> None:
-        self.loops, self.way = loops, way
+    def __init__(self, groups: FollowedGroups, way: Way, start: Sequence[float]) -> None:
+        self.groups, self.way = groups, way
+        self.share = (1.0 / groups.scale).tolist()
+        self.slides = [k for k, turns in enumerate(groups.turns) if not turns]
         self.pace = max(way.pace, 1e-12 / max(way.end - way.start, 1e-300))
-        self.rows: list[Floats] = []
-        self.sure: list[Flags] = []
-        self.proved = True
-        self.count = 0
-        self.tries = 0
-        self.here = self._end(way.start, start, None)
+        self.steps: list[tuple[Node, Node]] = []
+        q = way.drive(np.array([way.start]))[0]
+        root = groups.solve(start, q.tolist(), [0.0] * len(q))
+        self.here = None if root is None else Node(way.start, q, np.zeros(len(q)), root)
 
     def branch(self) -> Branch:
         complete = self.here is not None and self._along()
-        loops, here = self.loops, self.here
-        width = loops.n + loops.d
-        found = np.concatenate(self.rows) if self.rows else np.zeros((0, width))
-        sure = np.concatenate(self.sure) if self.sure else np.zeros(0, dtype=bool)
-        last = np.full(width, np.nan) if here is None else here.y
-        return Branch(found, sure, self.way.start if here is None else here.x, last, complete)
+        return Branch(self.way, self.steps, self.here, complete)
 
     def _along(self) -> bool:
         """Steps to the end of the way; False where it cannot be passed."""
-        assert self.here is not None
-        way, step = self.way, LONGEST / self.pace
-        self._keep(np.flatnonzero(way.places <= way.start), self.here.y[None, :])
-        shortest = FLOOR / self.pace
-        while self.here.x < way.end:
-            forced = step <= shortest
-            step = min(max(step, shortest), LONGEST / self.pace)
-            left = way.end - self.here.x
-            full = left <= step * (1.0 + 1e-9)
-            taken = left if full else step
-            passed, certificate = self._step(taken, way.end if full else self.here.x + taken, forced)
-            share = _share(certificate, passed)
-            if passed:
-                step = max(step, taken) * share if full and share > 1.0 else taken * min(2.0, max(0.3, share))
-            elif forced:
-                return False
+        way, longest, shortest = self.way, LONGEST / self.pace, FLOOR / self.pace
+        goals, step = [*way.breaks.tolist(), way.end], longest
+        for goal in goals:
+            for _ in range(PATIENCE):
+                assert self.here is not None
+                left = goal - self.here.x
+                if left <= 0.0:
+                    break
+                full = left <= step * (1.0 + 1e-9)
+                share = self._step(goal if full else self.here.x + step)
+                taken = left if full else step
+                if share >= 1.0:
+                    if taken <= shortest:
+                        return False
+                    step = max(taken * 0.5 if share == math.inf else taken * _share(share), shortest)
+                elif not full or taken * _share(share) > step:
+                    step = min(taken * _share(share), longest)
             else:
-                step = taken * min(0.5, max(0.1, share))
+                return False
         return True
 
-    def _step(self, h: float, x: float, forced: bool) -> tuple[bool, Certificate]:
-        """Tries one step; if it passes, ``here`` and the positions are beyond it."""
+    def _step(self, x: float) -> float:
+        """Tries one step; with less than 1 it is made. How doubtful it is."""
         here = self.here
         assert here is not None
-        self.tries += 1
-        guess = here.y + here.rate * h + 0.5 * h * h * here.second
-        ahead = self._end(x, guess[: self.loops.n], here.sign)
-        if ahead is None:
-            return False, REFUSED
-        inside = np.flatnonzero((self.way.places > here.x) & (self.way.places <= x))
-        values, deviation = self._driven(here, ahead, inside)
-        hasty = self.tries > PATIENCE
-        certificate = REFUSED if hasty else certify(self.loops, here, ahead, deviation)
-        allowed = certificate.certified or ((forced or hasty) and self._plausible(here, guess, ahead))
-        if not allowed or not self._between(here, ahead, inside, values, certificate):
-            return False, certificate
-        self.here = ahead
-        return True, certificate
+        places = here.x + (x - here.x) * _WITHIN
+        rows = self.way.drive(places)
+        q = rows[-1]
+        ahead = q - here.q
+        beside = self._beside(rows[:-1], here.q, ahead)
+        if beside > 1.0:
+            return math.inf
+        here = self._towards(here, ahead)
+        if here is None:
+            return math.inf
+        a = here.root
+        guess = [z + v + 0.5 * s for z, v, s in zip(a.z, a.rate, a.second, strict=True)]
+        b = self.groups.solve(guess, q.tolist(), ahead.tolist())
+        if b is None or b.signs != a.signs:
+            return math.inf
+        off = self._off(a, guess, b)
+        if off < 1.0:
+            end = Node(x, q, ahead, b)
+            self.steps.append((here, end))
+            self.here = end
+        return off
 
-    def _end(self, x: float, guess: Floats, sign: float | None) -> End | None:
-        """The root near a guess at place x, if the determinant has the given sign."""
-        q, first, second = (row[0] for row in self.way.drive(np.array([x])))
-        y = self.loops.newton(np.concatenate([guess, q]))
-        if y is None:
-            return None
-        try:
-            rate, bend, jacobian = self.loops.rates(y, first, second)
-        except np.linalg.LinAlgError:
-            return None
-        own = float(np.linalg.slogdet(jacobian)[0])
-        if not np.isfinite(bend).all() or own == 0.0 or (sign is not None and own != sign):
-            return None
-        return End(x, y, rate, bend, own)
+    def _beside(self, rows: Floats, q: Floats, ahead: Floats) -> float:
+        """How far the drivers leave the straight line of a step between its ends, as share of what they may."""
+        unit = self.way.unit
+        off, gone = (rows - q) / unit, ahead / unit
+        square = float(gone @ gone)
+        if square > 0.0:
+            share = np.clip(off @ gone / square, 0.0, 1.0)
+            off = off - share[:, None] * gone
+        return float(np.abs(off).max(initial=0.0)) / (BESIDE * math.sqrt(square) + FLOOR)
 
-    def _driven(self, a: End, b: End, inside: Indices) -> tuple[Floats, Floats]:
-        """Drivers at the places asked for within a step, and how far they leave the cubic there and at the checks."""
-        way, n = self.way, self.loops.n
-        if not len(inside) and not len(way.checks):
-            return np.zeros((0, self.loops.d)), np.zeros(self.loops.d)
-        checks = way.checks[(way.checks > a.x) & (way.checks < b.x)]
-        x = np.concatenate([way.places[inside], checks])
-        values = way.drive(x)[0]
-        gap = np.abs(values - cubic(a, b, x)[:, n:]).max(axis=0, initial=0.0)
-        return values[: len(inside)], np.where(gap > 1e-13 * (1.0 + np.abs(b.y[n:])), gap, 0.0)
+    def _towards(self, node: Node, ahead: Floats) -> Node | None:
+        """The same node with its rates in another direction of the drivers."""
+        old = node.ahead
+        lead = int(np.argmax(np.abs(old))) if len(old) else 0
+        if len(old) and old[lead] != 0.0:
+            factor = float(ahead[lead] / old[lead])
+            if np.abs(ahead - factor * old).max() <= 1e-12 * np.abs(ahead).max():
+                root = node.root
+                rate, second = [factor * v for v in root.rate], [factor * factor * s for s in root.second]
+                return Node(node.x, node.q, ahead, replace(root, rate=rate, second=second))
+        if not ahead.any():
+            still = [0.0] * len(self.share)
+            return Node(node.x, node.q, ahead, replace(node.root, rate=still, second=still))
+        found = self.groups.solve(node.root.z, node.q.tolist(), ahead.tolist())
+        return None if found is None else Node(node.x, node.q, ahead, found)
 
-    def _plausible(self, a: End, guess: Floats, b: End) -> bool:
-        """Whether the correction is small against the step, and one quintic fits the rates of both ends."""
-        h, largest = b.x - a.x, self.loops.largest
-        step = largest(b.y - a.y)
-        quintic = h / 2.0 * (a.rate + b.rate) + h * h / 12.0 * (a.second - b.second)
-        return (
-            largest(b.y - guess) <= CORRECTION * step + 1e-10
-            and largest(b.y - a.y - quintic) <= MISFIT * step + 1e-11
-        )
-
-    def _between(self, a: End, b: End, inside: Indices, values: Floats, certificate: Certificate) -> bool:
-        """Keeps the positions within a step, if all of them lie in its tube."""
-        n = self.loops.n
-        proved = self.proved and certificate.certified
-        if len(inside):
-            near = cubic(a, b, self.way.places[inside])
-            near[:, n:] = values
-            exact, last = self.loops.polished(near)
-            moved = np.abs(exact - near)[:, :n]
-            if certificate.certified:
-                room = certificate.tube
-                assert room is not None
-            else:
-                room = (CORRECTION * self.loops.largest(b.y - a.y) + 1e-10) * self.loops.scale
-            if not ((moved <= room + 1e-13 * self.loops.scale).all() and (last < 1e-9).all()):
-                return False
-            self.proved = proved
-            self._keep(inside, exact)
-        self.proved = proved
-        return True
-
-    def _keep(self, inside: Indices, rows: Floats) -> None:
-        self.rows.append(np.repeat(rows, len(inside), axis=0) if len(rows) != len(inside) else rows)
-        self.sure.append(np.full(len(inside), self.proved))
+    def _off(self, a: Root, guess: list[float], b: Root) -> float:
+        """The rule's doubt of a step; infinite where a coordinate changes too much."""
+        change = correction = misfit = 0.0
+        share = self.share
+        if self.slides:
+            share = list(share)
+            for k in self.slides:
+                share[k] = min(share[k], 1.0 / max(abs(a.z[k]), 1e-300))
+        for k, (z0, v0, s0, near, z1, v1, s1) in enumerate(
+            zip(a.z, a.rate, a.second, guess, b.z, b.rate, b.second, strict=True)
+        ):
+            gone, one = z1 - z0, share[k]
+            change = max(change, abs(gone) * one)
+            correction = max(correction, abs(z1 - near) * one)
+            misfit = max(misfit, abs(gone - 0.5 * (v0 + v1) - (s0 - s1) / 12.0) * one)
+        if not change < LARGEST:
+            return math.inf
+        return float(doubt(change, correction, misfit, ROUNDING))  # type: ignore[arg-type]
 
 
-def _share(certificate: Certificate, passed: bool) -> float:
-    """How much longer the next step may be; without a certificate it is longer after a step that is plausible."""
-    contraction = certificate.contraction
-    if not np.isfinite(contraction):
-        return 1.5 if passed else 0.5
-    return 0.8 * float(np.sqrt(WANTED / max(contraction, 1e-9)))
+#: Shares of a step at which laws are compared with its straight line, and its end.
+_WITHIN = np.array([0.25, 0.5, 0.75, 1.0])
 
 
-def straight(loops: ClosedLoops, begin: Floats, end: Floats, unit: Floats) -> Way:
-    """The straight way of the drivers between two sets of coordinates (d,); ``unit`` (d,): of each, rad or size."""
-    count = len(loops.drivers)
-    delta = (end - begin)[:count]
-
-    def drive(x: Floats) -> tuple[Floats, Floats, Floats]:
-        still = np.zeros((len(x), count))
-        return loops.driven(begin[:count] + x[:, None] * delta, still + delta, still)
-
-    checks = np.linspace(0.0, 1.0, CHECKS + 1) if loops.lifts else np.zeros(0)
-    samples = np.append(checks, 1.0)
-    return Way(drive, 0.0, 1.0, np.array([1.0]), _pace(drive, samples, unit), checks)
+def _share(off: float) -> float:
+    """How much longer the next step may be: doubt grows with the second power of the step."""
+    return min(2.0, max(0.3, 0.9 * math.sqrt(WANTED / max(off, 1e-9))))
 
 
-def _pace(drive: Drive, samples: Floats, unit: Floats) -> float:
-    """The largest rate of a driver or lift at some places."""
-    return float(np.abs(drive(samples)[1] / unit).max(initial=0.0))
-
-
-def lawful(
-    loops: ClosedLoops,
-    laws: Sequence[Law],
-    unit: Floats,
-    begin: float,
-    end: float,
-    times: Floats,
-    shift: float = 0.0,
-) -> Way:
-    """The way of drivers by their laws from one time to another, s, through some between in this order.
-
-    ``unit`` (d,): of each driver or lift, rad or size; ``shift``: of all times, by a period, with coordinates as they
-    were before it.
-    """
-    sense = 1.0 if end >= begin else -1.0
-    lap = np.array([float(np.diff(law.coordinate(np.array([begin, begin + shift]))[0])[0]) for law in laws])
-
-    def drive(x: Floats) -> tuple[Floats, Floats, Floats]:
-        t = sense * x
-        rows = [law.coordinate(t + shift) for law in laws]
-        q, first, second = (np.stack([row[k] for row in rows], axis=1) for k in range(3))
-        return loops.driven(q - lap, sense * first, second)
-
-    checks: Floats = np.zeros(0)
-    samples = times * sense
-    if loops.lifts or not all(law.constant_speed is not None for law in laws):
-        checks = np.linspace(sense * begin, sense * end, CHECKS + 1)
-        samples = np.concatenate([samples, checks])
-    return Way(drive, sense * begin, sense * end, sense * times, _pace(drive, samples, unit), checks)
+def near_enough(moved: Floats, change: Floats) -> Flags:
+    """Which corrections (m,) of places within steps are small against the changes (m,) in these."""
+    return np.asarray(moved <= CORRECTION * change + ROUNDING)

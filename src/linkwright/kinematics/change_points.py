@@ -23,13 +23,13 @@ from linkwright.core.outputs import row_name
 from linkwright.core.search import edge, ends, lowest
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.trace import Scalar, minimum
-from linkwright.kinematics.closed_loops import upstream
 from linkwright.kinematics.followed_way import Followed
 from linkwright.kinematics.passage import Kind, Passage
 from linkwright.kinematics.passing_proof import FINE, NEAR, measures, modal
 from linkwright.kinematics.positions import Positions, at_times, off_law
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace
+from linkwright.kinematics.upstream import upstream
 from linkwright.mechanism.geometry import mechanism_size
 from linkwright.structure import Structure
 

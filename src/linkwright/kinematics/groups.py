@@ -28,7 +28,8 @@ SINGULAR = 1e-10
 
 @dataclass
 class Placed:
-    """A group in position: its Jacobian's inverse, and how well it is closed."""
+    """A group in position: its Jacobian's inverse, and how well it is closed; ``gap``: what is left open
+    where nothing is solved."""
 
     group: Group
     cuts: tuple[Equation, ...]
@@ -39,6 +40,7 @@ class Placed:
     quality: Scalar = 1.0
     facts: Mapping[str, Scalar] = field(default_factory=dict)
     next_states: dict[str, Scalar] = field(default_factory=dict)
+    gap: list[Scalar] = field(default_factory=list)
     residual: Scalar = 0.0
     determinant: Scalar = 1.0
     coordinates: Mapping[TreeJoint, Coordinate] = field(default_factory=dict)
@@ -80,8 +82,10 @@ class GroupTracer:
         if not group.unknowns:
             self._hang(group, {})
             return placed
-        shape = dyad_shape(group)
-        if shape is not None:
+        shape = dyad_shape(group) if self.iterations else None
+        if not self.iterations:
+            self._newton(placed)
+        elif shape is not None:
             self._closed_form(placed, *shape)
         elif (whole := whole_form(group)) is not None:
             self._whole(placed, whole)
@@ -182,7 +186,7 @@ class GroupTracer:
     def _newton(self, placed: Placed) -> None:
         group = placed.group
         coordinates: dict[TreeJoint, Coordinate] = {step: self._start(group, step) for step in group.unknowns}
-        correction: list[Scalar] = []
+        correction: list[Scalar] = [0.0] * len(group.unknowns)
         for remaining in reversed(range(self.iterations)):
             if remaining == 0:
                 coordinates = {step: _stopped(value) for step, value in coordinates.items()}
@@ -198,6 +202,7 @@ class GroupTracer:
         self._hang(group, coordinates)
         matrix = jacobian(group, placed.cuts, self.poses, self.dimensions)
         placed.inverse, placed.determinant = inverse(matrix), determinant(matrix)
+        placed.gap = [] if self.iterations else self._gap(placed)
         placed.coordinates = coordinates
         placed.next_states = carried(group, coordinates)
         placed.residual = _relative_square(group, correction, self.dimensions)

@@ -157,7 +157,7 @@ def range_sentence(mechanism: Mechanism, links: Sequence[str] = ()) -> str:
 
 @dataclass(frozen=True)
 class _Stop:
-    """Between the coordinates ``good`` and ``bad``; unknowns of the closed loops (n,), signs of modes at ``good``.
+    """Between the coordinates ``good`` and ``bad``; coordinates of what is followed (n,), signs of modes at ``good``.
 
     ``group``: the one that becomes singular at ``good``, where that is known; ``change``: the one whose change point
     ``bad`` is, beneath a group without closed form, with its quality there.
@@ -256,7 +256,7 @@ class _Search:
         return _range_end(value, group, how, precision)
 
     def _to_singular(self, stop: _Stop) -> _Stop:
-        """Where the closed loops become singular before ``bad``: there, unless a dyad ends before."""
+        """Where what is followed becomes singular before ``bad``: there, unless a dyad ends before."""
         if stop.unknowns is None:
             return stop
         branch = self._branch(stop, stop.bad)
@@ -265,17 +265,11 @@ class _Search:
         reached = stop.good + branch.reached * (stop.bad - stop.good)
         if reached != stop.good and not self._fine(stop, np.array([reached]))[0]:
             return replace(stop, bad=reached)
-        loops = self.solver.follower().loops
         beyond = reached + math.copysign(
             2.0 * FLOOR * (1.0 if self.rotary else self.size), stop.bad - stop.good
         )
-        return replace(
-            stop,
-            good=reached,
-            bad=beyond,
-            unknowns=branch.last[: loops.n],
-            group=loops.weakest_group(branch.last),
-        )
+        group = self.solver.follower().weakest_group(branch)
+        return replace(stop, good=reached, bad=beyond, unknowns=branch.last, group=group)
 
     def _stop(self, direction: float) -> _Stop | None:
         step, span = (STEP, 2 * np.pi) if self.rotary else (SLIDE_STEP * self.size, FARTHEST * self.size)
@@ -349,10 +343,10 @@ class _Search:
         if stop.unknowns is None:
             return {}
         follower = self.solver.follower()
-        n = follower.loops.n
         branches = [self._branch(stop, float(there)) for there in q]
-        rows = np.array([b.last if b.complete else np.full(n + follower.loops.d, np.nan) for b in branches])
-        return follower.states(rows[:, :n], rows[:, n:])
+        none = np.full(len(stop.unknowns), np.nan)
+        rows = [b.last if b.complete and b.last is not None else none for b in branches]
+        return follower.states(np.array(rows))
 
     def _branch(self, stop: _Stop, there: float) -> Branch:
         assert stop.unknowns is not None
@@ -368,7 +362,7 @@ class _Search:
         return np.linspace(self.begin, end, count)
 
     def _unknowns(self, stop: _Stop, q: float) -> Floats | None:
-        return None if stop.unknowns is None else self._branch(stop, q).last[: self.solver.follower().loops.n]
+        return None if stop.unknowns is None else self._branch(stop, q).last
 
     # why --------------------------------------------------------------------------------------------
     def _reason(self, stop: _Stop, good: float, bad: float) -> tuple[Group, str]:
@@ -386,7 +380,7 @@ class _Search:
         least = {name: row[0] for name, row in zip(modal, quality, strict=True)}
         first = next((name for name in modal if name in gone), None)
         stuck = stop.group or first or min(least, key=least.__getitem__, default="")
-        stuck = stuck or solver.follower().loops.groups[-1]
+        stuck = stuck or solver.follower().groups.formula.groups[-1].name
         told = getattr(placed[stuck].dyad, "at_end", None)
         if told is None:
             return groups[stuck], Sentence("range.singular")

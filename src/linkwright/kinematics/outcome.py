@@ -12,19 +12,12 @@ from linkwright.words.sentence import Sentence, in_language
 
 @dataclass(frozen=True)
 class Outcome:
-    """Of one position: whether it is solved, and if not, the group that fails and why (in English).
-
-    ``certified``: it is proved that the assembly is the one in which the motion began; False where a group without
-    closed form was only followed. ``margin``: no other assembly of the groups without closed form lies nearer, in
-    rad or as share of the mechanism's size; None where every group has a closed form.
-    """
+    """Of one position: whether it is solved, and if not, the group that fails and why (in English)."""
 
     ok: bool
     sentence: str = field(default_factory=partial(Sentence, "outcome.assembled"))
     group: str | None = None
     kind: str = "ok"
-    certified: bool = True
-    margin: float | None = None
 
     def say(self, language: str = "en") -> str:
         """The sentence in a language."""

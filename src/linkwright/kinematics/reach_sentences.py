@@ -12,7 +12,6 @@ from linkwright.core.arrays import Indices
 from linkwright.core.outputs import row_name
 from linkwright.kinematics.change_points import closes
 from linkwright.kinematics.cycle import FEW, cycle_turns, not_back, together
-from linkwright.kinematics.groups import iterated
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.outcome import Outcome
 from linkwright.kinematics.passage import Passage
@@ -37,7 +36,7 @@ KNOWN = 6
 
 def explain(motion: Motion) -> list[Outcome]:
     """What became of every position of a motion."""
-    found = _solved(motion)
+    found = [Outcome(True)] * motion.steps
     failed = np.flatnonzero(~motion.ok)
     if not len(failed):
         return found
@@ -45,18 +44,6 @@ def explain(motion: Motion) -> list[Outcome]:
     for place, index in enumerate(failed):
         found[index] = facts.outcome(place, int(index))
     return found
-
-
-def _solved(motion: Motion) -> list[Outcome]:
-    """The outcomes as if every position were solved."""
-    way = motion.followed
-    if way is None:
-        return [Outcome(True)] * motion.steps
-    said = {True: Sentence("outcome.assembled"), False: Sentence("outcome.followed")}
-    return [
-        Outcome(True, said[bool(sure)], certified=bool(sure), margin=float(margin))
-        for sure, margin in zip(way.certified, way.margin, strict=True)
-    ]
 
 
 def turn_notes(motion: Motion) -> tuple[Sentence, ...]:
@@ -86,27 +73,9 @@ def _apart(mechanism: Mechanism, count: float) -> Sentence:
 
 
 def branch_notes(motion: Motion) -> tuple[Sentence, ...]:
-    """What the user should know about groups that are followed without proof, or do not come back to their start."""
+    """That groups that are followed do not come back to their start."""
     way = motion.followed
-    if way is None:
-        return ()
-    said = []
-    unsure = np.flatnonzero(motion.ok & ~way.certified)
-    if len(unsure):
-        near = int(unsure[np.argmin(way.margin[unsure])])
-        groups = [tuple(group.links) for group in iterated(motion.structure)]
-        said.append(
-            Sentence(
-                "cycle.followed",
-                links=groups,
-                count=len(unsure),
-                where=input_at(motion, near),
-                margin=number(float(way.margin[near]), 2),
-            )
-        )
-    if way.returns is False:
-        said.append(Sentence("cycle.not_back"))
-    return tuple(said)
+    return () if way is None or way.returns is not False else (Sentence("cycle.not_back"),)
 
 
 def passage_notes(passing: Sequence[Passage], positions: Positions) -> tuple[Sentence, ...]:

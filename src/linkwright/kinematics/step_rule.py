@@ -1,7 +1,9 @@
-"""What a step from position to position must fulfil so that a traced group keeps its assembly.
+"""What a step must fulfil so that a group without closed form keeps its assembly: one rule for one machine, for many
+and for pages.
 
-For sweeps, where a proof for every step is too dear: the start is predicted with the exact rates of two orders; the
-determinant keeps its sign, the correction is small against the step, and both ends' exact rates fit one quintic.
+A step is predicted with the exact rates of two orders and corrected by Newton's method. It counts if the determinants
+keep their signs, the correction, of third order small, is small against the step, and both ends' exact rates fit one
+quintic. Where a step can be halved, doubt halves it.
 """
 
 from __future__ import annotations
@@ -14,17 +16,25 @@ from linkwright.elements.topology import TreeJoint
 from linkwright.engine.trace import Mask, Scalar, absolute, maximum, minimum, reciprocal, select
 from linkwright.engine.vector import Vec
 from linkwright.joints.pose import Rotor
-from linkwright.kinematics.branch import CORRECTION, MISFIT
 from linkwright.kinematics.closure import Coordinate
 from linkwright.kinematics.groups import Placed, carried, moved, state_name
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.mechanism.geometry import mechanism_size
 
+#: Largest correction, and largest misfit of both ends' rates, as share of the step.
+CORRECTION, MISFIT = 0.1, 0.01
 #: Largest change of a coordinate in one step, rad or share of the size.
 LARGEST = 0.3
-#: What a correction and a misfit may be beside these shares, as where a cam's rise begins behind a dwell: no other
-#: assembly of the same sign of the determinant is so near.
-ROOM = 1e-4
+#: What a correction and a misfit may be beside these shares: rounding; and where steps cannot be halved, as where a
+#: cam's rise begins behind a dwell: no other assembly of the same sign of the determinant is so near.
+ROUNDING, ROOM = 1e-10, 1e-4
+
+
+def doubt(change: Scalar, correction: Scalar, misfit: Scalar, room: Scalar) -> Scalar:
+    """Of a step's largest change, correction and misfit: below 1 the step counts."""
+    return maximum(
+        correction * reciprocal(CORRECTION * change + room), misfit * reciprocal(MISFIT * change + room)
+    )
 
 
 @dataclass
@@ -70,9 +80,7 @@ class StepRule:
         self.following |= carried(placed.group, predicted)
         sign = select(trace.compare("less", placed.determinant, 0.0), -1.0, 1.0)
         before = self._state(f"sign:{placed.group.name}", 0.0, sign)
-        off = maximum(
-            correction * reciprocal(CORRECTION * change + ROOM), misfit * reciprocal(MISFIT * change + ROOM)
-        )
+        off = doubt(change, correction, misfit, ROOM)
         kept = trace.logic("and", trace.compare("less", 0.0, before * sign), trace.compare("less", off, 1.0))
         kept = trace.logic("and", kept, trace.compare("less", change, LARGEST))
         self.kept = trace.logic("and", self.kept, trace.logic("or", first, kept))

@@ -79,8 +79,8 @@ def trace_motion(
     """Traces positions and, with ``rates``, velocities and accelerations of all links.
 
     ``free``: dimensions that will vary (others are known zeros where they are zero); ``iterations``:
-    Newton steps of groups without closed form; ``modes_vary``: groups (by name) whose assembly mode is
-    given per position, for motion through change points.
+    Newton steps of groups without closed form, 0: all groups are left open as their states say; ``modes_vary``:
+    groups (by name) whose assembly mode is given per position, for motion through change points.
     """
     trace = Trace()
     dimensions = Dimensions(mechanism, trace, free)

@@ -8,8 +8,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.outputs import row_name
-from linkwright.kinematics.closed_loops import LoopBuilder
 from linkwright.kinematics.positions import at_times
+from linkwright.kinematics.rotation_sums import Key, RotationSums, Terms
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.mechanism.mechanism import Mechanism
@@ -58,25 +58,18 @@ def _gained(
 
     ``driven_only``: of links that follow the drivers through wheels alone, and no slides.
     """
-    build = LoopBuilder(mechanism, gains=True)
-    for group in structure.groups:
-        build.add(group)
-    unknowns, sums = build.independent()
+    sums = RotationSums(mechanism, structure)
+    unknowns = sums.unknowns
     columns = {key: i for i, key in enumerate([*unknowns, *(("drive", name) for name in mechanism.drivers)])}
 
-    def row(terms: dict[tuple[str, str], float]) -> Floats:
+    def row(terms: Terms) -> Floats:
         found = np.zeros(len(columns))
-        for key, factor in terms.items():
-            for each, share in sums.get(key, ({key: 1.0}, 0.0))[0].items():
-                found[columns[each]] += factor * share
+        for key, factor in sums.reduced(terms).items():
+            found[columns[key]] += factor
         return found
 
-    rotations = [
-        row({("turn", unknown): 1.0} if unknown else {})
-        + row({("drive", name): sign for name, sign in turns})
-        for unknown, turns in build.rotations
-    ]
-    slides = [row({key: 1.0}) for key in sums if key[0] == "slide"]
+    rotations = [row(terms) for terms in sums.rotations.values()]
+    slides = [row({key: 1.0}) for key in sums.sums if key[0] == "slide"]
     if driven_only:
         free = len(unknowns)
         rotations, slides = [each for each in rotations if not each[:free].any()], []
@@ -88,7 +81,7 @@ def _gained(
 
 def _change(
     mechanism: Mechanism,
-    unknowns: list[tuple[str, str]],
+    unknowns: list[Key],
     rotations: list[Floats],
     slides: list[Floats],
     duration: float,
@@ -109,18 +102,15 @@ def _change(
         return _by_places(solver, unknowns, wanted, gained, duration)
     if not np.isfinite(followed.coordinates).all():
         return None
-    loops = followed.follower.loops
-    y = np.concatenate([followed.coordinates, followed.inputs], axis=1)
-    known = {key: loops.value(key, y) for key in {*loops.unknowns, *loops.sums}}
+    known = followed.follower.gained(followed.coordinates)
     for i in wanted:
-        if unknowns[i] in known:
-            gained[i] = float(np.diff(known[unknowns[i]])[0])
+        gained[i] = known.get(unknowns[i], gained[i])
     return gained
 
 
 def _by_places(
     solver: MotionSolver,
-    unknowns: list[tuple[str, str]],
+    unknowns: list[Key],
     wanted: Indices,
     gained: Floats,
     duration: float,

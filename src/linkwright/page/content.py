@@ -33,7 +33,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.contacts import RackWay, Wheels, contact_shape
 from linkwright.page.dimensions import dimensions, drawn
 from linkwright.page.glyphs import glyphs, undrawn
-from linkwright.page.loops import loops
 from linkwright.page.programs import PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
 from linkwright.plot.drawing.machine import Machine
@@ -105,8 +104,6 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
         "positions": _positions(programs),
         "fields": {name: _packed(row) for name, row in programs.fields().items()},
         "starts": programs.starts if programs.iterated else {},
-        "uncertain": _uncertain(motion),
-        "loops": loops(motion, (each.address for each in changeable if each.geometry)),
         "held": programs.held,
         **programs.found_per_position,
         "friction": programs.friction(),
@@ -134,11 +131,6 @@ def _said(mechanism: Mechanism, text: str) -> Plain:
 def _machine(motion: Motion) -> Machine:
     placed = placements(motion)
     return Machine(motion, placed, fitted(motion, placed))
-
-
-def _uncertain(motion: Motion) -> int | None:
-    """Positions whose assembly is followed but not certified; None where every group has a closed form."""
-    return None if motion.followed is None else int((~motion.followed.certified & motion.ok).sum())
 
 
 def _packed(row: Any) -> str:
@@ -225,8 +217,7 @@ def document(data: Plain, kernels: str, title: str, language: str) -> str:
     text, and the modules of the models one after the other.
     """
     style = _built("page.css")
-    proof = _built("proof.js") if any(each["loops"] for each in data["models"]) else ""
-    scripts = [each for each in (kernels, proof, _built("page.js")) if each]
+    scripts = [each for each in (kernels, _built("page.js")) if each]
     modules = [base64.b64decode(each["module"] or "") for each in data["models"]]
     models = [
         {**each, "module": each["module"] and len(module)}

@@ -204,7 +204,6 @@ def test_a_kind_says_which_of_its_parts_is_lacking() -> None:
         "slide_direction": lambda: bare.slide_direction(any_),
         "turned": lambda: bare.turned(any_, any_),
         "turn_of": lambda: bare.turn_of("one", any_),
-        "hang_in_loop": lambda: bare.hang_in_loop(any_, any_, ""),
         "sums": lambda: bare.sums(any_),
         "contact": lambda: contact_of(bare, any_),
         "seats": lambda: bare.seats,

@@ -51,9 +51,9 @@ def verdict(seed: int, off: float) -> str:
         return "refused"
     way = rough.drawn_inputs + rough.nearest_drive(goal - rough.drawn_inputs)
     branch = rough.between(rough.drawn_inputs, way, start)
-    if not branch.complete:
+    if not branch.complete or branch.last is None:
         return "barred on the way"
-    gap = rough.nearest_way(branch.last[: rough.loops.n] - exact.drawn) / rough.loops.scale
+    gap = rough.nearest_way(branch.last - exact.drawn) / rough.groups.scale
     return "right" if float(np.abs(gap).max()) < MET else "other"
 
 

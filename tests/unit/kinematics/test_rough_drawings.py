@@ -67,5 +67,6 @@ def test_a_drawing_two_millimetres_off_shows_the_assembly_that_was_drawn(seed: i
     goal = rough.drawn_inputs + rough.nearest_drive(exact.drawn_inputs - rough.drawn_inputs)
     branch = rough.between(rough.drawn_inputs, goal, rough.drawn)
     assert branch.complete
-    gap = rough.nearest_way(branch.last[: rough.loops.n] - exact.drawn)
-    assert np.abs(gap / rough.loops.scale).max() < 1e-9
+    assert branch.last is not None
+    gap = rough.nearest_way(branch.last - exact.drawn)
+    assert np.abs(gap / rough.groups.scale).max() < 1e-9

@@ -14,9 +14,8 @@ from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.vector import Vec
-from linkwright.kinematics.branch import CORRECTION, MISFIT
 from linkwright.kinematics.positions import at_times
-from linkwright.kinematics.step_rule import LARGEST, ROOM, StepRule, _angle
+from linkwright.kinematics.step_rule import CORRECTION, LARGEST, MISFIT, ROOM, StepRule, _angle
 from linkwright.mechanism.geometry import mechanism_size
 
 BEGIN = 0.21
@@ -161,21 +160,18 @@ def test_the_sign_that_is_carried_is_that_of_the_assembly() -> None:
     Jacobian, of which both come up, whatever the unit in which its determinant is less than 1."""
     found, _, _ = traced()
     follower, here = found.solver.follower(), at_times(found.mechanism, [BEGIN])
-    loops, carried = follower.loops, before(0.006)
-    q = np.array([[row[0][0] for row in here.coordinates.values()]])
+    groups, carried = follower.groups, before(0.006)
+    q = [float(row[0][0]) for row in here.coordinates.values()]
     random, signs = np.random.default_rng(5), {}
     for _ in range(120):
-        start = np.append(
-            random.uniform(-np.pi, np.pi, loops.n) * np.where(loops.scale == 1.0, 1.0, loops.scale), q
-        )
-        y = loops.newton(start, 30)
-        if y is None or not loops.largest(y) < 1e3:
+        start = random.uniform(-np.pi, np.pi, len(groups.scale)) * groups.scale
+        root = groups.solve(start.tolist(), q, [0.0], 30)
+        if root is None or not np.abs(root.z / groups.scale).max() < 1e3:
             continue
-        states = {name: float(row[0]) for name, row in follower.states(y[None, : loops.n], q).items()}
+        states = {name: float(row[0]) for name, row in follower.states(np.array([root.z])).items()}
         given = {**carried, **states, "begun": 0.0}
         (sign,) = (v for k, v in evaluated(BEGIN, 0.006, given).items() if k.startswith("next sign:"))
-        exact = float(np.linalg.slogdet(loops.jacobian(loops.slopes(loops.turned(y))))[0])
-        signs.setdefault(exact, set()).add(sign)
+        signs.setdefault(1.0 if root.signs[0] else -1.0, set()).add(sign)
     assert sorted(signs) == [-1.0, 1.0]
     assert sorted(len(each) for each in signs.values()) == [1, 1]
     assert {abs(s) for each in signs.values() for s in each} == {1.0} and signs[1.0] != signs[-1.0]

@@ -17,9 +17,6 @@ WORDS = {
     "pole": "the guides of group ({links}) become parallel at {where}: the mechanism cannot pass there",
     "gap": "group ({links}) cannot be assembled in a short stretch at {where}, between two positions: the "
     "mechanism cannot pass there",
-    "followed": "the assembly of the groups without closed form ({links}) is followed, but not certified, at "
-    "{count} positions; nearest at {where}: another assembly may lie {margin} (rad, or share of the size) "
-    "away, so near that clearance in the joints could change it",
     "not_back": "after one cycle the groups without closed form are in another assembly than at its start: the "
     "motion does not repeat after one cycle",
     "two_cycles": "after one cycle the mechanism is in its other assembly mode: the motion repeats after two "

@@ -71,6 +71,4 @@ WORDS = {
     "cam_sums": "the lift of a cam is no sum of rotations and displacements, which is all that can be said "
     "here: exports to MuJoCo and Modelica, and worked solutions of a cam within a loop, take gears, racks and belts "
     "only",
-    "cam_turned": "the cam {cam!r} is turned by a linkage: groups without closed form, and wheels geared to dyads, "
-    "cannot be followed behind it; let a driver turn the cam, directly or through gears, belts and chains",
 }

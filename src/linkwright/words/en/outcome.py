@@ -8,7 +8,6 @@ WORDS = {
     "singular position",
     "stopped": "group {signature} ({links}) cannot be followed to this position: on the way it becomes "
     "singular at {where}",
-    "followed": "assembled; the assembly is followed, but not certified",
     "singular": "group {signature} ({links}) is at a singular position (dead point or change point), where its "
     "motion is not determined by the driver",
     "coinciding": "the two outer pins of group {signature} ({links}) are at one place, so that the group can turn "

@@ -63,8 +63,8 @@ WORDS = {
     "misfit": "the wheels of {names} do not fit the distance of their centres or of a rack",
     "locking": "Forces are not shown: with this friction the machine locks, so that no effort moves it.",
     "doubtful": "Forces are not shown: the limit positions between which the loads act are not certain.",
-    "followed": "The assembly is followed from position to position, but not certified (margin {value}); "
-    "`linkwright solve` certifies it.",
+    "followed": "The assembly is followed from position to position (margin {value}); `linkwright solve --prove` "
+    "proves it.",
     "sampled_forces": "Largest forces and torques are those of the {count} positions, not of what lies between "
     "them: loads without a formula are known only there.",
     "sampled_all": "Least and largest values are those of the {count} positions, not of what lies between them.",
@@ -76,7 +76,4 @@ WORDS = {
     "compare": "Comparison",
     "value_of": "Value of {name}",
     "unlike": "{name} has no such number.",
-    "certified": "The assembly is certified at every position: it is proved to be the drawn one.",
-    "uncertain": "At {count} of {all} positions the assembly is followed, but not certified: another one "
-    "lies so near that clearance could change it.",
 }

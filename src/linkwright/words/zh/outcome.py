@@ -6,7 +6,6 @@ WORDS = {
     "between": "两个位置之间的通路被阻断",
     "lost": "{signature} 杆组（{links}）不能连续运动到此位置：超出可达范围，或须越过奇异位置",
     "stopped": "{signature} 杆组（{links}）不能连续运动到此位置：途中在 {where} 处到达奇异位置",
-    "followed": "可装配；装配模式由连续跟踪得到，未经证明",
     "singular": "{signature} 杆组（{links}）处于奇异位置（死点或变点），原动件在此不能确定其运动",
     "coinciding": "{signature} 杆组（{links}）的两个外副重合，杆组可绕其自由转动",
     "misfit": "“{joint}”的尺寸不合：{reason}",

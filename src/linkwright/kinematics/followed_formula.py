@@ -1,0 +1,259 @@
+"""Chain coordinates of the groups that are followed, and the traced formula that corrects them at given drivers.
+
+The formula is the mechanism's own trace: one of Newton's steps of every group without closed form, the closed forms
+of the groups on which they hang, and the exact rates of both.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.dataclass import dataclass
+from linkwright.core.inputs import driven
+from linkwright.elements.topology import Group, TreeJoint
+from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.engine.program import Program
+from linkwright.engine.recently_made import Recent
+from linkwright.engine.scalar_backend import ScalarProgram
+from linkwright.engine.states import inputs_as_fields
+from linkwright.engine.trace import Mask, Scalar
+from linkwright.kinematics.angles import geared, turn_state
+from linkwright.kinematics.groups import in_one_step, iterated, state_name
+from linkwright.kinematics.programs import MotionPrograms
+from linkwright.kinematics.upstream import counted, upstream
+from linkwright.mechanism.geometry import mechanism_size
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.design import Design
+
+Evaluate = Callable[[Sequence[float], Sequence[float], Sequence[float]], list[float]]
+
+#: Newton steps that a position may take; the last correction, and one from which on the method fails: rad, or share
+#: of the size.
+STEPS, CLOSED, FARTHEST = 8, 1e-8, 1e3
+TURN = 2.0 * math.pi
+
+
+def state_places(
+    steps: Sequence[tuple[Group, TreeJoint]], solved: Iterable[bool], links: Iterable[str]
+) -> dict[str, tuple[int, str]]:
+    """Of every state of ``solved`` coordinates, and of the turns of ``links``, the number of its coordinate among the
+    steps', and what it is of it."""
+    found: dict[str, tuple[int, str]] = {}
+    for k, ((group, step), mine) in enumerate(zip(steps, solved, strict=True)):
+        name = state_name(group, step)
+        if mine and step.turns and not geared(group):
+            found |= {f"{name}.x": (k, "cos"), f"{name}.y": (k, "sin")}
+        elif mine:
+            found[f"{name}.angle" if step.turns else f"{name}.s"] = k, ""
+        if step.turns and step.child in links:
+            found[turn_state(step.child)] = k, ""
+    return found
+
+
+@dataclass(frozen=True)
+class Root:
+    """Coordinates (n,) at which all groups close, with two derivatives along a way of the drivers; ``signs``: of the
+    determinants of the groups without closed form."""
+
+    z: list[float]
+    rate: list[float]
+    second: list[float]
+    signs: tuple[bool, ...]
+
+
+class FollowedFormula:
+    """The formula of all mechanisms of one shape.
+
+    ``upstream``: what is followed, and all on which it hangs; ``steps`` (n,): the chains' joints whose coordinates
+    are followed, by group; ``solved`` (n,): whether Newton's method finds them; ``turns`` (n,): whether they are
+    angles, with whole turns; ``as_angle`` (n,): whether their states are these angles.
+    """
+
+    def __init__(self, programs: MotionPrograms) -> None:
+        self.programs, structure = programs, programs.structure
+        self.upstream = upstream(structure, programs.mechanism)
+        self.groups = [group for group in self.upstream if group.unknowns and not in_one_step(group)]
+        own = set(iterated(structure))
+        self.steps = [(group, step) for group in self.groups for step in group.unknowns]
+        self.solved = [group in own for group, _ in self.steps]
+        self.turns = [step.turns for _, step in self.steps]
+        self.as_angle = [
+            mine and geared(group) for (group, _), mine in zip(self.steps, self.solved, strict=True)
+        ]
+        self.states = state_places(self.steps, self.solved, counted(structure, programs.mechanism))
+        self.rotary = [driver.law.rotary for driver in programs.mechanism.drivers.values()]
+        self.scalar = self.of(self._outputs())
+        self.program = self.scalar.program
+
+    def of(self, outputs: Mapping[str, Scalar | bool]) -> ScalarProgram:
+        """The program for some outputs; constant speeds of drivers are given per position, as fields."""
+        with self.programs.lock:
+            program = Program.of(self.programs.motion.trace, outputs)
+        return ScalarProgram(
+            inputs_as_fields(program, [f"{name}.speed" for name in self.programs.mechanism.drivers])
+        )
+
+    def _outputs(self) -> Mapping[str, Scalar | bool]:
+        motion = self.programs.motion
+        outputs: dict[str, Scalar | bool] = {}
+        valid: Mask = True
+        for k, (group, step) in enumerate(self.steps):
+            placed = motion.placed[group.name]
+            if step.slides:
+                outputs[f"at {k}"] = self.programs.outputs.slide(step.joint)[0]
+            elif self.as_angle[k]:
+                outputs[f"at {k}"] = placed.next_states[f"{state_name(group, step)}.angle"]
+            else:
+                direction = motion.poses[step.child].direction
+                outputs |= {f"at {k}": direction.x, f"sin {k}": direction.y}
+            outputs |= {f"rate {k}": placed.rates[step], f"second {k}": placed.seconds[step]}
+        for group in self.groups:
+            placed = motion.placed[group.name]
+            valid = motion.trace.logic("and", valid, placed.valid)
+            if placed.coordinates:
+                outputs[f"determinant {group.name}"] = placed.determinant
+        return {**outputs, "valid": valid}
+
+    @cached_property
+    def batch(self) -> NumpyProgram:
+        """The same without rates, for many positions."""
+        names = [name for name in self.program.output_names if not name.startswith(("rate", "second"))]
+        return NumpyProgram(self.program.only(names))
+
+
+class FollowedGroups:
+    """The followed groups of one design.
+
+    ``scale`` (n,): unit of every coordinate, 1 rad or the mechanism's size; ``unit`` (d,): of every driver.
+    """
+
+    def __init__(self, formula: FollowedFormula, design: Design) -> None:
+        self.formula, self.design = formula, design
+        self.size = mechanism_size(design.mechanism)
+        self.turns = formula.turns
+        self.scale = np.where(formula.turns, 1.0, self.size)
+        self.unit = np.where(formula.rotary, 1.0, self.size)
+        self.at = self.evaluator(formula.scalar)
+        row = {name: k for k, name in enumerate(formula.program.output_names)}
+        self._found = [
+            (row[f"at {k}"], row.get(f"sin {k}"), float(unit), mine)
+            for k, (unit, mine) in enumerate(zip(self.scale, formula.solved, strict=True))
+        ]
+        self._rates, self._seconds = (
+            [row[f"{name} {k}"] for k in range(len(formula.steps))] for name in ("rate", "second")
+        )
+        self._valid = row["valid"]
+        self._signs = [k for name, k in row.items() if name.startswith("determinant")]
+
+    def evaluator(
+        self, scalar: ScalarProgram, states: Mapping[str, tuple[int, str]] | None = None
+    ) -> Evaluate:
+        """Evaluates a program of the motion's trace at coordinates z (n,), the drivers' q (d,), and their first
+        derivatives along a straight way; ``states``: see :func:`state_places`."""
+        places = self.formula.states if states is None else states
+        program, drivers = scalar.program, list(self.design.mechanism.drivers)
+        numbers = tuple(float(self.design.parameters[name]) for name in program.parameters)
+        parts = (name.partition(":") for name in program.positions)
+        given = [(_GIVEN[kind], drivers.index(owner)) for kind, _, owner in parts]
+        speeds = [drivers.index(name.removesuffix(".speed")) for name in program.fields]
+        read = [(_READ[kind], k) for k, kind in (places[name] for name in program.states)]
+
+        def at(z: Sequence[float], q: Sequence[float], ahead: Sequence[float]) -> list[float]:
+            inputs = [kind(q[k], ahead[k]) for kind, k in given]
+            states = [kind(z[k]) for kind, k in read]
+            return scalar.step(numbers, inputs, states, [ahead[k] for k in speeds])[0]
+
+        return at
+
+    def once(self, z: Sequence[float], q: Sequence[float], ahead: Sequence[float]) -> tuple[Root, float]:
+        """One of Newton's steps from coordinates z (n,) with the drivers at q (d,) and their derivatives along a way.
+
+        What it leads to, NaN where that does not exist, and its length, rad or share of the size.
+        """
+        out = self.at(z, q, ahead)
+        found, moved = [], 0.0
+        for k, (at, sine, unit, mine) in enumerate(self._found):
+            value = out[at]
+            if sine is not None:
+                value = z[k] + _turned(math.atan2(out[sine], value) - z[k])
+            if mine and not moved >= (change := abs(value - z[k]) / unit):
+                moved = change
+            found.append(value)
+        if not out[self._valid] and moved < CLOSED:
+            moved = math.nan
+        signs = tuple(out[k] > 0.0 for k in self._signs)
+        return Root(found, [out[k] for k in self._rates], [out[k] for k in self._seconds], signs), moved
+
+    def solve(
+        self, z: Sequence[float], q: Sequence[float], ahead: Sequence[float], steps: int = STEPS
+    ) -> Root | None:
+        """The assembly near z by Newton's method; None where it finds none."""
+        for _ in range(steps):
+            root, moved = self.once(z, q, ahead)
+            if not moved < FARTHEST:
+                return None
+            if moved < CLOSED:
+                return root if math.isfinite(sum(root.second) + sum(root.z)) else None
+            z = root.z
+        return None
+
+    def many(self, z: Floats, q: Floats) -> tuple[Floats, list[tuple[bool, ...]]]:
+        """The same of many guesses z (m, n) with the drivers at q (m, d), NaN where none is found; the signs."""
+        program, drivers = self.formula.batch, self.design.mechanism.drivers
+        row = {name: k for k, name in enumerate(program.program.output_names)}
+        numbers = [self.design.parameters[name] for name in program.program.parameters]
+        inputs: dict[str, Floats] = {}
+        still = np.zeros(len(q))
+        for k, (name, rotary) in enumerate(zip(drivers, self.formula.rotary, strict=True)):
+            inputs |= driven(name, rotary, (q[:, k], still, still), np.cos, np.sin)
+        z = z.copy()
+        for _ in range(3):
+            found = program.run(numbers, inputs, None, self.states(z) or None, length=len(z))
+            moved = np.zeros(len(z))
+            for k, (_, sine, unit, mine) in enumerate(self._found):
+                value = found[row[f"at {k}"]]
+                if sine is not None:
+                    gone = np.arctan2(found[row[f"sin {k}"]], value) - z[:, k]
+                    value = z[:, k] + gone - TURN * np.round(gone / TURN)
+                if mine:
+                    moved = np.fmax(moved, np.abs(value - z[:, k]) / unit)
+                z[:, k] = value
+            if not (moved > CLOSED).any():
+                break
+        z[~((moved <= CLOSED) & (found[row["valid"]] == 1.0))] = math.nan
+        signs = found[[k for name, k in row.items() if name.startswith("determinant")]].T > 0.0
+        return z, [tuple(each) for each in signs.tolist()]
+
+    def states(self, z: Floats) -> dict[str, Floats]:
+        """The states (m,) by name at coordinates z (m, n)."""
+        read: dict[str, Callable[[Floats], Floats]] = {"cos": np.cos, "sin": np.sin, "": np.asarray}
+        return {name: read[kind](z[:, k]) for name, (k, kind) in self.formula.states.items()}
+
+
+def _turned(angle: float) -> float:
+    """The nearest angle without whole turns; NaN of NaN."""
+    return math.remainder(angle, TURN) if math.isfinite(angle) else math.nan
+
+
+_READ: dict[str, Callable[[float], float]] = {"cos": math.cos, "sin": math.sin, "": float}
+_GIVEN: dict[str, Callable[[float, float], float]] = {
+    "cos": lambda q, _: math.cos(q),
+    "sin": lambda q, _: math.sin(q),
+    "turn": lambda q, _: q,
+    "slide": lambda q, _: q,
+    "rate": lambda _, way: way,
+    "second": lambda _, way: 0.0,
+}
+_formulas: Recent[MotionPrograms, FollowedFormula] = Recent(32)
+
+
+def followed_formula(programs: MotionPrograms) -> FollowedFormula:
+    """The formula of a shape."""
+    return _formulas.get(programs, None, lambda: FollowedFormula(programs))

@@ -1,4 +1,0 @@
-// Certificates of assemblies: a script of its own, as most machines have closed forms only.
-import { Branch } from "./branch";
-
-Object.assign(globalThis, { Branch });
