@@ -145,12 +145,8 @@ def _fault_of_period(table: Table) -> str | None:
     if table.interpolation != "periodic":
         return None
     turns = (table.x[-1] - table.x[0]) / math.tau
-    if (
-        table.over == "time"
-        or table.across != "angle"
-        or round(turns) < 1
-        or abs(turns - round(turns)) > 1e-6
-    ):
+    of_angle = table.over != "time" and table.across == "angle"
+    if not of_angle or round(turns) < 1 or abs(turns - round(turns)) > 1e-6:
         return "periodic_span"
     close = abs(table.y[-1] - table.y[0]) <= 1e-9 * max(map(abs, table.y))
     return None if close else "periodic_ends"
@@ -210,7 +206,11 @@ class PhaseField(_Part):
             case MovingPhase(output, direction):
                 return {"moving": str(output), "direction": direction}
         found = {"of": str(value.output), "from": value.start, "to": value.end}
-        return found if value.part is None else {**found, **value.part.written(value.output.dimension)}
+        if (part := value.part) is None:
+            return found
+        dimension = value.output.dimension
+        amounts = [a.value if a.share else written_quantity(a.value, dimension) for a in part.amounts]
+        return {**found, part.word: amounts[0] if len(amounts) == 1 else amounts}
 
 
 def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) -> Phase | None:
@@ -252,22 +252,21 @@ class StrokePartField(Field):
         return StrokePart(self.word, amounts) if amounts and len(amounts) == len(found) else None
 
     def _amount(self, reader: Reader, node: Node, place: Place, dimension: str) -> Amount | None:
-        share = _number(node)
-        if share is None:
-            way = reader.quantity(node, place, dimension)
-            if way is None or way > 0 or (way == 0 and self.word == "free"):
-                return None if way is None else Amount(way, share=False)
-        elif 0 < share < 1 or (share == 0 and self.word == "free") or (share == 1 and self.word != "free"):
-            return Amount(share, share=True)
         text = node.text if isinstance(node, Scalar) else ""
-        reader.finding(
-            node,
-            place,
-            "no_stroke_part",
-            "range",
-            text=text,
-            example="10 mm" if dimension == "length" else "5 deg",
-        )
+        try:
+            found = Amount(
+                float(text if isinstance(node, Scalar) and node.plain else "no number"), share=True
+            )
+        except ValueError:
+            way = reader.quantity(node, place, dimension)
+            if way is None:
+                return None
+            found = Amount(way, share=False)
+        whole = 1.0 if found.share else math.inf
+        if 0 < found.value < whole or found.value == (0 if self.word == "free" else whole):
+            return found
+        example = "10 mm" if dimension == "length" else "5 deg"
+        reader.finding(node, place, "no_stroke_part", "range", text=text, example=example)
         return None
 
     def shape(self) -> Schema:
@@ -277,16 +276,3 @@ class StrokePartField(Field):
         if self.word != "free":
             return one
         return {"anyOf": [*one["anyOf"], pair_schema(one)]}
-
-    def written(self, value: Any) -> Any:
-        raise AssertionError("a phase writes its part")
-
-
-def _number(node: Node) -> float | None:
-    """A bare number, or None."""
-    if not isinstance(node, Scalar) or not node.plain:
-        return None
-    try:
-        return float(node.text)
-    except ValueError:
-        return None

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.engine.late_import import numpy as np
 from linkwright.engine.trace import Mask, Scalar, floor, maximum, minimum, select
 from linkwright.errors import LinkwrightError
-from linkwright.fields.base import written_quantity
 from linkwright.loads.signals import BetweenLimits, Limit, Signals, Whole, input_dimension, shown
 from linkwright.words.sentence import Sentence
 
@@ -43,11 +42,6 @@ class StrokePart:
 
     word: PartWord
     amounts: tuple[Amount, ...]
-
-    def written(self, dimension: str) -> dict[str, Any]:
-        """Key and value for a file."""
-        found = [a.value if a.share else written_quantity(a.value, dimension) for a in self.amounts]
-        return {self.word: found[0] if len(found) == 1 else found}
 
 
 # found at times ------------------------------------------------------------------------------------
