@@ -54,7 +54,6 @@ from linkwright.kinetostatics.load_site import limit_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.phases import InputPhase
 from linkwright.loads.sizes import Formula, Table
 from linkwright.loads.strokes import TURN
@@ -219,7 +218,7 @@ class GaussCycle:
         q, rate, _ = known.coordinates[driver]
         found = {FIRST: float(q[0]), "first time": float(known.time[0]), f"{driver}.speed": float(rate[0])}
         for load in self.traced.mechanism.loads.values():
-            table = load.magnitude and load.magnitude.size
+            table = load.magnitude.size
             if isinstance(table, Table) and table.known_at:
                 knots = np.array(table.x)
                 inputs = knots if table.over == "input" else q[0] + rate[0] * (knots - known.time[0])
@@ -424,8 +423,7 @@ def reversing(traced: Traced, program: Program) -> tuple[tuple[Output, ...], tup
 
 def _cuts(load: Load) -> Iterable[tuple[str, int]]:
     """What gives the inputs at which a load jumps or kinks, with the turns after which it does so again."""
-    given = load.magnitude or Magnitude()
-    size, phase = given.size, given.phase
+    size, phase = load.magnitude.size, load.magnitude.phase
     if isinstance(phase, InputPhase):
         yield from ((f"loads.{load.name}.phase.input.{k}", 1) for k in (0, 1))
     yield from ((limit_name(output, kind), 0) for output in phase.outputs for kind in ("max", "min"))

@@ -67,20 +67,19 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     run_forces(plain.nominal, False)
     named = owners_of("magnitude", given)
     loads = [plain.mechanism.loads[name] for name in named]
-    sizes = {load: load.magnitude for load in loads if load.magnitude is not None}
     for load in loads:
-        if load not in sizes:
+        if not load.magnitude.has_formula:
             raise LinkwrightError("study.cycle_load_slope", name=load.name, kind=load.kind)
     signals = MotionSignals(plain.nominal)
     along = numbers_of_loads(loads, plain.mechanism)
     known = {middle_name(a, b): signals.angle_of(a, b, near) for (a, b), near in along.angles.items()}
-    moving = _moving(plain, sizes.values(), along, by)
+    moving = _moving(plain, [load.magnitude for load in loads], along, by)
     names = set(along.names)
     if moving is None:
-        for load, size in sizes.items():
-            if not isinstance(size.phase, Always):
+        for load in loads:
+            if not isinstance(load.magnitude.phase, Always):
                 names = names - {load.name} | {f"{ACTS}:{load.name}"}
-                known |= _phase(load, size, signals)
+                known |= _phase(load, signals)
         moving = {}, {}
     numbers = {**along.constants, **moving[0]}
     return KnownLoads(frozenset(names), numbers, moving[1], known, along.tables, rubbing)
@@ -138,9 +137,9 @@ def _middle_numbers(plain: Traced, along: AlongInput) -> dict[str, float]:
     return found
 
 
-def _phase(load: Load, size: Magnitude, signals: MotionSignals) -> dict[str, Floats]:
+def _phase(load: Load, signals: MotionSignals) -> dict[str, Floats]:
     """Where a load acts, and the share of its phase; raises for a ramp whose ends are limit positions that move."""
-    if size.size.ramp and size.limits is not None:
+    if load.magnitude.size.ramp and load.magnitude.limits is not None:
         raise LinkwrightError("study.ramp_slope", name=load.name)
     active = activity(load, signals)
     return {f"{ACTS}:{load.name}": active.where.astype(float), f"share:{load.name}": active.share}

@@ -249,7 +249,7 @@ def edge_name(load: str, which: int) -> str:
 
 def part_of_stroke(load: Load) -> SwingPhase | None:
     """The phase of a load, where it is a part of a stroke."""
-    phase = load.magnitude and load.magnitude.phase
+    phase = load.magnitude.phase
     return phase if isinstance(phase, SwingPhase) and phase.part is not None else None
 
 

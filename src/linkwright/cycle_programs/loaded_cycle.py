@@ -127,8 +127,8 @@ def along_input(
     if not names:
         return plain
     loads = [mechanism.loads[name] for name in sorted(names)]
-    sizes = [load.magnitude for load in loads if load.magnitude is not None]
-    if len(sizes) < len(loads) or not all(each.traceable(mechanism) for each in sizes):
+    sizes = [load.magnitude for load in loads]
+    if not all(each.traceable(mechanism) for each in sizes):
         return None
     if not whole_turns(traced, varied) and (
         any(_needs_turns(each, mechanism, over_time) for each in sizes)

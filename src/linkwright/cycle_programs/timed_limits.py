@@ -154,8 +154,8 @@ def _way(traced: Traced, lap: float) -> float:
 def _in_order(mechanism: Mechanism, loads: AlongInput, signals: MotionSignals) -> bool:
     """Whether the limits between which loads act follow each other in a cycle that does not close."""
     for name in loads.names:
-        size = mechanism.loads[name].magnitude
-        if size is not None and (phase := size.limits) is not None:
+        phase = mechanism.loads[name].magnitude.limits
+        if phase is not None:
             times = {each.kind: each.time for each in signals.limits(phase.output)}
             if len(times) < 2 or times[phase.end] < times[phase.start]:
                 return False

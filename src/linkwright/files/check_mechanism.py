@@ -244,7 +244,7 @@ def _phases_of_no_motion(reader: Reader, root: MappingNode, mechanism: Mechanism
     """
     sliding = _sliding(mechanism)
     for name, load in mechanism.loads.items():
-        outputs = () if load.magnitude is None else load.magnitude.phase.outputs
+        outputs = load.magnitude.phase.outputs
         output = next((each for each in outputs if each.kind == "angle" and each.owner in sliding), None)
         if output is None:
             continue

@@ -134,7 +134,7 @@ class TracedSite:
 
     def magnitude(self) -> Scalar:
         own, field = self.load.magnitude, self.motion.trace.field_input
-        if own is None or not (self.along_input or own.constant):
+        if not (self.along_input or own.constant):
             return field(row_name("magnitude", self.load.name))
         if self.phase_known:
             acts, share = (field(f"{kind}:{self.load.name}") for kind in (ACTS, "share"))

@@ -129,7 +129,7 @@ class ForcePrograms:
 
     def _at_once(self, measures: tuple[str, ...], asked: tuple[str, ...]) -> tuple[tuple[str, ...], InTurn]:
         mechanism = self.motion.mechanism
-        given = [load.magnitude for load in mechanism.loads.values() if load.magnitude is not None]
+        given = [load.magnitude for load in mechanism.loads.values()]
         followed = [each for m in given for each in (*m.phase.outputs, *m.outputs(mechanism))]
         turned = [each.owner for each in followed if each.kind == "angle" and each.owner in mechanism.links]
         moved = [

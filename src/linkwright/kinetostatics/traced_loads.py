@@ -91,7 +91,7 @@ class AlongInput:
 
 def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
     """What the magnitudes of loads of a mechanism take."""
-    given = {each.name: each.magnitude for each in loads if each.magnitude is not None}
+    given = {each.name: each.magnitude for each in loads}
     sizes = given.values()
     return AlongInput(
         frozenset(given),
@@ -127,10 +127,7 @@ def _found(mechanism: Mechanism, turns: bool) -> AlongInput:
     given = [
         each
         for each in mechanism.loads.values()
-        if (size := each.magnitude) is not None
-        and not size.constant
-        and size.traceable(mechanism)
-        and not size.size.divides
+        if not (size := each.magnitude).constant and size.traceable(mechanism) and not size.size.divides
     ]
     return numbers_of_loads(given if turns else (), mechanism)
 

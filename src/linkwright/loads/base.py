@@ -50,7 +50,7 @@ from linkwright.loads.keys import magnitude_fields
 from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.signals import Signals
 from linkwright.loads.site import Mechanism, Site, Wrench
-from linkwright.loads.sizes import Ramp
+from linkwright.loads.sizes import OverCycle, Ramp
 from linkwright.registry import Registry
 from linkwright.words.sentence import Sentence, together
 from linkwright.words.synonyms import meaning
@@ -126,16 +126,17 @@ class Load:
         raise NotImplementedError(f'the load kind "{self.kind}" does not say its wrenches')
 
     @property
-    def magnitude(self) -> Magnitude | None:
-        """What ``site.magnitude()`` gives; None where the kind takes none, or finds it by :meth:`from_cycle`."""
-        return None
+    def magnitude(self) -> Magnitude:
+        """What ``site.magnitude()`` gives."""
+        own = type(self).from_cycle is not Load.from_cycle
+        return Magnitude(OverCycle(self.from_cycle)) if own else Magnitude()
 
     def from_cycle(self, signals: Signals) -> Floats:
-        """What ``site.magnitude()`` gives at each position, (n,), of a kind without a formula of it.
+        """What ``site.magnitude()`` gives at each position, (n,), where a kind has no formula of it.
 
         Such a load goes one design at a time in sweeps.
         """
-        raise NotImplementedError(f'the load kind "{self.kind}" does not say its magnitude')
+        raise NotImplementedError
 
     def reverses(self, mechanism: Mechanism) -> Output | RelativeAngle | None:
         """What it is at whose limits the load changes its sign, because it goes by the sign of a velocity."""

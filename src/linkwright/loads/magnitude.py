@@ -11,7 +11,7 @@ from linkwright.engine.trace import Scalar, select
 from linkwright.loads.phases import Always, InputPhase, MovingPhase, Phase, SwingPhase
 from linkwright.loads.signals import Course
 from linkwright.loads.site import Mechanism
-from linkwright.loads.sizes import Constant, One, Size, Twist
+from linkwright.loads.sizes import Constant, One, OverCycle, Size, Twist
 from linkwright.loads.strokes import NEAR, TURN
 
 
@@ -46,6 +46,11 @@ class Magnitude:
     def constant(self) -> bool:
         """Whether it is one number at all positions."""
         return isinstance(self.phase, Always) and isinstance(self.size, Constant | One)
+
+    @property
+    def has_formula(self) -> bool:
+        """Whether a formula gives it."""
+        return not isinstance(self.size, OverCycle)
 
     def traceable(self, mechanism: Mechanism) -> bool:
         """Whether its formula holds for designs and between positions as well: not for an interval longer than a

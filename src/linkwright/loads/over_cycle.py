@@ -13,6 +13,7 @@ from linkwright.loads.base import Load
 from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.phases import Always
 from linkwright.loads.signals import BetweenLimits, Signals, column, named_column
+from linkwright.loads.sizes import OverCycle
 from linkwright.loads.strokes import NEAR, TURN, Stretch, strokes
 from linkwright.words.sentence import Sentence
 
@@ -43,8 +44,8 @@ def magnitudes(load: Load, signals: Signals) -> Floats:
             a phase whose limit positions do not exist.
     """
     given = load.magnitude
-    if given is None:
-        return load.from_cycle(signals)
+    if isinstance(given.size, OverCycle):
+        return given.size.values(signals)
     if given.size.ramp and isinstance(given.phase, Always):
         raise LinkwrightError(with_remedy(Sentence("loads.ramp_without_phase"), Sentence("loads.add_phase")))
     course = CycleCourse(load, given, signals)
@@ -66,7 +67,7 @@ def activity(load: Load, signals: Signals) -> Activity:
 
     Raises LinkwrightError where the phase does not exist in the cycle.
     """
-    return CycleCourse(load, load.magnitude or Magnitude(), signals).activity()
+    return CycleCourse(load, load.magnitude, signals).activity()
 
 
 def switch_times(magnitude: Magnitude, signals: Signals) -> tuple[Floats, bool]:

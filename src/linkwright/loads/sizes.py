@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -212,3 +212,16 @@ class Twist(Size):
 
     def at(self, course: Course, share: Scalar) -> Scalar:
         return course.angle_between(self.a, self.b, self.near)
+
+
+@dataclass(frozen=True)
+class OverCycle(Size):
+    """What a kind finds at all positions in a way of its own, ``values``; no formula gives it."""
+
+    values: Callable[[Signals], Floats]
+
+    def at(self, course: Course, share: Scalar) -> Scalar:
+        raise NotImplementedError
+
+    def outputs(self, mechanism: Mechanism) -> tuple[Output | None, ...]:
+        return (None,)

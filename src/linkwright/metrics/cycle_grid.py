@@ -36,7 +36,6 @@ from linkwright.kinetostatics.friction import FrictionTerm, joint_rate, moving_r
 from linkwright.kinetostatics.programs import signed_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.over_cycle import activity, switch_times
 from linkwright.loads.strokes import NEAR
 from linkwright.metrics.one_sided_limits import between, limit, sides
@@ -303,7 +302,7 @@ class CycleGrid:
             return self._wrapped(found)
         signals, turning = MotionSignals(self._motion), list[FrictionTerm | RelativeAngle]()
         for load in self._motion.mechanism.loads.values():
-            known, complete = switch_times(load.magnitude or Magnitude(), signals)
+            known, complete = switch_times(load.magnitude, signals)
             found.append(known)
             if not complete:
                 switched = self._bisected(load, signals)

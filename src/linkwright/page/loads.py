@@ -17,14 +17,13 @@ from linkwright.kinematics.names import program_names
 from linkwright.kinetostatics.load_site import ACTS, middle_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.over_cycle import activity
 from linkwright.loads.phases import Always, InputPhase, MovingPhase, SwingPhase
 
 
 def found_again(load: Load, motion: Motion) -> bool:
     """Whether a page finds it: its kind traces its magnitude, and limits that it takes lie in a steady cycle."""
-    if load.magnitude is None:
+    if not load.magnitude.has_formula:
         return False
     drivers = list(motion.mechanism.drivers.values())
     steady = len(drivers) == 1 and drivers[0].law.constant_speed is not None and motion.positions.closed
@@ -40,7 +39,7 @@ def traced_names(loads: Iterable[Load], motion: Motion) -> frozenset[str]:
 
 def _phase_per_position(load: Load, motion: Motion) -> bool:
     """All phases but those of the coordinate of a driver that turns steadily, which are formulas."""
-    phase = (load.magnitude or Magnitude()).phase
+    phase = load.magnitude.phase
     if not isinstance(phase, InputPhase):
         return not isinstance(phase, Always)
     first = next(iter(motion.mechanism.drivers.values()))
@@ -51,7 +50,7 @@ def phases(loads: Iterable[Load], motion: Motion) -> list[Plain]:
     """The phases that follow the motion: their outputs by rows of a page's main program."""
     found: list[Plain] = []
     for load in loads:
-        given = load.magnitude or Magnitude()
+        given = load.magnitude
         phase = given.phase
         if isinstance(phase, MovingPhase | SwingPhase):
             rows, (rate, _) = program_names(motion.mechanism, phase.output)
@@ -72,7 +71,7 @@ def angles(loads: Iterable[Load], motion: Motion, constants: Iterable[str]) -> l
     """
     found: dict[str, Plain] = {}
     for load in loads:
-        for (a, b), near in (load.magnitude or Magnitude()).angles(motion.mechanism).items():
+        for (a, b), near in load.magnitude.angles(motion.mechanism).items():
             begin = None if near is None else [f"loads.{load.name}.free_angle", near]
             found[middle_name(a, b)] = {"field": middle_name(a, b), "a": a, "b": b, "near": begin}
     return [each for name, each in found.items() if name not in set(constants)]
@@ -86,7 +85,7 @@ def fields(loads: Iterable[Load], motion: Motion) -> dict[str, Floats]:
         if not _phase_per_position(load, motion):
             continue
         acts = share = np.zeros(motion.positions.count)
-        if load.magnitude and isinstance(load.magnitude.phase, InputPhase):
+        if isinstance(load.magnitude.phase, InputPhase):
             active = activity(load, signals)
             acts, share = active.where.astype(float), active.share
         found |= {f"{ACTS}:{load.name}": acts, f"share:{load.name}": share}

@@ -203,15 +203,13 @@ def _hardly_determined(name: str, motion: Motion) -> Iterator[Finding]:
 
 def _swings(mechanism: Mechanism) -> dict[str, Phase]:
     """Phases of loads by the strokes of an output, or while it moves one way."""
-    phases = {
-        load: each.magnitude.phase for load, each in mechanism.loads.items() if each.magnitude is not None
-    }
+    phases = {load: each.magnitude.phase for load, each in mechanism.loads.items()}
     return {load: phase for load, phase in phases.items() if phase.outputs}
 
 
 def _varies(load: Load) -> bool:
     """Whether a load's size follows an expression or a table, which may not hold for all positions."""
-    return load.magnitude is not None and load.magnitude.size.fallible
+    return load.magnitude.size.fallible
 
 
 def _of_loads(name: str, mechanism: Mechanism, loads: Sequence[str], varying: Sequence[str]) -> list[Finding]:
@@ -225,7 +223,7 @@ def _of_loads(name: str, mechanism: Mechanism, loads: Sequence[str], varying: Se
     signals, found = MotionSignals(try_motion(mechanism, TRIED)), []
     for load in loads:
         key, each = f"loads.{load}.phase", mechanism.loads[load]
-        phase = each.magnitude and each.magnitude.phase
+        phase = each.magnitude.phase
         try:
             acts = activity(each, signals).where
         except LinkwrightError as error:

@@ -85,7 +85,7 @@ def acting(source: Source) -> dict[str, np.ndarray[tuple[int], np.dtype[np.bool_
     found = {}
     signals = MotionSignals(source.motion)
     for name, load in source.mechanism.loads.items():
-        if load.magnitude is None or isinstance(load.magnitude.phase, Always):
+        if isinstance(load.magnitude.phase, Always):
             continue
         try:
             where = activity(load, signals).where
