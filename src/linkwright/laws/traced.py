@@ -11,6 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.spline import Spline
 from linkwright.laws.program import TURN, Program
 
 if TYPE_CHECKING:
@@ -153,6 +154,17 @@ def row_at(x: Scalar, edges: Floats, rows: Floats) -> list[Scalar]:
         return [a if a is b or a == b else select(below, a, b) for a, b in zip(left, right, strict=True)]
 
     return chosen(0, len(rows))
+
+
+def traced_spline(spline: Spline, x: Scalar) -> tuple[Scalar, Scalar, Scalar]:
+    """Value and first two derivatives of a spline at a traced place; beyond the ends the first or the last cubic.
+
+    For the equations of joints (:meth:`linkwright.joints.ends.Ends.function`).
+    """
+    start, *row = row_at(x, spline.knots, np.column_stack([spline.knots[:-1], spline.coefficients.T]))
+    first = [row[1], 2.0 * row[2], 3.0 * row[3]]
+    h = x - start
+    return horner(row, h), horner(first, h), horner([first[1], 2.0 * first[2]], h)
 
 
 def horner(row: Sequence[Scalar], t: Scalar) -> Scalar:
