@@ -19,6 +19,8 @@ from linkwright.mechanism.cam_shape import CamShape, full_turn
 from linkwright.mechanism.mechanism import Mechanism
 
 Vec = tuple[float, float]
+#: Radius of the circle of a pair of no known shape, as a share of the mechanism's size.
+UNKNOWN = 0.01
 #: Where wheels (link, centre) that are drawn already have a tooth, rad in their axes.
 Teeth = dict[tuple[str, str], float]
 
@@ -50,6 +52,13 @@ class Mark:
 def marks(joint: Joint, mechanism: Mechanism, tooth: Teeth) -> Iterable[Mark]:
     """The marks of a joint, none of one that shows nothing; it adds its own teeth to those that are drawn."""
     return ()
+
+
+@marks.register
+def _(joint: HigherPair, mechanism: Mechanism, tooth: Teeth) -> Iterator[Mark]:
+    """Of a kind that registers no marks of its own a small circle where its links touch."""
+    link, point = joint.seats[0]
+    yield Mark("roller", link, mechanism.link(link).points[point], UNKNOWN * mechanism.size)
 
 
 @marks.register
