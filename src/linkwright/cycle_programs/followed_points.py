@@ -24,7 +24,6 @@ from linkwright.engine.trace import Mask, Scalar, Trace, select, sqrt
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.step_rule import CORRECTION
 from linkwright.loads.strokes import TURN
-from linkwright.mechanism.geometry import mechanism_size
 
 #: Newton steps from the cubic.
 ITERATIONS = 3
@@ -46,7 +45,7 @@ class FollowedPoints:
         self.traced = Traced(
             mechanism, traced.solver.manner.free, over_cycle(mechanism, gauss.count), iterations=ITERATIONS
         )
-        self.scales = [mechanism_size(mechanism) if name.endswith(".s") else 1.0 for name in self.names]
+        self.scales = [mechanism.size if name.endswith(".s") else 1.0 for name in self.names]
 
     @cached_property
     def following(self) -> Following | None:

@@ -24,7 +24,6 @@ from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.step_rule import StepRule
 from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.traced_loads import AlongInput
-from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 
 #: Newton steps per position, and of one attempt at the beginning; the change of a coordinate (rad, or share of the
@@ -98,7 +97,7 @@ class Following:
     def _needed(self) -> int:
         """How much finer the positions must be for the known design."""
         known = self.traced.nominal.states
-        size = mechanism_size(self.traced.mechanism)
+        size = self.traced.mechanism.size
         largest = 0.0
         for name, row in known.items():
             change = np.abs(np.diff(row)) / (size if name.endswith(".s") else 1.0)
@@ -273,7 +272,7 @@ class Approach:
         self.evaluator = numpy_program(Program.of(motion.trace, outputs))
         self.begin = traced.numbers(self.evaluator.program)
         self.inputs = {name: row[:1] for name, row in traced.positions.arrays.items()}
-        size = mechanism_size(motion.mechanism)
+        size = motion.mechanism.size
         self.scale = np.array([size if name.endswith(".s") else 1.0 for name in self.names])
         self.first = np.array([known[name][0] for name in self.names])
 

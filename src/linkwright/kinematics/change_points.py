@@ -30,7 +30,6 @@ from linkwright.kinematics.positions import Positions, at_times, off_law
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinematics.upstream import upstream
-from linkwright.mechanism.geometry import mechanism_size
 from linkwright.structure import Structure
 
 #: A refined minimum of the quality within this distance of zero is a touch; of the squared distance of two pins,
@@ -83,7 +82,7 @@ def _all_measures(motion: MotionTrace) -> tuple[str, ...] | None:
 def nearness(solver: MotionSolver) -> Scalar:
     """How near the dyads are to what :func:`passages` finds, traced: the least quality, or squared distance of outer
     pins over the size. Above :data:`NEAR` and what it changes by in one step nothing lies between two positions."""
-    size = mechanism_size(solver.mechanism)
+    size = solver.mechanism.size
     found: Scalar = 1.0
     for placed in solver.motion.placed.values():
         if placed.dyad is not None:
@@ -251,7 +250,7 @@ class _Search:
         if not slides:
             return []
         names = tuple(row_name("fact", name, on="sine") for name in slides)
-        size, found = mechanism_size(self.base.mechanism), []
+        size, found = self.base.mechanism.size, []
         for (group, displacements), name, row in zip(
             slides.items(), names, self._evaluate(names), strict=True
         ):

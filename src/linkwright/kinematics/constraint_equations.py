@@ -27,7 +27,6 @@ from linkwright.kinematics.dimensions import Dimensions
 from linkwright.kinematics.equation import Rows
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.drawing import Drawing
-from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 
 #: Of (x, y, θ).
@@ -55,7 +54,7 @@ class ConstraintEquations:
     def __init__(self, mechanism: Mechanism, order: Mapping[str, int] | None = None) -> None:
         self.mechanism = mechanism
         self.links = list(mechanism.links)
-        self.size = mechanism_size(mechanism)
+        self.size = mechanism.size
         self._number = order or {}
         self._first = {name: 3 * i for i, name in enumerate(self.links)}
         self._kept: dict[int, float] = {}
@@ -243,7 +242,7 @@ def drawn_coordinates(mechanism: Mechanism) -> Floats | None:
     drawing = Drawing(mechanism)
     if not drawing:
         return None
-    size, found = mechanism_size(mechanism), []
+    size, found = mechanism.size, []
     for name, link in mechanism.links.items():
         angle = drawing.angle(name)
         places = ((p, drawing.points.get(f"{name}.{p}", drawing.points.get(p))) for p in link.points)

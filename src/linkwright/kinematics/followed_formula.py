@@ -27,7 +27,6 @@ from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.groups import in_one_step, iterated, state_name
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.upstream import counted, upstream
-from linkwright.mechanism.geometry import mechanism_size
 
 if TYPE_CHECKING:
     from linkwright.kinematics.design import Design
@@ -136,7 +135,7 @@ class FollowedGroups:
 
     def __init__(self, formula: FollowedFormula, design: Design) -> None:
         self.formula, self.design = formula, design
-        self.size = mechanism_size(design.mechanism)
+        self.size = design.mechanism.size
         self.turns = formula.turns
         self.scale = np.where(formula.turns, 1.0, self.size)
         self.unit = np.where(formula.rotary, 1.0, self.size)

@@ -19,7 +19,6 @@ from linkwright.kinematics.angles import Angles, geared
 from linkwright.kinematics.closure import Coordinate, cut_of, jacobian, pair_of
 from linkwright.kinematics.dimensions import Dimensions, DriverInput
 from linkwright.kinematics.equation import Equation
-from linkwright.mechanism.geometry import mechanism_size
 from linkwright.structure.analysis import Structure
 
 #: Below this ratio of the square under the root to its best value a position is called singular.
@@ -324,7 +323,7 @@ def moved(value: Coordinate, change: Scalar) -> Coordinate:
 
 def _relative_square(group: Group, correction: Sequence[Scalar], dimensions: Dimensions) -> Scalar:
     """Sum of squares of the last correction; slides relative to the size of the mechanism."""
-    size = mechanism_size(dimensions.mechanism)
+    size = dimensions.mechanism.size
     total: Scalar = 0.0
     for step, change in zip(group.unknowns, correction, strict=True):
         relative = change * (1.0 / size) if step.slides else change

@@ -25,7 +25,6 @@ from linkwright.kinematics.passing_proof import modal
 from linkwright.kinematics.positions import CycleError, Positions, at_times
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.words.sentence import Sentence
@@ -179,7 +178,7 @@ class _Search:
         self.solver = MotionSolver(mechanism)
         self.base = self._at_start()
         self.rotary = self.base.rotary[driver]
-        self.size = mechanism_size(mechanism)
+        self.size = mechanism.size
         self.modal = modal(self.solver.motion)
         self.begin = self._beginning()
 

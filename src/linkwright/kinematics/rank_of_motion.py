@@ -15,7 +15,6 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.rank import ZERO, RankReport, numeric_rank, rank_at, report_of
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure
 from linkwright.words.sentence import Sentence
@@ -59,7 +58,7 @@ def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
 def coordinates(motion: Motion, index: int) -> Floats:
     """(x, y, θ) of every link at a position, lengths over the size of the mechanism."""
     mechanism, found = motion.mechanism, []
-    size, places = mechanism_size(mechanism), first_points(mechanism)
+    size, places = mechanism.size, first_points(mechanism)
     motion.rows.fetch(pose_outputs(mechanism), motion.evaluate)  # all in one program
     wheels = mechanism.higher
     for name, link in mechanism.links.items():

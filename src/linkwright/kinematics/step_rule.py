@@ -19,7 +19,6 @@ from linkwright.joints.pose import Rotor
 from linkwright.kinematics.closure import Coordinate
 from linkwright.kinematics.groups import Placed, carried, moved, state_name
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.mechanism.geometry import mechanism_size
 
 #: Largest correction, and largest misfit of both ends' rates, as share of the step.
 CORRECTION, MISFIT = 0.1, 0.01
@@ -105,7 +104,7 @@ class StepRule:
             way, off = _angle(before, value.now), _angle(start, value.now)
         else:
             assert value is not None
-            scale = 1.0 / mechanism_size(self.motion.mechanism) if joint.slides else 1.0
+            scale = 1.0 / self.motion.mechanism.size if joint.slides else 1.0
             state = f"{name}.s" if joint.slides else f"{name}.angle"
             way = value - self._state(f"before:{state}", state, value)
             off = value - self.motion.trace.state(state)

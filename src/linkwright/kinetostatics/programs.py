@@ -19,7 +19,6 @@ from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.self_check import ForceChecks
 from linkwright.kinetostatics.trace import ForceTrace, Size, trace_forces
 from linkwright.kinetostatics.traced_loads import traced_magnitude
-from linkwright.mechanism.geometry import mechanism_size
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.friction_stage import SolvedFriction, Wrenches
@@ -111,7 +110,7 @@ class ForcePrograms:
     @cached_property
     def checks(self) -> ForceChecks:
         """What of them is checked."""
-        return ForceChecks(self.outputs, self.motion.outputs, mechanism_size(self.motion.mechanism))
+        return ForceChecks(self.outputs, self.motion.outputs, self.motion.mechanism.size)
 
     def program(self, names: tuple[str, ...]) -> NumpyProgram:
         """The program for some outputs, of the forces or of the motion."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields
@@ -222,28 +221,6 @@ class Mechanism(Frozen):
         while touching := [each for each in welds if each & found and not each <= found]:
             found = found.union(*touching)
         return frozenset(found)
-
-    def ground_place(self, link: str, point: str) -> complex:
-        """Where a point of the frame, or of a link that is welded to it, stands in frame axes: x + iy, m."""
-        turn, shift = self._ground_poses[link]
-        return shift + turn * complex(*self.link(link).points[point])
-
-    @cached_property
-    def _ground_poses(self) -> dict[str, tuple[complex, complex]]:
-        """Unit turn and shift of the axes of the frame and of every link welded to it, also through others."""
-        poses = {"frame": (1.0 + 0j, 0j)}
-        open_ends = ["frame"]
-        while open_ends:
-            held = open_ends.pop()
-            for weld in self.welds.values():
-                other = next((each for each in weld.joined if each not in poses), None)
-                if held not in weld.joined or other is None:
-                    continue
-                turn = poses[held][0] * cmath.rect(1.0, weld.turn_of(other, self))
-                at = poses[held][1] + poses[held][0] * complex(*self.link(held).points[weld.at])
-                poses[other] = (turn, at - turn * complex(*self.link(other).points[weld.at]))
-                open_ends.append(other)
-        return poses
 
     def pin_links(self, name: str) -> tuple[str, ...]:
         """The links on the pin of that name; none where there is no such pin."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 from collections.abc import Iterator, Mapping
 from functools import reduce
 from itertools import combinations
@@ -74,7 +75,7 @@ def four_bars(mechanism: Mechanism) -> tuple[FourBar, ...]:
             continue
         for a, b, coupler in _couplers(mechanism, pins, (first, a0), (second, b0)):
             ends = {first: (a0, a), coupler: (a, b), second: (b0, b)}
-            frame = mechanism.ground_place(held[b0], b0) - mechanism.ground_place(held[a0], a0)
+            frame = _ground_place(mechanism, held[b0], b0) - _ground_place(mechanism, held[a0], a0)
             lengths = {"frame": abs(frame)}
             lengths |= {link: _length(mechanism, link, *pair) for link, pair in ends.items()}
             named = {"frame": (f"{held[a0]}.{a0}", f"{held[b0]}.{b0}")}
@@ -128,3 +129,26 @@ class Grashof(Metric):
             numbers: dict[str, object] = {"s": s, "l": longest, "p": p, "q": q, "shortest": loop.shortest}
             remark = Remark(f"grashof.{loop.type}", numbers, warning=loop.type == "change_point")
             yield self.value(analysis, loop.name, loop.margin, remarks=(remark,))
+
+
+def _ground_place(mechanism: Mechanism, link: str, point: str) -> complex:
+    """Where a point of the frame, or of a link that is welded to it, stands in frame axes: x + iy, m."""
+    turn, shift = _ground_poses(mechanism)[link]
+    return shift + turn * complex(*mechanism.link(link).points[point])
+
+
+def _ground_poses(mechanism: Mechanism) -> dict[str, tuple[complex, complex]]:
+    """Unit turn and shift of the axes of the frame and of every link that is welded to it, also through others."""
+    poses = {"frame": (1.0 + 0j, 0j)}
+    open_ends = ["frame"]
+    while open_ends:
+        held = open_ends.pop()
+        for weld in mechanism.welds.values():
+            other = next((each for each in weld.joined if each not in poses), None)
+            if held not in weld.joined or other is None:
+                continue
+            turn = poses[held][0] * cmath.rect(1.0, weld.turn_of(other, mechanism))
+            at = poses[held][1] + poses[held][0] * complex(*mechanism.link(held).points[weld.at])
+            poses[other] = (turn, at - turn * complex(*mechanism.link(other).points[weld.at]))
+            open_ends.append(other)
+    return poses

@@ -15,7 +15,6 @@ from linkwright.joints.toothed import Numbers, whole
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.positions import Positions
-from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.study.ranges import Range, parse_range
@@ -136,7 +135,7 @@ def refuse_misfits(mechanism: Mechanism, addresses: Iterable[str]) -> None:
     """
     if not mechanism.higher:
         return
-    size = mechanism_size(mechanism)
+    size = mechanism.size
     for address in addresses:
         wrong = misfits(mechanism, address, SMALL * max(abs(mechanism.dimension(address)), size))
         if wrong:

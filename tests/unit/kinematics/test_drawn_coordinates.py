@@ -5,7 +5,6 @@ import pytest
 
 import linkwright as lw
 from linkwright.kinematics.constraint_equations import drawn_coordinates
-from linkwright.mechanism.geometry import mechanism_size
 
 
 def test_drawn_coordinates_are_those_of_the_links_origins() -> None:
@@ -28,7 +27,7 @@ driver: {turn: crank, about: O1, speed: 1 rad/s, start: 40 deg}
     )
     found = drawn_coordinates(lw.loads(text + f"drawing: {{{drawn}}}\n"))
     assert found is not None
-    size, rows = mechanism_size(machine), found.reshape(-1, 3)
+    size, rows = machine.size, found.reshape(-1, 3)
     for (name, link), (x, y, angle) in zip(machine.links.items(), rows, strict=True):
         point, local = next(iter(link.points.items()))
         turned = complex(*local) * np.exp(1j * motion.link(name).angle[0])

@@ -31,7 +31,6 @@ from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.reach_sentences import passage_notes
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.mechanism.geometry import mechanism_size
 from linkwright.mechanism.mechanism import Cycle
 
 
@@ -162,7 +161,7 @@ def test_steps_of_a_sliding_driver_are_shares_of_the_size(law: str, pace: float,
     """0.05 of the size is one part, and 24 are there at least; the law's peak rate counts, not that of positions."""
     mechanism = lw.loads(PUSHED.replace("LAW", law))
     solver, positions = MotionSolver(mechanism), over_cycle(mechanism, steps)
-    by_size = int(np.ceil(pace / steps / mechanism_size(mechanism) / 0.05))
+    by_size = int(np.ceil(pace / steps / mechanism.size / 0.05))
     assert parts(solver, positions) == max(by_size, -(-24 // steps))
     assert parts(solver, replace(positions, cycle=False)) == 1
 
@@ -247,12 +246,8 @@ def test_how_near_a_dyad_comes_is_the_least_of_its_square_and_of_its_pins_distan
     gap = motion.point("A").position - [2.0, 0.0]
     square = (gap**2).sum(axis=1)
     cosine = (3**2 + 2.5**2 - square) / (2 * 3 * 2.5)
-    assert found == pytest.approx(
-        np.minimum(1.0 - cosine**2, square / mechanism_size(mechanism) ** 2), rel=1e-10
-    )
-    assert (found < 1.0 - cosine**2 - 1e-6).any() and (
-        found > square / mechanism_size(mechanism) ** 2 - 1e-12
-    ).any()
+    assert found == pytest.approx(np.minimum(1.0 - cosine**2, square / mechanism.size**2), rel=1e-10)
+    assert (found < 1.0 - cosine**2 - 1e-6).any() and (found > square / mechanism.size**2 - 1e-12).any()
 
 
 def test_what_shows_passages_is_named_where_steps_are_fine_and_guides_stay_apart() -> None:

@@ -16,7 +16,6 @@ from linkwright.engine.program import Program
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.positions import at_times
 from linkwright.kinematics.step_rule import CORRECTION, LARGEST, MISFIT, ROOM, StepRule, _angle
-from linkwright.mechanism.geometry import mechanism_size
 
 BEGIN = 0.21
 
@@ -63,7 +62,7 @@ def coordinates(h: float) -> dict[str, tuple[np.ndarray, np.ndarray]]:
             if joint in found.mechanism.guides:
                 slide = motion.joint(joint)
                 both = np.stack([slide.displacement, slide.velocity, slide.acceleration])
-                both /= mechanism_size(found.mechanism)
+                both /= found.mechanism.size
             else:
                 link = motion.link(child)
                 both = np.stack([link.angle, link.angular_velocity, link.angular_acceleration])
@@ -109,7 +108,7 @@ def test_rates_that_do_not_fit_the_way_are_refused(which: str, share: float) -> 
     h = 0.006
     rows, carried = coordinates(h), before(h)
     change = max(abs(way) for way, _, _ in parts(h, rows).values())
-    size = mechanism_size(traced()[0].mechanism)
+    size = traced()[0].mechanism.size
     for name, (_, _, gap) in every(parts(h, rows).items(), least=3):
         scale = size if name.startswith("slot:") else 1.0
         wrong = share * (MISFIT * change + ROOM) * scale / (0.5 * h if which == "rate" else h * h / 12.0)
@@ -125,7 +124,7 @@ def test_starts_far_from_the_root_are_refused(share: float) -> None:
     h = 0.006
     rows, carried = coordinates(h), before(h)
     change = max(abs(way) for way, _, _ in parts(h, rows).values())
-    size, wrong = mechanism_size(traced()[0].mechanism), share * (CORRECTION * change + ROOM)
+    size, wrong = traced()[0].mechanism.size, share * (CORRECTION * change + ROOM)
     for name in every(rows, least=3):
         given = dict(carried)
         if name.startswith("slot:"):
