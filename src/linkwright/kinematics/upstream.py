@@ -1,4 +1,4 @@
-"""What is followed from position to position: groups without closed form, turns that are counted, and what they hang on."""
+"""What is followed between positions: groups without closed form, counted turns, and what they hang on."""
 
 from __future__ import annotations
 
