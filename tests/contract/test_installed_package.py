@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.contract import curved_slot_of_a_package as curved
 from tests.contract import drums_of_a_package as drums
 from tests.contract import triad_of_a_package as triad
 from tests.contract.settling import LAW
@@ -19,6 +20,7 @@ ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "en" / "how-to" / "own_elements.md"
 POINTS = """[linkwright.joints]
 pin_in_slot = slots:PinInSlot
+curved_slot = slots:CurvedSlot
 tape = drums:Tape
 [linkwright.loads]
 wind = slots:Wind
@@ -104,6 +106,7 @@ assert main(["check", "own.yaml"]) == 0
 assert main(["draw", "own.yaml", "--output", "own.svg"]) == 0 and "lever" in open("own.svg").read()
 assert main(["solve", "own.yaml", "--steps", "8"]) == 0
 assert main(["export", "own.yaml", "--output", "own.csv"]) == 0
+assert main(["export", "own.yaml", "--to", "own.html"]) == 0
 try:
     mechanism.joints["slot"].sums(mechanism)
     raise SystemExit("sums")
@@ -115,8 +118,8 @@ print("all is well")
 
 def run(folder: Path, way: str, more: str = "") -> str:
     """What a process prints in which the package is installed in a folder."""
-    (code,) = re.findall(r"^```py\n(.*?)^```", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
-    (folder / "slots.py").write_text(code + LAW, "utf-8")
+    code = re.findall(r"^```py(?:thon)?\n(.*?)^```", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
+    (folder / "slots.py").write_text("\n\n".join(code) + LAW, "utf-8")
     (folder / "trammels.py").write_text(triad.PACKAGE, "utf-8")
     (folder / "drums.py").write_text(drums.PACKAGE, "utf-8")
     info = folder / "slots-1.0.dist-info"
@@ -133,7 +136,8 @@ def run(folder: Path, way: str, more: str = "") -> str:
 
 def test_an_installed_package_of_elements(tmp_path: Path) -> None:
     """Without a closed form for the group of the package's joint."""
-    assert "all is well" in run(tmp_path, "followed")
+    printed = run(tmp_path, "followed", curved.PROGRAM)
+    assert all(line in printed for line in ("all is well", "the curved slot too"))
 
 
 @pytest.mark.rotating
