@@ -1,9 +1,10 @@
-"""Imports go only down the stages; the core starts without slow packages; analysis knows no front end."""
+"""Imports go only down the stages, in no circle; slow packages are imported late; analysis knows no front end."""
 
 import ast
 import subprocess
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -52,6 +53,11 @@ def package_of(module: Path) -> str:
     return module.parts[0].removesuffix(".py")
 
 
+def dotted(module: Path) -> str:
+    """The name by which a file is imported."""
+    return ".".join(("linkwright", *module.with_suffix("").parts)).removesuffix(".__init__")
+
+
 KNOWN_TO_ENGINE = (
     "linkwright.engine",
     "linkwright.errors",
@@ -87,6 +93,7 @@ def test_an_upward_import_is_found() -> None:
         return upward(imports(ast.parse(source)), package)
 
     assert found("def late():\n    from linkwright.kinematics import motion", "structure")
+    assert found("if TYPE_CHECKING:\n    from linkwright.kinematics import motion", "structure")
     assert found("import linkwright.plot.curves", "metrics")
     assert not found("from linkwright.structure import analysis", "kinematics")
 
@@ -97,6 +104,45 @@ def test_imports_go_down(package: str) -> None:
     for module in every(each for each in MODULES if package_of(each) == package):
         bad += [f"{module}, {each}" for each in upward(imports_of(module), package)]
     assert bad == []
+
+
+def files_imported(names: Iterable[str], files: Iterable[str]) -> set[str]:
+    """The files that hold dotted names: the module itself, or the one of which something is imported."""
+    known = set(files)
+    return {name if name in known else name.rpartition(".")[0] for name in names} & known
+
+
+def circle(arrows: Mapping[str, Iterable[str]]) -> list[str]:
+    """Files of which each imports the one before it, the last one the same as the first; none without a circle."""
+    try:
+        TopologicalSorter(arrows).prepare()
+    except CycleError as error:
+        return list(error.args[1])
+    return []
+
+
+def test_a_circle_of_files_is_found() -> None:
+    """One import at the head, one inside a function, one for type checkers."""
+    texts = {
+        "linkwright.a": "from linkwright.b import first",
+        "linkwright.b": "def late():\n    from linkwright import c",
+        "linkwright.c": "if TYPE_CHECKING:\n    import linkwright.a",
+        "linkwright.d": "from linkwright.a import first",
+    }
+    names = {name: [each for _, each in imports(ast.parse(text))] for name, text in texts.items()}
+    arrows = {name: files_imported(each, texts) for name, each in names.items()}
+    assert sorted(set(circle(arrows))) == ["linkwright.a", "linkwright.b", "linkwright.c"]
+    for one in ("linkwright.a", "linkwright.b", "linkwright.c"):
+        assert circle({**arrows, one: ()}) == []
+
+
+def test_no_files_import_each_other_in_a_circle() -> None:
+    paths = {dotted(module): module for module in every((Path("__init__.py"), *MODULES), least=900)}
+    arrows = {
+        name: files_imported((each for _, each in imports_of(module)), paths) - {name}
+        for name, module in paths.items()
+    }
+    assert circle(arrows) == []
 
 
 @pytest.mark.parametrize("module", ENGINE, ids=str)

@@ -4,25 +4,21 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Indices
+from linkwright.core.arrays import Floats
 from linkwright.elements.topology import Group, TreeJoint
 from linkwright.engine.trace import Scalar
-from linkwright.kinematics.assembly import AssemblyError
+from linkwright.kinematics.assembly import Assembly, AssemblyError
 from linkwright.kinematics.branch import Branch, Way, follow, lawful, near_enough, straight
+from linkwright.kinematics.design import Design
 from linkwright.kinematics.drawn_assembly import DrawnAssembly
 from linkwright.kinematics.followed_formula import TURN, FollowedGroups, followed_formula
-from linkwright.kinematics.followed_way import Followed, Stop, Stretch
 from linkwright.kinematics.groups import state_name
-from linkwright.kinematics.positions import Positions, coordinate_text, off_law, rotary
+from linkwright.kinematics.positions import coordinate_text, rotary
+from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.rotation_sums import Key, RotationSums
-
-if TYPE_CHECKING:
-    from linkwright.kinematics.design import Design
-    from linkwright.kinematics.solver import MotionSolver
 
 #: What Newton's method may correct of a drawing (rad, or share of the size) that counts as exact, and how many steps
 #: it may take there.
@@ -36,9 +32,9 @@ SAME = 1e-6
 class Follower:
     """Follows the groups without closed form of one design of a mechanism."""
 
-    def __init__(self, solver: MotionSolver, design: Design) -> None:
-        self.solver, self.design, self.mechanism = solver, design, design.mechanism
-        self.groups = FollowedGroups(followed_formula(solver.with_flips(()).programs), design)
+    def __init__(self, programs: MotionPrograms, assembly: Assembly, design: Design) -> None:
+        self.assembly, self.structure = assembly, programs.structure
+        self.mechanism, self.groups = design.mechanism, FollowedGroups(followed_formula(programs), design)
         self.drivers = list(self.mechanism.drivers)
         self.rotary = np.array(self.groups.formula.rotary, dtype=bool)
 
@@ -64,7 +60,7 @@ class Follower:
     @cached_property
     def _drawn(self) -> tuple[Floats, Floats]:
         """The assembly that the drawing shows: the nearest one where it does not close."""
-        assembly, groups = self.solver.assembly, self.groups
+        assembly, groups = self.assembly, self.groups
         q = np.array([assembly.inputs[name] for name in self.drivers])
         rough = np.array([self._as_drawn(*each) for each in groups.formula.steps])
         root, open_ = groups.once(rough.tolist(), q.tolist(), [0.0] * len(q))
@@ -82,8 +78,8 @@ class Follower:
     def _as_drawn(self, group: Group, step: TreeJoint) -> float:
         """The coordinate of a chain's joint in the drawing."""
         drawn, drawing, name = (
-            self.solver.assembly.states,
-            self.solver.assembly.drawing,
+            self.assembly.states,
+            self.assembly.drawing,
             state_name(group, step),
         )
         if f"{name}.x" in drawn:
@@ -97,7 +93,7 @@ class Follower:
     def _nearest(self, rough: Floats, q: Floats) -> tuple[Floats, Floats] | None:
         """The assembly nearest to the drawing, if its closed forms are in their modes there; the drawing itself where
         it closes, but is singular."""
-        drawing, groups = self.solver.assembly.drawing, self.groups
+        drawing, groups = self.assembly.drawing, self.groups
         points = {
             (link, point): (float(at[0]), float(at[1]))
             for group in groups.formula.upstream
@@ -126,10 +122,6 @@ class Follower:
         )
 
     # ways ---------------------------------------------------------------------------------------
-    def follow(self, positions: Positions, apart: bool = False) -> Followed:
-        """The way through all positions, from the drawing on; ``apart``: they are no cycle, but each for itself."""
-        return _Journey(self, positions, apart).followed()
-
     def between(self, begin: Floats, end: Floats, start: Floats) -> Branch:
         """The straight way from driver coordinates (d,) to others, from the assembly ``start`` (n,)."""
         return follow(self.groups, straight(begin, end, self.groups.unit), start.tolist())
@@ -171,7 +163,7 @@ class Follower:
 
     def gains(self, lap: Floats | float) -> Floats:
         """Whole turns (n,), rad, that rotations gain by higher pairs while the drivers turn by ``lap`` (d,)."""
-        sums = RotationSums(self.mechanism, self.solver.structure)
+        sums = RotationSums(self.mechanism, self.structure)
         ahead = dict(zip(self.drivers, np.broadcast_to(lap, len(self.drivers)).tolist(), strict=True))
         found = np.zeros(len(self.groups.scale))
         for k, (_, step) in enumerate(self.groups.formula.steps):
@@ -228,153 +220,3 @@ class Follower:
 def _turns(way: Floats) -> Floats:
     """Whole turns in angles, rad."""
     return np.asarray(TURN * np.round(way / TURN))
-
-
-class _Journey:
-    """The ways from the drawing through all positions, and what was found on them."""
-
-    def __init__(self, follower: Follower, positions: Positions, apart: bool) -> None:
-        self.follower, self.positions, self.apart = follower, positions, apart
-        n = positions.count
-        rows = [positions.coordinates[name][0] for name in follower.drivers]
-        self.q = np.stack(rows, axis=1) if rows else np.zeros((n, 0))
-        self.coordinates = np.full((n, len(follower.groups.scale)), math.nan)
-        self.stops: list[Stop] = []
-        self.stop_of = np.full(n, -1)
-        self.returns: bool | None = None
-        self.breaks: list[int] = []
-        self.stretches: list[Stretch] = []
-
-    def followed(self) -> Followed:
-        self._all()
-        return Followed(
-            self.follower,
-            self.q,
-            self.follower.states(self.coordinates),
-            self.coordinates,
-            tuple(self.stops),
-            self.stop_of,
-            frozenset(self.breaks),
-            self.positions.closed,
-            self.returns,
-            tuple(self.stretches),
-        )
-
-    def _all(self) -> None:
-        follower = self.follower
-        start = self._leg(follower.drawn_inputs, follower.drawn, 0)
-        if start is not None and self.positions.count > 1 and self.lawful:
-            self._along_laws(start)
-        elif start is not None and self._in_line():
-            self._along_line(start)
-        elif start is not None or self.apart:
-            self._apart(start, 1)
-
-    @cached_property
-    def lawful(self) -> bool:
-        """Whether the positions follow each other in time by the drivers' laws."""
-        steps = np.diff(self.positions.time)
-        if not ((steps > 0.0).all() or (steps < 0.0).all()):
-            return False
-        return off_law(self.follower.mechanism, self.positions) is None
-
-    def _in_line(self) -> bool:
-        """Whether the drivers' coordinates follow each other on one straight line."""
-        if self.positions.count < 3 or self.positions.closed:
-            return False
-        share = self._shares()
-        on_line = self.q[0] + share[:, None] * (self.q[-1] - self.q[0])
-        return bool((np.diff(share) > 0.0).all() and np.allclose(on_line, self.q, rtol=1e-14, atol=1e-14))
-
-    def _shares(self) -> Floats:
-        way = self.q[-1] - self.q[0]
-        lead = int(np.argmax(np.abs(way / self.follower.groups.unit)))
-        return np.asarray((self.q[:, lead] - self.q[0, lead]) / (way[lead] or 1.0))
-
-    def _along_line(self, start: Floats) -> None:
-        share = self._shares()
-        branch = self.follower.between(self.q[0], self.q[-1], start)
-        reached = self._read(branch, share, np.arange(self.positions.count))
-        if not branch.complete and reached < self.positions.count:
-            self._stopped(branch, np.arange(reached, self.positions.count))
-            if self.apart:
-                self._apart(self.coordinates[reached - 1], reached)
-
-    def _read(self, branch: Branch, places: Floats, order: Indices, gained: Floats | float = 0.0) -> int:
-        """The positions in ``order`` that a branch reaches, at their ``places`` (n,) on its way; how many."""
-        stretch = Stretch(branch, places, gained)
-        found = stretch.read(self.follower, places[order], self.q[order])
-        good = np.isfinite(found).all(axis=1)
-        count = len(order) if good.all() else int(np.argmin(good))
-        self.coordinates[order[:count]] = found[:count]
-        self.stretches.append(stretch)
-        return count
-
-    # one leg ------------------------------------------------------------------------------------
-    def _leg(self, begin: Floats, start: Floats, index: int) -> Floats | None:
-        """The straight way to one position; turning drivers go the shorter way, or else the other way round."""
-        follower, goal = self.follower, self.q[index]
-        goal = begin + follower.nearest_drive(goal - begin)
-        ways = [goal]
-        if follower.rotary.sum() == 1:
-            ways.append(goal - np.where(follower.rotary, TURN * np.where(goal < begin, -1.0, 1.0), 0.0))
-        first: Branch | None = None
-        for end in ways:
-            branch = follower.between(begin, end, start)
-            first = first or branch
-            if branch.complete and branch.last is not None:
-                self.coordinates[index] = branch.last
-                return branch.last
-        assert first is not None
-        self._stopped(first, np.array([index]))
-        return None
-
-    def _apart(self, here: Floats | None, first: int) -> None:
-        """Positions one after the other, each from the last one that was reached."""
-        follower = self.follower
-        begin = self.q[first - 1] if here is not None else follower.drawn_inputs
-        here = follower.drawn if here is None else here
-        for i in range(first, self.positions.count):
-            moved = self._leg(begin, here, i)
-            if moved is not None:
-                begin, here = self.q[i], moved
-
-    def _stopped(self, branch: Branch, index: Indices) -> None:
-        end = branch.end
-        inputs = self.q[index[0]] if end is None else end.q
-        self.stops.append(Stop(inputs, self.follower.weakest_group(branch)))
-        self.stop_of[index] = len(self.stops) - 1
-
-    # a way by the laws -----------------------------------------------------------------------------
-    def _along_laws(self, start: Floats) -> None:
-        positions, follower = self.positions, self.follower
-        time, n, around = positions.time, positions.count, positions.period
-        begin, end = float(time[0]), float(time[0] + around if around else time[-1])
-        sense = 1.0 if end >= begin else -1.0
-        branch = follow(follower.groups, follower.lawful(begin, end), start.tolist())
-        reached = self._read(branch, sense * time, np.arange(n))
-        if branch.complete and reached == n:
-            if around and branch.last is not None:
-                gap = follower.nearest_way(branch.last - start) / follower.groups.scale
-                self.returns = bool(np.abs(gap).max() < SAME)
-            return
-        rest = np.arange(reached, n)
-        self._stopped(branch, rest)
-        self.breaks.append(reached - 1)
-        if self.apart and not positions.is_way:
-            self._apart(self.coordinates[reached - 1], reached)
-        elif around and len(rest):
-            self._backwards(start, rest)
-
-    def _backwards(self, start: Floats, rest: Indices) -> None:
-        """From the first position of a closed cycle back to what was not reached."""
-        positions, follower = self.positions, self.follower
-        around = positions.period
-        assert around is not None
-        begin, places = float(positions.time[0]), around - positions.time
-        way = follower.lawful(begin, float(positions.time[rest[0]]) - around, around)
-        back = follow(follower.groups, way, start.tolist())
-        reached = self._read(back, places, rest[::-1], follower.gains(way.lap))
-        behind = rest[: len(rest) - reached]
-        if not back.complete and len(behind):
-            self._stopped(back, behind[-1:])

@@ -14,7 +14,7 @@ from linkwright.engine.recently_made import Recent
 from linkwright.kinematics.assembly import Assembly, assemble
 from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.design import Design
-from linkwright.kinematics.followed_way import Followed
+from linkwright.kinematics.followed_way import Followed, followed
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.programs import AS_IT_IS, Manner, MotionPrograms, motion_programs
@@ -93,11 +93,14 @@ class MotionSolver:
 
     @cached_property
     def _own_follower(self) -> Follower:
-        return Follower(self, self.nominal)
+        return self._following(self.nominal)
+
+    def _following(self, design: Design) -> Follower:
+        return Follower(self.with_flips(()).programs, self.assembly, design)
 
     def follower(self, design: Design | None = None) -> Follower:
         """What follows the groups without closed form."""
-        return self._own_follower if design is None or design is self.nominal else Follower(self, design)
+        return self._own_follower if design is None or design is self.nominal else self._following(design)
 
     def follow(
         self, positions: Positions, design: Design | None = None, apart: bool = False
@@ -106,14 +109,14 @@ class MotionSolver:
         if not self.motion.next_states:
             return None
         if self._assembly is not None or not (design is None or design is self.nominal):
-            return self.follower(design).follow(positions, apart)
+            return followed(self.follower(design), positions, apart)
         key = (positions.key, apart)
-        return _ways.get(self.mechanism, key, lambda: self._own_follower.follow(positions, apart))
+        return _ways.get(self.mechanism, key, lambda: followed(self._own_follower, positions, apart))
 
     def states(self, positions: Positions, design: Design | None = None) -> dict[str, Floats]:
         """Chain coordinates of groups without closed form at every position."""
-        followed = self.follow(positions, design)
-        return {} if followed is None else dict(followed.states)
+        found = self.follow(positions, design)
+        return {} if found is None else dict(found.states)
 
     def evaluate(
         self,

@@ -14,10 +14,10 @@ import linkwright as lw
 from linkwright.cycle_programs import iterated_groups
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.branch import Branch, Node, _Walk, follow, straight
-from linkwright.kinematics.continuation import Follower, _Journey
+from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.followed_formula import FollowedGroups, Root
-from linkwright.kinematics.followed_way import Followed
+from linkwright.kinematics.followed_way import Followed, _Journey
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.reach_sentences import branch_notes
 from linkwright.kinematics.solver import MotionSolver
@@ -335,7 +335,7 @@ def test_a_second_sweep_follows_no_way_again(monkeypatch: pytest.MonkeyPatch) ->
 
     mechanism = lw.load("gallery:triad")
     first, anew = swept(mechanism), swept(lw.load("gallery:triad"))
-    monkeypatch.setattr(Follower, "follow", lambda *_: pytest.fail("followed again"))
+    monkeypatch.setattr(_Journey, "followed", lambda *_: pytest.fail("followed again"))
     monkeypatch.setattr(iterated_groups._Way, "__init__", lambda *_: pytest.fail("traced again"))
     second = swept(mechanism)
     assert np.isfinite(second["input_torque", "rms"]).all()
