@@ -10,7 +10,6 @@ from linkwright.core.outputs import Output
 from linkwright.engine.late_import import numpy as np
 from linkwright.errors import LinkwrightError, with_remedy
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.phases import Always
 from linkwright.loads.signals import BetweenLimits, Signals, column, named_column
 from linkwright.loads.sizes import OverCycle
@@ -48,7 +47,7 @@ def magnitudes(load: Load, signals: Signals) -> Floats:
         return given.size.values(signals)
     if given.size.ramp and isinstance(given.phase, Always):
         raise LinkwrightError(with_remedy(Sentence("loads.ramp_without_phase"), Sentence("loads.add_phase")))
-    course = CycleCourse(load, given, signals)
+    course = CycleCourse(load, signals)
     active, count = course.activity(), len(signals.time)
     where = active.where & signals.ok
     share: Any = active.share
@@ -67,27 +66,27 @@ def activity(load: Load, signals: Signals) -> Activity:
 
     Raises LinkwrightError where the phase does not exist in the cycle.
     """
-    return CycleCourse(load, load.magnitude, signals).activity()
+    return CycleCourse(load, signals).activity()
 
 
-def switch_times(magnitude: Magnitude, signals: Signals) -> tuple[Floats, bool]:
+def switch_times(load: Load, signals: Signals) -> tuple[Floats, bool]:
     """Times, s, at which a load begins or ends to act or its size bends, and whether these are all of them.
 
     Known beforehand: limit positions, and inputs of one driver of constant speed. Times may lie a whole number of
     cycles away.
     """
-    ends, complete = magnitude.phase.ends(signals)
-    return np.append(ends, magnitude.size.bends(signals)), complete
+    ends, complete = load.magnitude.phase.ends(signals)
+    return np.append(ends, load.magnitude.size.bends(signals)), complete
 
 
 class CycleCourse:
     """What the magnitude of a load sees, as arrays (n,) over the positions of signals; see
     :class:`linkwright.loads.signals.Course`."""
 
-    def __init__(self, load: Load, magnitude: Magnitude, signals: Signals) -> None:
-        self.magnitude, self.signals = magnitude, signals
+    def __init__(self, load: Load, signals: Signals) -> None:
+        self.magnitude, self.signals = load.magnitude, signals
         self._address, self._dimensions = f"loads.{load.name}.", load.dimensions()
-        self._constants = magnitude.constants
+        self._constants = self.magnitude.constants
         self._ends: dict[str, Floats] = {}
 
     def activity(self) -> Activity:
@@ -151,11 +150,11 @@ class CycleCourse:
             inside, passed = each.place(self.signals)
             where, share = where | inside, np.where(inside, passed, share)
             if phase.in_part:
-                self._meet(each, inside, phase.output)
+                self._store_limits(each, inside, phase.output)
         return where, share
 
-    def _meet(self, stretch: Stretch, inside: Flags, output: Output) -> None:
-        """Notes the output at the limits of the stroke in which positions lie, with the turns of an angle."""
+    def _store_limits(self, stretch: Stretch, inside: Flags, output: Output) -> None:
+        """Stores the output at the limits of the stroke in which positions lie, with the turns of an angle."""
         first, last = stretch.begin.value, stretch.end.value
         turns: Any = 0.0
         if output.kind == "angle" and abs(last - first) < TURN:

@@ -302,7 +302,7 @@ class CycleGrid:
             return self._wrapped(found)
         signals, turning = MotionSignals(self._motion), list[FrictionTerm | RelativeAngle]()
         for load in self._motion.mechanism.loads.values():
-            known, complete = switch_times(load.magnitude, signals)
+            known, complete = switch_times(load, signals)
             found.append(known)
             if not complete:
                 switched = self._bisected(load, signals)
