@@ -93,14 +93,11 @@ def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
     """What the magnitudes of loads of a mechanism take."""
     given = {each.name: each.magnitude for each in loads}
     sizes = given.values()
+    limits = [each.limits for each in sizes if each.limits is not None]
     return AlongInput(
         frozenset(given),
-        tuple(dict.fromkeys(each.limits.output for each in sizes if each.limits is not None)),
-        tuple(
-            dict.fromkeys(
-                each.limits.output for each in sizes if each.limits is not None and each.limits.in_part
-            )
-        ),
+        tuple(dict.fromkeys(each.output for each in limits)),
+        tuple(dict.fromkeys(each.output for each in limits if each.in_part)),
         tuple(dict.fromkeys(each.rate for each in sizes if each.rate is not None)),
         {pair: near for each in sizes for pair, near in each.angles(mechanism).items()},
         {
