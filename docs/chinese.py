@@ -301,6 +301,7 @@ NAMES = {
     "reporting": "报告耗时调用的进度",
     "solve_motion": "运动分析",
     "input_range": "输入能走的范围及两端的杆组",
+    "prove": "运动的哪些步已证明保持装配，裕度多大",
     "LimitPosition": "一个极限位置",
     "limit_positions": "输出的极限位置",
     "Balancing": "配重及加配重前后的比较",

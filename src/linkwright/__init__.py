@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from linkwright.kinematics.input_range import input_range as input_range
     from linkwright.kinematics.limits import LimitPosition as LimitPosition
     from linkwright.kinematics.limits import limit_positions as limit_positions
+    from linkwright.kinematics.proof import prove as prove
     from linkwright.kinetostatics.forces import Forces as Forces
     from linkwright.kinetostatics.run import solve_forces as solve_forces
     from linkwright.laws.base import MotionLaw as MotionLaw

@@ -36,6 +36,9 @@ def data(solved: Solved, options: argparse.Namespace) -> dict[str, object]:
         "warnings": [each.removeprefix("! ") for each in closeness(motion, "en")],
         "findings": [finding_data(finding) for finding in solved.warnings],
     }
+    if options.prove:
+        proof = solved.proof
+        found["proof"] = {"said": proof.explain(), "proved": proof.proved, "margin": proof.margin}
     if forces is not None:
         found["static"] = forces.static
         found["checks"] = {

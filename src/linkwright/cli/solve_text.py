@@ -28,6 +28,7 @@ def report(solved: Solved, options: argparse.Namespace, session: Session) -> lis
         session.table(solve_remarks.closeness(solved.motion, session.language), heads=0),
         solve_remarks.failures(solved, say, session.language, degrees=degrees),
         [say("solve.note", text=in_language(note, session.language)) for note in solved.notes],
+        [say("solve.note", text=solved.proof.explain(session.language))] if options.prove else [],
         [session.finding(finding) for finding in solved.warnings],
     ):
         lines += ["", *paragraph] if paragraph else []

@@ -21,6 +21,7 @@ from linkwright.kinematics.cycle import time_span
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.position_list import MOST
+from linkwright.kinematics.proof import Proof, prove
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
@@ -61,6 +62,11 @@ class Solved:
         """Notes of motion and forces, and on the rows."""
         rows = (Sentence("solve.first_turn", turns=self.turns),) if self.turns else ()
         return (*self.motion.notes, *(self.forces.notes if self.forces is not None else ()), *rows)
+
+    @cached_property
+    def proof(self) -> Proof:
+        """In which steps of the motion the assembly is proved to be kept."""
+        return prove(self.motion)
 
     @cached_property
     def force_scale(self) -> float:

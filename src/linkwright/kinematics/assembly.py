@@ -16,9 +16,8 @@ from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.angles import geared, turn_state
-from linkwright.kinematics.groups import dyad_shape, iterated, state_name
+from linkwright.kinematics.groups import counted, dyad_shape, iterated, state_name
 from linkwright.kinematics.trace import MotionTrace, trace_motion
-from linkwright.kinematics.upstream import counted
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import nearest, offered

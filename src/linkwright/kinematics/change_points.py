@@ -24,12 +24,12 @@ from linkwright.core.search import edge, ends, lowest
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.trace import Scalar, minimum
 from linkwright.kinematics.followed_way import Followed
+from linkwright.kinematics.groups import upstream
 from linkwright.kinematics.passage import Kind, Passage
 from linkwright.kinematics.passing_proof import FINE, NEAR, measures, modal
 from linkwright.kinematics.positions import Positions, at_times, off_law
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.kinematics.upstream import upstream
 from linkwright.structure import Structure
 
 #: A refined minimum of the quality within this distance of zero is a touch; of the squared distance of two pins,

@@ -172,12 +172,11 @@ class Follower:
                 found[k] = sum(factor * ahead.get(name, 0.0) for (_, name), factor in terms.items())
         return _turns(found)
 
-    def gained(self, coordinates: Floats) -> dict[Key, float]:
-        """What rotations of links and displacements of guides gain from the first to the last coordinates (m, n)."""
+    def named(self, coordinates: Floats) -> dict[Key, Floats]:
+        """Rotations of links and displacements of guides (m,) from coordinates (m, n)."""
         steps = [step for _, step in self.groups.formula.steps]
-        ahead = (coordinates[-1] - coordinates[0]).tolist()
         keys = [("turn", step.child) if step.turns else ("slide", step.joint) for step in steps]
-        return dict(zip(keys, ahead, strict=True))
+        return dict(zip(keys, coordinates.T, strict=True))
 
     def moved(self, coordinates: Floats, start: float, time: Floats) -> dict[str, Floats]:
         """States at some times (m,), s, followed by the drivers' laws from the coordinates (n,) at the time

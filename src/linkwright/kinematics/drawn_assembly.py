@@ -13,8 +13,8 @@ from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.tangent import Slopes
 from linkwright.engine.trace import Scalar, Value
 from linkwright.kinematics.followed_formula import FollowedGroups, state_places
+from linkwright.kinematics.groups import counted
 from linkwright.kinematics.trace import MotionTrace, trace_motion
-from linkwright.kinematics.upstream import counted
 
 #: Largest change of a coordinate in one step, and the change at which it is found: rad, or share of the size.
 LARGEST, FOUND = 0.3, 1e-6

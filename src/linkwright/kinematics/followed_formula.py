@@ -24,9 +24,8 @@ from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.states import inputs_as_fields
 from linkwright.engine.trace import Mask, Scalar
 from linkwright.kinematics.angles import geared, turn_state
-from linkwright.kinematics.groups import in_one_step, iterated, state_name
+from linkwright.kinematics.groups import counted, in_one_step, iterated, state_name, upstream
 from linkwright.kinematics.programs import MotionPrograms
-from linkwright.kinematics.upstream import counted, upstream
 
 if TYPE_CHECKING:
     from linkwright.kinematics.design import Design

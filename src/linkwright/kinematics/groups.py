@@ -15,10 +15,11 @@ from linkwright.engine.vector import Vec
 from linkwright.groups.base import DYADS, Chain, Dyad, Solved, WholeGroup
 from linkwright.joints.base import JOINTS
 from linkwright.joints.pose import UNTURNED, Pose, Rotor
-from linkwright.kinematics.angles import Angles, geared
+from linkwright.kinematics.angles import Angles, counted_links, geared
 from linkwright.kinematics.closure import Coordinate, cut_of, jacobian, pair_of
 from linkwright.kinematics.dimensions import Dimensions, DriverInput
 from linkwright.kinematics.equation import Equation
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.analysis import Structure
 
 #: Below this ratio of the square under the root to its best value a position is called singular.
@@ -284,6 +285,29 @@ def iterated(structure: Structure) -> tuple[Group, ...]:
 
 
 _iterated: Recent[Structure, tuple[Group, ...]] = Recent(64)
+
+
+def counted(structure: Structure, mechanism: Mechanism) -> list[str]:
+    """Links placed by closed forms or as directions whose turns a higher pair counts."""
+    pairs = {name: joint.turning for name, joint in mechanism.joints.items() if joint.higher}
+    return counted_links(structure.groups, pairs, _adds_up) if pairs else []
+
+
+def _adds_up(group: Group) -> bool:
+    return geared(group) and whole_form(group) is None
+
+
+def upstream(structure: Structure, mechanism: Mechanism) -> list[Group]:
+    """The groups without closed form, those whose turns are counted, and all that they hang on, in solving order."""
+    wanted = {link for group in iterated(structure) for link in group.links}
+    wanted.update(counted(structure, mechanism))
+    gears = {name: joint.turning for name, joint in mechanism.joints.items() if joint.higher}
+    found = []
+    for group in reversed(structure.groups):
+        if wanted & set(group.links):
+            found.append(group)
+            wanted |= {end for c in group.joints for end in (c.a, c.b, *gears.get(c.joint, ()))}
+    return found[::-1]
 
 
 def in_one_step(group: Group) -> bool:

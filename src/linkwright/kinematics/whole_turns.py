@@ -102,9 +102,10 @@ def _change(
         return _by_places(solver, unknowns, wanted, gained, duration)
     if not np.isfinite(followed.coordinates).all():
         return None
-    known = followed.follower.gained(followed.coordinates)
+    known = followed.follower.named(followed.coordinates)
     for i in wanted:
-        gained[i] = known.get(unknowns[i], gained[i])
+        if unknowns[i] in known:
+            gained[i] = float(np.diff(known[unknowns[i]])[0])
     return gained
 
 

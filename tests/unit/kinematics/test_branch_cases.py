@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.reference.adapter import driver_values, reference_system, starting_position
+from tests.reference.adapter import reference_system
+from tests.reference.assemblies import distance, other_assemblies
 from tests.reference.fine_path import FinePath
-from tests.reference.multibody import Array, Unreachable
 
 import linkwright as lw
 
@@ -81,32 +81,6 @@ def plate(gap: float, drawing: str | None = None) -> str:
         second=float(np.hypot(*(q - fixed))),
         drawing=drawing or written({"A": crank, "P": p, "Q": q, "R": r}),
     )
-
-
-def other_assemblies(mechanism: lw.Mechanism, tries: int = 150) -> tuple[Array, list[Array]]:
-    """The drawn assembly and all others that Newton's method finds at the same input, with the reference code."""
-    system = reference_system(mechanism)
-    start, u = starting_position(mechanism, system, driver_values(mechanism, np.zeros(1))[0][0])
-    weak = np.linalg.svd(system.jacobian(start)[:, 3:])[2][-1].reshape(-1, 3)
-    rng = np.random.default_rng(1)
-    guesses = [share * weak / np.abs(weak[:, 2]).max() for share in np.linspace(-0.5, 0.5, 51)]
-    guesses += [rng.normal(size=weak.shape) for _ in range(tries)]
-    found: list[Array] = []
-    for guess in guesses:
-        q = start.copy()
-        q[1:] += guess
-        try:
-            q = system.assemble(q, u)
-        except Unreachable:
-            continue
-        if all(distance(q, known) > 1e-7 for known in [start, *found]):
-            found.append(q)
-    return start, found
-
-
-def distance(a: Array, b: Array) -> float:
-    """Largest difference of a link's direction, rad."""
-    return float(np.abs(np.angle(np.exp(1j * (a - b)[:, 2]))).max())
 
 
 @pytest.mark.parametrize(("gap", "apart"), [(0.0037, 0.01)])

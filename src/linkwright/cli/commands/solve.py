@@ -27,6 +27,7 @@ def arguments(option: Options) -> None:
     what.either("--forces", None)
     what.flag("--static")
     what.flag("--mark")
+    what.flag("--prove")
     what.flag("--worked", words="worked.help")
     form = option.group("form_title")
     form.flag("--si")
