@@ -181,7 +181,7 @@ class Ends:
 
     def still(self, value: Scalar) -> Scalar:
         """The value, taken as one that motion does not change (its change with the dimensions remains)."""
-        found = self._symbol()
+        found = self.symbol()
         self.fixed[found.index] = value
         return found
 
@@ -190,14 +190,14 @@ class Ends:
 
         ``of`` gives its value and first two derivatives, where shorter formulas for these are known.
         """
-        off, (value, first, second) = x - self.still(x), (self._symbol() for _ in range(3))
+        off, (value, first, second) = x - self.still(x), (self.symbol() for _ in range(3))
         for each in (value, first, second):
             self.functions[each.index] = (x, of, (value, first, second))
         return value + first * off + 0.5 * second * (off * off), first
 
     def known(self, value: Scalar) -> Scalar:
         """A value of real links."""
-        found = self._symbol()
+        found = self.symbol()
         self.real[found.index] = value
         return found
 
@@ -219,11 +219,12 @@ class Ends:
     def _symbols(self, moving: Moving, count: int) -> tuple[Value, ...]:
         self.links[moving.link] = None
         if moving not in self.moving:
-            self.moving[moving] = tuple(self._symbol() for _ in range(count))
+            self.moving[moving] = tuple(self.symbol() for _ in range(count))
             self.of |= {symbol.index: (moving, k) for k, symbol in enumerate(self.moving[moving])}
         return self.moving[moving]
 
-    def _symbol(self) -> Value:
+    def symbol(self) -> Value:
+        """A symbol that stands for nothing of the links, such as the coordinate of a chain."""
         self._count += 1
         return self.dimensions.symbols.number(self._count - 1)
 

@@ -279,7 +279,7 @@ class ChainPair:
     def __init__(self, joint: Joint, step: TreeJoint, dimensions: Sizes) -> None:
         self.step = step
         self.ends = Ends(dimensions, step.connection.a, step.connection.b)
-        self._coordinate = self.ends._symbol()
+        self._coordinate = self.ends.symbol()
         self.hung = joint.hang(self.ends, step, self._coordinate)
         self._normal = self._along() if step.slides else ZERO
         self._last: tuple[Pose, _Real] | None = None
