@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import field, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -55,7 +55,11 @@ def straight(begin: Floats, end: Floats, unit: Floats) -> Way:
     """The straight way of the drivers between two sets of coordinates (d,), from 0 to 1."""
     delta = end - begin
     pace = float(np.abs(delta / unit).max(initial=0.0))
-    return Way(lambda x: begin + x[:, None] * delta, 0.0, 1.0, pace, unit)
+    return Way(partial(_on_line, begin, delta), 0.0, 1.0, pace, unit)
+
+
+def _on_line(begin: Floats, delta: Floats, x: Floats) -> Floats:
+    return np.asarray(begin + x[:, None] * delta)
 
 
 def lawful(laws: Sequence[Law], unit: Floats, begin: float, end: float, shift: float = 0.0) -> Way:
@@ -67,10 +71,6 @@ def lawful(laws: Sequence[Law], unit: Floats, begin: float, end: float, shift: f
     sense = 1.0 if end >= begin else -1.0
     lap = np.array([law.at(begin + shift) - law.at(begin) for law in laws])
 
-    def drive(x: Floats) -> Floats:
-        rows = [law.coordinate(sense * x + shift)[0] - gained for law, gained in zip(laws, lap, strict=True)]
-        return np.stack(rows, axis=1) if rows else np.zeros((len(x), 0))
-
     low, high = min(begin, end) + shift, max(begin, end) + shift
     pace, breaks = 0.0, [np.zeros(0)]
     for law, one in zip(laws, unit, strict=True):
@@ -79,7 +79,13 @@ def lawful(laws: Sequence[Law], unit: Floats, begin: float, end: float, shift: f
         breaks.append(law.breaks(low, high))
     corners = np.unique(np.concatenate(breaks))
     inner = np.sort(sense * (corners[(corners > low) & (corners < high)] - shift))
+    drive = partial(_by_laws, laws, lap, sense, shift)
     return Way(drive, sense * begin, sense * end, pace, unit, inner, lap)
+
+
+def _by_laws(laws: Sequence[Law], lap: Floats, sense: float, shift: float, x: Floats) -> Floats:
+    rows = [law.coordinate(sense * x + shift)[0] - gained for law, gained in zip(laws, lap, strict=True)]
+    return np.stack(rows, axis=1) if rows else np.zeros((len(x), 0))
 
 
 @dataclass(frozen=True)

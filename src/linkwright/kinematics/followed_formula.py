@@ -90,6 +90,9 @@ class FollowedFormula:
         self.scalar = self.of(self._outputs())
         self.program = self.scalar.program
 
+    def __reduce__(self) -> tuple[Callable[..., FollowedFormula], tuple[MotionPrograms]]:
+        return followed_formula, (self.programs,)
+
     def of(self, outputs: Mapping[str, Scalar | bool]) -> ScalarProgram:
         """The program for some outputs; constant speeds of drivers are given per position, as fields."""
         with self.programs.lock:
@@ -149,6 +152,9 @@ class FollowedGroups:
         )
         self._valid = row["valid"]
         self._signs = [k for name, k in row.items() if name.startswith("determinant")]
+
+    def __reduce__(self) -> tuple[type[FollowedGroups], tuple[FollowedFormula, Design]]:
+        return FollowedGroups, (self.formula, self.design)
 
     def evaluator(
         self, scalar: ScalarProgram, states: Mapping[str, tuple[int, str]] | None = None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
@@ -45,6 +45,9 @@ class MotionPrograms:
         self.courses: dict[Output, tuple[tuple[str, ...], tuple[str, str]]] = {}
         self.lock = threading.RLock()
         self._programs: dict[tuple[str, ...], NumpyProgram] = {}
+
+    def __reduce__(self) -> tuple[Callable[..., MotionPrograms], tuple[Mechanism, Manner]]:
+        return motion_programs, (self.mechanism, self.manner)
 
     @cached_property
     def motion(self) -> MotionTrace:
