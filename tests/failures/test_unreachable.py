@@ -18,8 +18,8 @@ from linkwright.metrics import metrics
 
 @pytest.mark.rotating
 def test_a_group_without_closed_form_alone_is_named_as_what_stops() -> None:
-    """Its pins are drawn 1000 km apart, and nothing but the group itself can say where the range ends."""
-    text = store.text("triad").replace("P: [210 mm, 90 mm]", "P: [210 mm, 1000000000 mm]")
+    """Its crank is too long, and nothing but the group itself can say where the range ends."""
+    text = store.text("triad").replace("A: [30 mm, 0 mm]", "A: [90 mm, 0 mm]")
     with refused("motion.refused_told", links=("bar_1", "bar_2", "bar_3", "plate")):
         lw.solve_motion(lw.loads(text), steps=7)
 

@@ -22,7 +22,7 @@ from linkwright.kinematics.followed_formula import FollowedGroups, Root
 from linkwright.kinematics.step_rule import CORRECTION, LARGEST, ROUNDING, doubt
 
 #: Longest and shortest step of the drivers, rad or share of the mechanism's size.
-LONGEST, FLOOR = 0.5, 1e-7
+LONGEST, FLOOR = 0.5, 2e-8
 #: A step aims at this doubt.
 WANTED = 0.3
 #: Tries after which a way is given up.

@@ -34,7 +34,7 @@ Evaluate = Callable[[Sequence[float], Sequence[float], Sequence[float]], list[fl
 
 #: Newton steps that a position may take; the last correction, and one from which on the method fails: rad, or share
 #: of the size.
-STEPS, CLOSED, FARTHEST = 8, 1e-8, 1e3
+STEPS, CLOSED, FARTHEST = 8, 1e-9, 1e3
 TURN = 2.0 * math.pi
 
 
@@ -117,9 +117,10 @@ class FollowedFormula:
             outputs |= {f"rate {k}": placed.rates[step], f"second {k}": placed.seconds[step]}
         for group in self.groups:
             placed = motion.placed[group.name]
-            valid = motion.trace.logic("and", valid, placed.valid)
             if placed.coordinates:
                 outputs[f"determinant {group.name}"] = placed.determinant
+            else:
+                valid = motion.trace.logic("and", valid, placed.reached)
         return {**outputs, "valid": valid}
 
     @cached_property
@@ -144,8 +145,10 @@ class FollowedGroups:
         self.at = self.evaluator(formula.scalar)
         row = {name: k for k, name in enumerate(formula.program.output_names)}
         self._found = [
-            (row[f"at {k}"], row.get(f"sin {k}"), float(unit), mine)
-            for k, (unit, mine) in enumerate(zip(self.scale, formula.solved, strict=True))
+            (row[f"at {k}"], row.get(f"sin {k}"), float(unit), mine, turns)
+            for k, (unit, mine, turns) in enumerate(
+                zip(self.scale, formula.solved, formula.turns, strict=True)
+            )
         ]
         self._rates, self._seconds = (
             [row[f"{name} {k}"] for k in range(len(formula.steps))] for name in ("rate", "second")
@@ -179,15 +182,18 @@ class FollowedGroups:
     def once(self, z: Sequence[float], q: Sequence[float], ahead: Sequence[float]) -> tuple[Root, float]:
         """One of Newton's steps from coordinates z (n,) with the drivers at q (d,) and their derivatives along a way.
 
-        What it leads to, NaN where that does not exist, and its length, rad or share of the size.
+        What it leads to, NaN where that does not exist, and its length, rad or share of the size (or of a slide that
+        is longer).
         """
         out = self.at(z, q, ahead)
         found, moved = [], 0.0
-        for k, (at, sine, unit, mine) in enumerate(self._found):
+        for k, (at, sine, unit, mine, turns) in enumerate(self._found):
             value = out[at]
             if sine is not None:
                 value = z[k] + _turned(math.atan2(out[sine], value) - z[k])
-            if mine and not moved >= (change := abs(value - z[k]) / unit):
+            if mine and not moved >= (
+                change := abs(value - z[k]) / (unit if turns else max(unit, abs(z[k])))
+            ):
                 moved = change
             found.append(value)
         if not out[self._valid] and moved < CLOSED:
@@ -221,13 +227,14 @@ class FollowedGroups:
         for _ in range(3):
             found = program.run(numbers, inputs, None, self.states(z) or None, length=len(z))
             moved = np.zeros(len(z))
-            for k, (_, sine, unit, mine) in enumerate(self._found):
+            for k, (_, sine, unit, mine, turns) in enumerate(self._found):
                 value = found[row[f"at {k}"]]
                 if sine is not None:
                     gone = np.arctan2(found[row[f"sin {k}"]], value) - z[:, k]
                     value = z[:, k] + gone - TURN * np.round(gone / TURN)
                 if mine:
-                    moved = np.fmax(moved, np.abs(value - z[:, k]) / unit)
+                    share = unit if turns else np.maximum(unit, np.abs(z[:, k]))
+                    moved = np.fmax(moved, np.abs(value - z[:, k]) / share)
                 z[:, k] = value
             if not (moved > CLOSED).any():
                 break
