@@ -4,8 +4,8 @@ Between two positions of a cycle the square under a dyad's root may touch zero w
 parallelogram on the frame line. The motion goes on smoothly, the sign of the mode changes. The same happens
 where the outer pins of a dyad with two equal links meet. Where the square falls below zero the mechanism
 cannot pass: what lies beyond is another circuit (Suh & Radcliffe, Kinematics and Mechanisms Design, ch. 4;
-Erdman & Sandor, Mechanism Design, ch. 3). Groups without closed form are followed with a proof that fails where a
-dyad on which they hang is singular: for them the way ends at its change point.
+Erdman & Sandor, Mechanism Design, ch. 3). On dyads on which groups without closed
+form hang, the way ends at a change point, as it does where these are singular themselves.
 """
 
 from __future__ import annotations

@@ -56,7 +56,7 @@ class Sweep(Plotted, Frozen):
     positions, and ``notes`` says how far they are off. ``branch_margin`` (designs,): how far the
     step nearest to another assembly was from being refused, 1 far, 0 at the edge, where groups without closed form
     are followed (their steps keep the determinant's sign, the correction small and both ends' exact rates on one
-    curve; a proof as in ``solve_motion`` is too dear here); None where all groups have a closed form.
+    curve); None where all groups have a closed form.
     """
 
     mechanism: Mechanism
