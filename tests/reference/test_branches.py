@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.random_branches import judged, machines
 from tests.reference.adapter import driver_values, reference_system
 from tests.reference.fine_path import FinePath
 from tests.reference.general_case import general_case
@@ -156,3 +157,13 @@ def test_the_determinant_keeps_its_sign_from_position_to_position(text: str, ste
         assert np.abs(gap).max() < 1e-9 * (1.0 + np.abs(q).max())
         signs.add(float(np.linalg.slogdet(system.jacobian(q)[:, 3:])[0]))
     assert len(signs) == int(motion.ok.any())
+
+
+@pytest.mark.rotating
+def test_random_machines_keep_their_assembly_and_lose_no_position() -> None:
+    right = 0
+    for name, mechanism in machines([], 900_000, 6):
+        for steps, found in judged(mechanism, (6, 24)):
+            assert not found["jump"] and not found["lost"], (name, steps)
+            right += found["right"]
+    assert right > 50
