@@ -7,6 +7,7 @@ import pytest
 
 from linkwright import words
 from linkwright.cli import commands
+from linkwright.errors import speaker
 
 
 def fields(text: str) -> set[str]:
@@ -42,14 +43,14 @@ def test_unknown_keys_and_languages_are_refused() -> None:
     with pytest.raises(KeyError):
         words.say("nothing.summary")
     with pytest.raises(KeyError):
-        words.speaker("de")
+        speaker("de")
 
 
 def test_values_are_put_in() -> None:
     for language in words.LANGUAGES:
         text = words.catalogue("cli", language)["written"]
         assert "{path}" in text
-        assert words.speaker(language)("cli.written", path="a.csv") == text.replace("{path}", "a.csv")
+        assert speaker(language)("cli.written", path="a.csv") == text.replace("{path}", "a.csv")
 
 
 #: Half-width marks where a Chinese sentence goes on; between a key and its value of the file format they stay.

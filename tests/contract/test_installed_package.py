@@ -118,7 +118,7 @@ print("all is well")
 
 def run(folder: Path, way: str, more: str = "") -> str:
     """What a process prints in which the package is installed in a folder."""
-    code = re.findall(r"^```py(?:thon)?\n(.*?)^```", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
+    code = re.findall(r"^```py\n(.*?)^```", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
     (folder / "slots.py").write_text("\n\n".join(code) + LAW, "utf-8")
     (folder / "trammels.py").write_text(triad.PACKAGE, "utf-8")
     (folder / "drums.py").write_text(drums.PACKAGE, "utf-8")
