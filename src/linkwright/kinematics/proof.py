@@ -29,9 +29,7 @@ from linkwright.core.linear_sums import LinearSums
 from linkwright.elements.topology import Connection, TreeJoint
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import Joint, LackingError
-from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.joints.revolute import RevoluteJoint
-from linkwright.joints.weld import WeldJoint
+from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
 from linkwright.kinematics.groups import upstream
 from linkwright.kinematics.motion import Motion
 from linkwright.words.sentence import Sentence, in_language
@@ -120,7 +118,7 @@ class _Loops:
         self.sums: LinearSums[Key] = LinearSums()
         groups, joints = upstream(motion.structure, self.mechanism), self.mechanism.joints
         for joint in (joints[each.joint] for group in groups for each in group.joints):
-            if not (joint.higher or isinstance(joint, RevoluteJoint | PrismaticJoint | WeldJoint)):
+            if not (joint.higher or isinstance(joint, TurningJoint | SlidingJoint | RigidJoint)):
                 raise LinkwrightError("proof.kind", joint=joint.name)
         for step in (step for group in groups for step in group.tree):
             self._hang(joints[step.joint], step)
@@ -136,7 +134,7 @@ class _Loops:
         """The child of a chain's joint on its parent."""
         place = self.place(step.parent, joint.point_on(step.parent))
         rotation, offset, *_ = self.bodies[step.parent]
-        if isinstance(joint, PrismaticJoint):
+        if isinstance(joint, SlidingJoint):
             key = ("slide", joint.name) if step.driver is None else ("drive", step.driver)
             place = self._slid(place, key, joint, step.parent)
         turns = self.rotations[rotation]
@@ -156,11 +154,11 @@ class _Loops:
     def _close(self, joint: Joint, cut: Connection) -> None:
         """The loop that a cut joint closes: two places that coincide."""
         start, end = (self.place(link, joint.point_on(link)) for link in (cut.a, cut.b))
-        if isinstance(joint, PrismaticJoint):
+        if isinstance(joint, SlidingJoint):
             start = self._slid(start, ("slide", joint.name), joint, cut.a)
         self.loops.append({key: start.get(key, 0j) - end.get(key, 0j) for key in {**start, **end}})
 
-    def _slid(self, place: Terms, key: Key, joint: PrismaticJoint, link: str) -> Terms:
+    def _slid(self, place: Terms, key: Key, joint: SlidingJoint, link: str) -> Terms:
         """A place after a displacement along a guide as one of its links has it, and the offset across it."""
         sign, along = (1.0, joint.direction) if link == joint.guide else (-1.0, joint.block_angle)
         rotation, offset, *_ = self.bodies[link]
