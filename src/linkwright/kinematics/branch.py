@@ -23,6 +23,8 @@ from linkwright.kinematics.step_rule import CORRECTION, LARGEST, ROUNDING, doubt
 
 #: Longest and shortest step of the drivers, rad or share of the mechanism's size.
 LONGEST, FLOOR = 0.5, 2e-8
+#: A way does not begin where a group's smallest singular value is below this one (lengths over the size).
+SINGULAR = 1e-7
 #: A step aims at this doubt.
 WANTED = 0.3
 #: Tries after which a way is given up.
@@ -178,6 +180,8 @@ class _Walk:
         self.steps: list[tuple[Node, Node]] = []
         q = way.drive(np.array([way.start]))[0]
         root = groups.solve(start, q.tolist(), [0.0] * len(q))
+        if root is not None and min(groups.regularity(root.z, q.tolist()).values()) < SINGULAR:
+            root = None
         self.here = None if root is None else Node(way.start, q, np.zeros(len(q)), root)
 
     def branch(self) -> Branch:

@@ -9,7 +9,6 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.elements.topology import Group, TreeJoint
-from linkwright.engine.trace import Scalar
 from linkwright.kinematics.assembly import Assembly, AssemblyError
 from linkwright.kinematics.branch import Branch, Way, follow, lawful, near_enough, straight
 from linkwright.kinematics.design import Design
@@ -194,25 +193,9 @@ class Follower:
     # where a way ends -----------------------------------------------------------------------------
     def weakest_group(self, branch: Branch) -> str:
         """The group whose own equations are nearest to singular at the end of a branch."""
-        formula, end = self.groups.formula, branch.end
-        if end is None:
-            return formula.groups[-1].name
-        motion, outputs, shapes = formula.programs.motion, dict[str, Scalar](), {}
-        for group in formula.groups:
-            rows = motion.placed[group.name].inverse
-            shapes[group.name] = np.array(
-                [1.0 if step.turns else self.groups.size for step in group.unknowns]
-            )
-            outputs |= {
-                f"{group.name} {i} {j}": each for i, row in enumerate(rows) for j, each in enumerate(row)
-            }
-        found = self.groups.evaluator(formula.of(outputs))(end.root.z, end.q.tolist(), [0.0] * len(end.q))
-        least, first = {}, 0
-        for name, scale in shapes.items():
-            count = len(scale)
-            inverse = np.array(found[first : first + count * count]).reshape(count, count) / scale[:, None]
-            first += count * count
-            least[name] = 1.0 / float(np.linalg.norm(inverse, 2)) if np.isfinite(inverse).all() else 0.0
+        if branch.end is None:
+            return self.groups.formula.groups[-1].name
+        least = self.groups.regularity(branch.end.root.z, branch.end.q.tolist())
         return min(least, key=least.__getitem__)
 
 

@@ -242,6 +242,26 @@ class FollowedGroups:
         signs = found[[k for name, k in row.items() if name.startswith("determinant")]].T > 0.0
         return z, [tuple(each) for each in signs.tolist()]
 
+    def regularity(self, z: Sequence[float], q: Sequence[float]) -> dict[str, float]:
+        """The smallest singular value of each group's equations, lengths over the size; 0 of a singular group."""
+        numbers, first, found = self._inverses(z, q, [0.0] * len(q)), 0, {}
+        for group in self.formula.groups:
+            scale = np.array([1.0 if step.turns else self.size for step in group.unknowns])
+            last = first + len(scale) ** 2
+            inverse = np.reshape(numbers[first:last], (len(scale), -1)) / scale[:, None]
+            first = last
+            finite = np.isfinite(inverse).all()
+            found[group.name] = 1.0 / float(np.linalg.norm(self.size * inverse, 2)) if finite else 0.0
+        return found
+
+    @cached_property
+    def _inverses(self) -> Evaluate:
+        """The entries of the inverses of all groups' Jacobians, one after the other."""
+        placed = self.formula.programs.motion.placed
+        rows = (row for group in self.formula.groups for row in placed[group.name].inverse)
+        entries = (each for row in rows for each in row)
+        return self.evaluator(self.formula.of({f"{k}": each for k, each in enumerate(entries)}))
+
     def states(self, z: Floats) -> dict[str, Floats]:
         """The states (m,) by name at coordinates z (m, n)."""
         read: dict[str, Callable[[Floats], Floats]] = {"cos": np.cos, "sin": np.sin, "": np.asarray}
