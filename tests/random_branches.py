@@ -36,10 +36,6 @@ def judged(mechanism: Any, steps: tuple[int, ...]) -> Iterator[tuple[int, Counte
     """Of every number of steps how many of the positions that the fine path knows are right, jumps, or lost."""
     times = lw.solve_motion(mechanism, steps=FINE, failures="mark").time
     ahead, closed = FinePath(mechanism, times), len(times) == FINE
-    behind = (
-        FinePath(mechanism, np.append(time, 2.0 * time[-1] - time[-2])[::-1] - time[-1]) if False else None
-    )
-    assert behind is None
     for count in steps:
         found: Counter[str] = Counter()
         motion = lw.solve_motion(mechanism, steps=count, failures="mark")
