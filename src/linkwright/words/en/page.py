@@ -64,7 +64,7 @@ WORDS = {
     "locking": "Forces are not shown: with this friction the machine locks, so that no effort moves it.",
     "doubtful": "Forces are not shown: the limit positions between which the loads act are not certain.",
     "followed": "The assembly is followed from position to position (margin {value}); `linkwright solve --prove` "
-    "proves it.",
+    "says whether that is proved.",
     "sampled_forces": "Largest forces and torques are those of the {count} positions, not of what lies between "
     "them: loads without a formula are known only there.",
     "sampled_all": "Least and largest values are those of the {count} positions, not of what lies between them.",

@@ -60,7 +60,7 @@ WORDS = {
     "misfit": "{names} 的轮与其中心距或到齿条的距离不相配",
     "locking": "不显示力：在此摩擦下机构自锁，任何驱动力都无法使其运动。",
     "doubtful": "不显示力：载荷作用区间的极限位置不能确定。",
-    "followed": "装配逐个位置跟踪（裕度 {value}）；`linkwright solve --prove` 可以证明。",
+    "followed": "装配逐个位置跟踪（裕度 {value}）；`linkwright solve --prove` 给出是否得到证明。",
     "sampled_forces": "力和力矩的最大值取自 {count} 个位置，未在位置之间求极值：没有公式的载荷只在这些位置已知。",
     "sampled_all": "最小值和最大值取自 {count} 个位置，未在位置之间求极值。",
     "undrawn": "此处未画出，但已计入所有数值：{names}。",
