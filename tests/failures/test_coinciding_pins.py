@@ -135,8 +135,8 @@ TRIADS = {
     "two pins of the plate at one place": (triad("210 mm, 90 mm", "190 mm, -10 mm", "190 mm, -10 mm"), 12, ""),
     "three parallel bars": (
         triad("0 mm, 90 mm", "100 mm, 90 mm", "200 mm, 90 mm", o2="130 mm, 0 mm", o3="230 mm, 0 mm"),
-        None,
-        "stopped",
+        0,
+        "singular lost",
     ),
 }  # fmt: skip
 EVERY = {name: (model(*made), solved, others) for name, (*made, solved, others) in MODELS.items()} | TRIADS

@@ -104,8 +104,7 @@ class Node:
 class Branch:
     """What was followed of a way: its steps, each with both ends as their rates are along it.
 
-    ``end``: how far it goes, None where it does not begin, as where not even the shortest step is possible;
-    ``complete``: whether that is the end of the way.
+    ``end``: how far it goes, None where it does not begin; ``complete``: whether that is the end of the way.
     """
 
     way: Way
@@ -186,8 +185,7 @@ class _Walk:
 
     def branch(self) -> Branch:
         complete = self.here is not None and self._along()
-        begun = complete or bool(self.steps)
-        return Branch(self.way, self.steps, self.here if begun else None, complete)
+        return Branch(self.way, self.steps, self.here, complete)
 
     def _along(self) -> bool:
         """Steps to the end of the way; False where it cannot be passed."""

@@ -225,8 +225,8 @@ class _Journey:
                 begin, here = self.q[i], moved
 
     def _stopped(self, branch: Branch, index: Indices) -> None:
-        end = branch.end
-        inputs = self.q[index[0]] if end is None else end.q
+        end, way = branch.end, branch.way
+        inputs = way.drive(np.array([way.start]))[0] if end is None else end.q
         self.stops.append(Stop(inputs, self.follower.weakest_group(branch)))
         self.stop_of[index] = len(self.stops) - 1
 
