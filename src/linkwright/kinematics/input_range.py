@@ -262,8 +262,10 @@ class _Search:
         if branch.complete:
             return stop
         reached = stop.good + branch.reached * (stop.bad - stop.good)
-        if reached != stop.good and not self._fine(stop, np.array([reached]))[0]:
-            return replace(stop, bad=reached)
+        places = stop.good + np.array([end.x for _, end in branch.steps]) * (stop.bad - stop.good)
+        fine = self._fine(stop, places)
+        if not fine.all():
+            return replace(stop, bad=float(places[np.argmin(fine)]))
         beyond = reached + math.copysign(
             2.0 * FLOOR * (1.0 if self.rotary else self.size), stop.bad - stop.good
         )
