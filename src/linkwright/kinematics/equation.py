@@ -250,7 +250,12 @@ def reaction_place(joint: Joint, dimensions: Sizes, poses: Poses) -> Vec:
     a, b = joint.joined[:2]
     ends = Ends(dimensions, a, b)
     place = joint.place(ends, (a, b)[joint.reported_on])
-    return _Real(ends, poses, lambda _: 0.0).vec(place)
+    return _Real(ends, poses, _unturned).vec(place)
+
+
+def _unturned(link: str) -> Scalar:
+    """For what takes no rotation with its turns."""
+    return 0.0
 
 
 class _Poses(Mapping[str, Pose]):
@@ -281,30 +286,13 @@ class ChainPair:
         self.ends = Ends(dimensions, step.connection.a, step.connection.b)
         self._coordinate = self.ends.symbol()
         self.hung = joint.hang(self.ends, step, self._coordinate)
-        self._normal = self._along() if step.slides else ZERO
-        self._last: tuple[Pose, _Real] | None = None
-
-    @cached_property
-    def _rows(self) -> tuple[_Row, _Row]:
-        return _Row(self.ends, self.hung.place.x), _Row(self.ends, self.hung.place.y)
-
-    def _along(self) -> Vec:
-        """∂place/∂q, over the pair's ends."""
-        by, place = {self._coordinate: 1.0}, self.hung.place
-        return Vec(slope(place.x, by), slope(place.y, by))
-
-    def _real(self, parent: Pose) -> _Real:
-        """Of what does not depend on the coordinate."""
-        if self._last is None or self._last[0] is not parent:
-            self._last = parent, self._fresh(parent)
-        return self._last[1]
-
-    def _fresh(self, parent: Pose) -> _Real:
-        return _Real(self.ends, {self.step.parent: parent}, lambda _: 0.0)
+        place, by = self.hung.place, {self._coordinate: 1.0}
+        self._normal = Vec(slope(place.x, by), slope(place.y, by)) if step.slides else ZERO
+        self._rows = Rows(self.ends, [] if step.slides else [place.x, place.y], _unturned)
 
     def place(self, parent: Pose, coordinate: Rotor | Scalar | None) -> Pose:
         """Pose of the child."""
-        real = self._fresh(parent)
+        real = _Real(self.ends, {self.step.parent: parent}, _unturned)
         if isinstance(coordinate, Rotor):
             rotor = coordinate
         else:
@@ -316,12 +304,11 @@ class ChainPair:
 
     def normal(self, parent: Pose) -> Vec:
         """How the child's anchor moves with a growing displacement, in frame axes."""
-        return self._real(parent).vec(self._normal)
+        return self._rows._real({self.step.parent: parent}).vec(self._normal)
 
     def arm(self, parent: Pose) -> Vec:
         """From the parent's anchor to the child's, of a pair without displacement."""
-        real = self._real(parent)
-        (_, _, x), (_, _, y) = (_part(self.ends, row, self.step.parent, real) for row in self._rows)
+        (_, _, x), (_, _, y) = self._rows.parts({self.step.parent: parent})[self.step.parent]
         return Vec(y, -x)
 
     def rates(self, parent: State, pose: Pose, rate: Scalar) -> State:
@@ -329,10 +316,8 @@ class ChainPair:
         if self.step.slides:
             velocity = parent.velocity_at(pose.place - parent.pose.place) + self.normal(parent.pose) * rate
             return State(pose, velocity, parent.omega)
-        real, states = self._real(parent.pose), {self.step.parent: parent}
-        rates = in_time(self.ends, lambda moving: moving.rates(states))
-        x, y = (_along(row.shared, rates, real) for row in self._rows)
-        return State(pose, Vec(x, y), rate if self.step.turns else parent.omega)
+        velocity = Vec(*self._rows.drift({self.step.parent: parent}))
+        return State(pose, velocity, rate if self.step.turns else parent.omega)
 
     def accelerate(self, parent: State, child: State, rate: Scalar, second: Scalar) -> State:
         """Accelerations of the child, from the rate and second derivative of the coordinate."""
@@ -340,9 +325,6 @@ class ChainPair:
             n, arm = self.normal(parent.pose), child.pose.place - parent.pose.place
             carried = parent.acceleration_at(arm) + n.perp * (2.0 * (parent.omega * rate))
             return State(child.pose, child.velocity, child.omega, carried + n * second, parent.alpha)
-        real, states = self._real(parent.pose), {self.step.parent: parent}
-        rates = in_time(self.ends, lambda moving: moving.rates(states))
-        seconds = in_time(self.ends, lambda moving: moving.seconds(states))
-        x, y = (_twice(row, rates, seconds, real) for row in self._rows)
+        acceleration = Vec(*self._rows.bend({self.step.parent: parent}))
         alpha = second if self.step.turns else parent.alpha
-        return State(child.pose, child.velocity, child.omega, Vec(x, y), alpha)
+        return State(child.pose, child.velocity, child.omega, acceleration, alpha)
