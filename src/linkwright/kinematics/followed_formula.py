@@ -129,6 +129,14 @@ class FollowedFormula:
         names = [name for name in self.program.output_names if not name.startswith(("rate", "second"))]
         return NumpyProgram(self.program.only(names))
 
+    @cached_property
+    def inverses(self) -> ScalarProgram:
+        """The entries of the inverses of all groups' Jacobians, one after the other."""
+        placed = self.programs.motion.placed
+        rows = (row for group in self.groups for row in placed[group.name].inverse)
+        entries = (each for row in rows for each in row)
+        return self.of({f"{k}": each for k, each in enumerate(entries)})
+
 
 class FollowedGroups:
     """The followed groups of one design.
@@ -256,11 +264,7 @@ class FollowedGroups:
 
     @cached_property
     def _inverses(self) -> Evaluate:
-        """The entries of the inverses of all groups' Jacobians, one after the other."""
-        placed = self.formula.programs.motion.placed
-        rows = (row for group in self.formula.groups for row in placed[group.name].inverse)
-        entries = (each for row in rows for each in row)
-        return self.evaluator(self.formula.of({f"{k}": each for k, each in enumerate(entries)}))
+        return self.evaluator(self.formula.inverses)
 
     def states(self, z: Floats) -> dict[str, Floats]:
         """The states (m,) by name at coordinates z (m, n)."""
