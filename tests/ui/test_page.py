@@ -280,12 +280,32 @@ def test_loads_of_every_kind_are_found_again(
 
 
 @pytest.mark.rotating
-def test_a_phase_that_cannot_be_found_hides_the_forces(opened: Opened, tmp_path: Path) -> None:
-    """Driven backwards, a group without closed form has limits in another order: no force is shown for one."""
-    opened.open(page_of(with_load(*PER_POSITION[1][:2]), tmp_path))
-    speed = opened.values()["driver.speed"]
-    for given, shown in ((-speed, False), (speed, True)):
-        opened.run("(s, v) => s.take({...s.model.values, 'driver.speed': v})", given)
+def test_loads_are_found_again_where_the_driver_turns_back(opened: Opened, tmp_path: Path) -> None:
+    """A ramp between limits of a group without closed form: rows by the input against those of the other way."""
+    text = with_load(*PER_POSITION[1][:2])
+    opened.open(page_of(text, tmp_path))
+    opened.run("s => s.take({...s.model.values, 'driver.speed': -s.model.values['driver.speed']})")
+    motion = lw.solve_motion(lw.loads(text.replace("speed: 10 rad/s", "speed: -10 rad/s")), steps=STEPS)
+    forces = lw.solve_forces(motion)
+    place = np.round(motion.input / (2 * math.pi) * STEPS).astype(int) % STEPS
+    got = opened.rows(["effort:driver", "r:R|plate.x"])
+    for name, want in (
+        ("effort:driver", forces.input_torque),
+        ("r:R|plate.x", forces.reaction("R", on="plate")[:, 0]),
+    ):
+        np.testing.assert_allclose(np.array(got[name])[place], want, rtol=0, atol=1e-9 * np.abs(want).max())
+
+
+@pytest.mark.rotating
+def test_a_phase_that_does_not_exist_hides_the_forces(opened: Opened, tmp_path: Path) -> None:
+    """A stroke of twice the crank is too short for 90 mm of it where the crank is 44 mm long."""
+    push = (
+        "{kind: force, on: piston, at: B, direction: 180 deg, magnitude: 5 N,"
+        " phase: {of: cylinder, from: min, to: max, first: 90 mm}}"
+    )
+    opened.open(page_of(with_load("slider_crank_inline", push), tmp_path))
+    for length, shown in ((0.05, True), (0.044, False), (0.046, True)):
+        opened.run("(s, r) => s.take({...s.model.values, 'crank.length': r})", length)
         assert opened.run("s => s.model.forces") == shown
 
 

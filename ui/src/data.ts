@@ -1,5 +1,5 @@
 // What a page carries, as the Python side writes it.
-import type { Program, Stage } from "./engine";
+import type { Program } from "./engine";
 
 export type Language = "en" | "zh";
 export type Said = Record<Language, string>;
@@ -117,14 +117,27 @@ export interface FrictionTerm {
   on: string[];
 }
 
-/** When a load acts: while an output moves, or goes from one of its limits to the other, or in a part of that way. */
-export interface Phase {
+/** When a load acts; `ramp`: its size goes by the share of that which is passed. */
+export type Phase = Interval | PhaseOfOutput;
+
+/** While the first driver's coordinate is between two dimensions. */
+export interface Interval {
   load: string;
-  /** The output: its row, or the two of a direction; its rate. */
+  kind: "input";
+  ramp: boolean;
+  between: string[];
+}
+
+/** While an output moves, or goes from one of its limits to the other, or in a part of that way. */
+export interface PhaseOfOutput {
+  load: string;
+  kind: "moving" | "stroke";
+  ramp: boolean;
+  /** The output: its row, or the two of a direction; its rate, that one's rate, and the first one, zero at rest. */
   rows: string[];
   rate: string;
-  moving: boolean;
-  ramp: boolean;
+  second: string;
+  moving: string;
   ends: ("max" | "min")[];
   part: { word: "first" | "last" | "free"; amounts: [number, boolean][] } | null;
 }
@@ -153,9 +166,7 @@ export interface ModelData {
   text: string;
   /** The module in base64, its length while a page is unpacked, or its bytes. */
   module: string | number | Uint8Array<ArrayBuffer> | null;
-  programs: Program[];
-  main: number;
-  stages: Stage[];
+  program: Program;
   values: Record<string, number>;
   tables: Record<string, number[]>;
   sizes: string;
@@ -165,6 +176,8 @@ export interface ModelData {
     count: number;
     closed: boolean;
     period: number | null;
+    /** What the first driver's coordinate gains in a closed cycle. */
+    drift: number;
     steady: Steady | null;
     modes: Record<string, number>;
     /** Places among the positions where laws that are not steady go over; null: nothing is known between the positions. */

@@ -1,4 +1,4 @@
-// Traced programs in the browser: kernels of a WebAssembly module or of JavaScript text, and cycle programs made of them.
+// Traced programs in the browser: kernels of WebAssembly modules or of JavaScript text.
 
 export interface Program {
   outputs: string[];
@@ -9,31 +9,12 @@ export interface Program {
   tables: string[];
 }
 
-export interface Reduction {
-  name: string;
-  output: string;
-  kind: string;
-  of: string;
-}
-
-export interface Stage {
-  kernel: number;
-  reductions: Reduction[];
-  valid: string | null;
-  count: string;
-  complete: boolean;
-  steps: number | null;
-  starts: Record<string, string | number>;
-  after: number | null;
-  keep: number | null;
-}
-
 type Rows = Float64Array[];
 type Plain = (
   parameters: Float64Array, positions: Rows, fields: Rows, tables: Rows,
   starts: Float64Array, out: Float64Array, n: number,
 ) => void;
-export type Code = { module: WebAssembly.Module } | { functions: Plain[] };
+export type Code = { module: WebAssembly.Module } | { run: Plain };
 
 const HEAD = 5;
 const PAGE = 65536;
@@ -118,59 +99,55 @@ interface Room {
   caller(call: Call, inputs: Rows, tables: Rows, carried: boolean): () => void;
 }
 
-/** Kernels with their programs; makes calls. */
-export class Kernels {
-  private readonly room: (kernel: number) => Room;
-  private readonly tables: Record<string, Float64Array>;
+/** A program with its kernel; makes calls. */
+export class Kernel {
+  private readonly room: Room;
+  private readonly tables: Rows;
 
-  constructor(readonly programs: Program[], code: Code, tables: Record<string, number[]> = {}, megabytes = 16) {
-    if ("functions" in code) {
-      this.tables = Object.fromEntries(Object.entries(tables).map(([name, t]) => [name, Float64Array.from(t)]));
-      const floats = (count: number) => new Float64Array(count);
-      this.room = (kernel) => ({
-        floats,
-        caller: (call, _inputs, own) => () =>
-          code.functions[kernel](
-            call.parameters, Object.values(call.positions), Object.values(call.fields), own,
-            call.starts, call.out, call.stride,
-          ),
-      });
-      return;
-    }
-    const memory = new WebAssembly.Memory({ initial: (megabytes * 1048576) / PAGE });
-    const env: Record<string, WebAssembly.ImportValue> = { __linear_memory: memory };
-    for (const name of ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "pow"] as const)
-      env[`linkwright_${name}`] = Math[name] as WebAssembly.ImportValue;
-    const kernels = new WebAssembly.Instance(code.module, { env }).exports as Record<string, (block: number) => void>;
-    let free = 1024;
-    const floats = (count: number) => {
-      const bytes = (8 * Math.max(count, 1) + 63) & ~63;
-      if (free + bytes > memory.buffer.byteLength) throw new RangeError("the page's memory is too small for this model");
-      free += bytes;
-      return new Float64Array(memory.buffer, free - bytes, count);
-    };
-    this.tables = Object.fromEntries(
-      Object.entries(tables).map(([name, t]) => {
-        const kept = floats(t.length);
-        kept.set(t);
-        return [name, kept];
-      }),
-    );
-    this.room = (kernel) => ({
-      floats,
-      caller: (call, inputs, _tables, carried) => {
-        const block = new BigInt64Array(memory.buffer, floats(INPUTS + inputs.length).byteOffset, INPUTS + inputs.length);
-        fill(block, call, inputs, carried);
-        const run = kernels[`kernel${kernel}`], at = block.byteOffset;
-        return () => run(at);
-      },
+  constructor(readonly program: Program, code: Code, tables: Record<string, number[]> = {}, megabytes = 16) {
+    this.room = "run" in code ? texts(code.run) : compiled(code.module, megabytes);
+    this.tables = program.tables.map((name) => {
+      const kept = this.room.floats(tables[name].length);
+      kept.set(tables[name]);
+      return kept;
     });
   }
 
-  call(kernel: number, n: number): Call {
-    const program = this.programs[kernel];
-    return new Call(program, n, this.room(kernel), program.tables.map((name) => this.tables[name]));
+  call(n: number): Call {
+    return new Call(this.program, n, this.room, this.tables);
   }
+}
+
+function texts(run: Plain): Room {
+  return {
+    floats: (count) => new Float64Array(count),
+    caller: (call, _inputs, tables) => () =>
+      run(call.parameters, Object.values(call.positions), Object.values(call.fields), tables, call.starts, call.out, call.stride),
+  };
+}
+
+function compiled(module: WebAssembly.Module, megabytes: number): Room {
+  const memory = new WebAssembly.Memory({ initial: (megabytes * 1048576) / PAGE });
+  const env: Record<string, WebAssembly.ImportValue> = { __linear_memory: memory };
+  for (const name of ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "pow"] as const)
+    env[`linkwright_${name}`] = Math[name] as WebAssembly.ImportValue;
+  const { kernel } = new WebAssembly.Instance(module, { env }).exports as { kernel: (block: number) => void };
+  let free = 1024;
+  const floats = (count: number) => {
+    const bytes = (8 * Math.max(count, 1) + 63) & ~63;
+    if (free + bytes > memory.buffer.byteLength) throw new RangeError("the page's memory is too small for this model");
+    free += bytes;
+    return new Float64Array(memory.buffer, free - bytes, count);
+  };
+  return {
+    floats,
+    caller: (call, inputs, _tables, carried) => {
+      const block = new BigInt64Array(memory.buffer, floats(INPUTS + inputs.length).byteOffset, INPUTS + inputs.length);
+      fill(block, call, inputs, carried);
+      const at = block.byteOffset;
+      return () => kernel(at);
+    },
+  };
 }
 
 function fill(block: BigInt64Array, call: Call, inputs: Rows, carried: boolean): void {
@@ -190,109 +167,4 @@ function fill(block: BigInt64Array, call: Call, inputs: Rows, carried: boolean):
   put(BLOCK.out, call.out.byteOffset);
   put(BLOCK.starts, call.starts.byteOffset);
   inputs.forEach((array, k) => put(INPUTS + k, array.byteOffset));
-}
-
-/** The stages of a cycle program for one design; what they find joins the dimensions under its own names. */
-export class Cycle {
-  private readonly calls: { stage: Stage; call: Call; after: Call | null; keep: Call | null }[];
-  readonly kept: Record<string, Float64Array> = {};
-
-  constructor(kernels: Kernels, stages: Stage[], n: number) {
-    this.calls = stages.map((stage) => {
-      const length = stage.steps ?? n;
-      return {
-        stage,
-        call: kernels.call(stage.kernel, length),
-        after: stage.after === null ? null : kernels.call(stage.after, 1),
-        keep: stage.keep === null ? null : kernels.call(stage.keep, length),
-      };
-    });
-  }
-
-  run(values: Record<string, number>, positions: Record<string, ArrayLike<number>>): Record<string, number> {
-    const known = { ...values };
-    const found: Record<string, number> = {};
-    let failed = false;
-    for (const { stage, call, after, keep } of this.calls) {
-      evaluate(call, stage, known, positions, this.kept);
-      const own = reduce(stage, call);
-      const results: Record<string, number> = {};
-      for (const { name, output, kind, of } of stage.reductions) results[name] = own(output, kind, of);
-      const count = own("", "valid", "");
-      if (after) {
-        after.program.parameters.forEach((name, k) => (after.parameters[k] = known[name] ?? named(name, own)));
-        after.run();
-        for (const name of after.program.outputs) results[name] = after.row(name)[0];
-      }
-      if (stage.count) results[stage.count] = count;
-      failed ||= stage.complete && count !== call.n;
-      if (failed) for (const name in results) results[name] = NaN;
-      if (keep) {
-        evaluate(keep, stage, known, positions, this.kept);
-        for (const name of keep.program.outputs) this.kept[name] = keep.row(name);
-      }
-      Object.assign(known, results);
-      Object.assign(found, results);
-    }
-    return found;
-  }
-}
-
-function evaluate(
-  call: Call, stage: Stage, known: Record<string, number>,
-  positions: Record<string, ArrayLike<number>>, kept: Record<string, ArrayLike<number>>,
-): void {
-  call.set(known);
-  call.give(positions);
-  call.give(kept);
-  call.program.states.forEach((name, k) => {
-    const start = stage.starts[name];
-    call.starts[k] = typeof start === "string" ? known[start] : start;
-  });
-  call.run();
-}
-
-function named(name: string, own: (output: string, kind: string, of: string) => number): number {
-  if (name === "valid.count") return own("", "valid", "");
-  for (const kind of ["at_min", "at_max"]) {
-    const cut = name.indexOf(`.${kind}.`);
-    if (cut >= 0) return own(name.slice(0, cut), kind, name.slice(cut + kind.length + 2));
-  }
-  const dot = name.lastIndexOf(".");
-  return own(name.slice(0, dot), name.slice(dot + 1), "");
-}
-
-/** Summaries over the valid positions of a call that has run. */
-export function reduce(stage: { valid: string | null }, call: Call): (output: string, kind: string, of: string) => number {
-  const { n } = call;
-  const judged = stage.valid !== null && call.has(stage.valid) ? call.row(stage.valid) : null;
-  const places: number[] = [];
-  for (let i = 0; i < n; i++) if (!judged || judged[i] !== 0) places.push(i);
-  const value = (output: string) => (output === "#" ? (i: number) => i : (i: number) => call.row(output)[i]);
-  const extreme = (output: string, sign: number) => {
-    const at = value(output);
-    let best = Infinity, place = -1;
-    for (const i of places) if (sign * at(i) < best) [best, place] = [sign * at(i), i];
-    return place;
-  };
-  const total = (output: string, of: (x: number) => number) => places.reduce((sum, i) => sum + of(value(output)(i)), 0);
-  return (output, kind, of) => {
-    const there = (place: number, what: string) => (place < 0 ? NaN : value(what)(place));
-    switch (kind) {
-      case "min": return there(extreme(output, 1), output);
-      case "max": return there(extreme(output, -1), output);
-      case "argmin": return extreme(output, 1);
-      case "argmax": return extreme(output, -1);
-      case "at_min": return there(extreme(of, 1), output);
-      case "at_max": return there(extreme(of, -1), output);
-      case "first": return there(places[0] ?? -1, output);
-      case "last": return there(places[places.length - 1] ?? -1, output);
-      case "sum": return total(output, (x) => x);
-      case "mean": return total(output, (x) => x) / places.length;
-      case "rms": return Math.sqrt(total(output, (x) => x * x) / places.length);
-      case "count": return total(output, (x) => (x !== 0 ? 1 : 0));
-      case "valid": return places.length;
-      default: throw new Error(`no reduction ${kind}`);
-    }
-  };
 }

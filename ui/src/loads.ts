@@ -1,38 +1,39 @@
 // What loads take per position once the motion is known: when they act, and angles of links that turn through.
-import type { AngleField, Phase } from "./data";
+import type { AngleField, Interval, Phase, PhaseOfOutput } from "./data";
 import type { Call } from "./engine";
+import { events, modulo } from "./events";
 import { TURN } from "./numbers";
-import { root } from "./search";
 
-/** Where an output reverses: input, time, its value there. */
+/** The cycle as loads see it; a place is a number among its positions, of which the first is 0. */
+export interface Course {
+  closed: boolean;
+  /** Time from one position to the next, s; below zero where the positions go backwards. */
+  pace: number;
+  /** Whether the first driver turns; what its coordinate gains in a closed cycle. */
+  turns: boolean;
+  drift: number;
+  /** That coordinate at a place within the cycle. */
+  input: (place: number) => number;
+  /** A call that has run at a place; null where the drivers are not known there. */
+  at: (place: number) => Call | null;
+}
+
+/** Where an output reverses, and its value there. Ways are places in the order of time. */
 interface Limit {
-  input: number;
-  time: number;
+  way: number;
   value: number;
   max: boolean;
 }
 
-/** From a limit to the next one; times and inputs go on through the cycle's end. */
-interface Stretch {
-  begin: Limit;
-  end: Limit;
-}
+// Shares within which places belong to a phase, as in the core.
+const NEAR = 1e-9;
 
-/** A cycle: times and inputs per position, the place of an input between positions, how far both go in it. */
-export interface Course {
-  time: (i: number) => number;
-  inputs: Float64Array;
-  closed: boolean;
-  period: number;
-  drift: number;
-  at(input: number, value: (call: Call) => number): number;
-}
+/** What loads take at a place between positions, by the names of fields, of a call that has run there. */
+export type Between = (one: Call, place: number, near: number) => Record<string, number>;
 
-// As in the core: shares within which places belong to a phase, rates that are zero but for rounding.
-const NEAR = 1e-9, STILL = 1e-12;
-
-/** What loads take at a place between positions, by the names of fields. */
-export type Between = (one: Call, input: number, near: number) => Record<string, number>;
+/** The share of a phase that is passed at a place, of a call that has run there for position i of its own; null where the
+ *  load does not act. */
+type Passed = (call: Call, i: number, place: number, near: number) => number | null;
 
 /** Writes the phases and angles of loads into a call that has run; null where a phase does not exist, else how they go on
  *  between the positions. */
@@ -42,20 +43,37 @@ export function follow(call: Call, phases: Phase[], angles: AngleField[], values
     put(call, field, row);
     return row;
   });
-  const acting = phases.map((phase) => new Acting(call, phase, course));
-  if (!acting.map((each) => each.give()).every((exists) => exists)) return null;
-  return (one, input, near) => {
-    const found: Record<string, number> = {};
-    angles.forEach(({ field, a, b }, k) => (found[field] = nearest(turned(one, a, b, 0), rows[k][near])));
-    for (const each of acting) Object.assign(found, each.between(one, input, near));
-    return found;
+  const found = phases.map((phase) => ({ phase, passed: "between" in phase ? interval(phase, values, course) : byOutput(call, phase, course) }));
+  for (const { phase, passed } of found) {
+    if (!passed) return null;
+    const acts = new Float64Array(call.n), shares = new Float64Array(call.n);
+    for (let i = 0; i < call.n; i++) {
+      const share = passed(call, i, i, i);
+      if (share !== null) [acts[i], shares[i]] = [1, share];
+    }
+    put(call, `acts:${phase.load}`, acts);
+    put(call, `share:${phase.load}`, shares);
+  }
+  return (one, place, near) => {
+    const taken: Record<string, number> = {};
+    angles.forEach(({ field, a, b }, k) => (taken[field] = nearest(turned(one, a, b, 0), rows[k][near])));
+    for (const { phase, passed } of found) {
+      const share = passed!(one, 0, place, near);
+      taken[`acts:${phase.load}`] = Number(share !== null);
+      taken[`share:${phase.load}`] = share ?? 0;
+    }
+    return taken;
   };
 }
 
 /** Beyond the last position a program repeats it. */
 function put(call: Call, field: string, row: Float64Array): void {
-  call.fields[field]?.forEach((_, i, of) => (of[i] = row[Math.min(i, call.n - 1)]));
+  const given = call.fields[field];
+  given?.set(row);
+  given?.fill(row[call.n - 1], call.n);
 }
+
+// angles ---------------------------------------------------------------------------------------
 
 function turned(call: Call, a: string, b: string, i: number): number {
   const direction = (link: string) => (call.has(`e:${link}.x`) ? Math.atan2(call.row(`e:${link}.y`)[i], call.row(`e:${link}.x`)[i]) : 0);
@@ -76,137 +94,82 @@ export function unwrap(row: Float64Array): Float64Array {
   return row;
 }
 
-/** A stretch with the share of a part of its way that a value of the output has passed. */
-type Way = { stretch: Stretch; part: (value: number) => number | undefined };
+// phases ---------------------------------------------------------------------------------------
 
-class Acting {
-  private readonly rate: Float64Array;
-  private readonly value: Float64Array;
-  private readonly still: number;
-  private readonly ways: Way[] | null;
-
-  constructor(private readonly call: Call, private readonly phase: Phase, private readonly course: Course) {
-    this.still = STILL * call.row(phase.rate).reduce((most, x) => Math.max(most, Math.abs(x)), 0);
-    this.rate = call.row(phase.rate).map((x) => this.moving(x));
-    this.value = Float64Array.from({ length: call.n }, (_, i) => this.read(call, i));
-    if (this.angular) unwrap(this.value);
-    this.ways = this.found();
-  }
-
-  private moving(rate: number): number {
-    return Math.abs(rate) <= this.still ? 0 : rate;
-  }
-
-  private get angular(): boolean {
-    return this.phase.rows.length > 1;
-  }
-
-  private read(call: Call, i: number): number {
-    const [a, b] = this.phase.rows.map((name) => call.row(name)[i]);
-    return this.angular ? Math.atan2(b, a) : a;
-  }
-
-  /** Writes it into the call; false where the phase does not exist. */
-  give(): boolean {
-    const { call, course, phase } = this, n = call.n, acts = new Float64Array(n), share = new Float64Array(n);
-    if (this.ways) for (let i = 0; i < n; i++) [acts[i], share[i]] = this.passed(course.time(i), course.inputs[i], this.rate[i], this.value[i]);
-    else acts.fill(NaN);
-    put(call, `acts:${phase.load}`, acts);
-    put(call, `share:${phase.load}`, share);
-    return this.ways !== null;
-  }
-
-  /** The same at a place near a position, of a call that has run there. */
-  between(one: Call, input: number, near: number): Record<string, number> {
-    const { phase, course } = this, time = course.time(0) + ((input - course.inputs[0]) / course.drift) * course.period;
-    const value = this.angular ? nearest(this.read(one, 0), this.value[near]) : this.read(one, 0);
-    const [acts, share] = this.passed(time, input, this.moving(one.row(phase.rate)[0]), value);
-    return { [`acts:${phase.load}`]: acts, [`share:${phase.load}`]: share };
-  }
-
-  /** Whether the load acts at a place, and the share of its phase that is passed. */
-  private passed(time: number, input: number, rate: number, value: number): [number, number] {
-    const { moving, ramp, ends } = this.phase, along = ends[1] === "max" ? rate > 0 : rate < 0;
-    if (moving && !(ramp && along)) return [Number(along && !ramp), 0];
-    for (const { stretch, part } of this.ways!) {
-      const gained = this.gained(stretch, time, input);
-      const passed = gained === null ? OUTSIDE : (part(value) ?? gained / (stretch.end.input - stretch.begin.input));
-      if (passed !== OUTSIDE) return [1, Math.min(1, Math.max(0, passed))];
-    }
-    return [0, 0];
-  }
-
-  /** Where it acts, as far as that is not said by the rate alone; null where there is none. */
-  private found(): Way[] | null {
-    const { moving, ramp } = this.phase, ways: Way[] = [];
-    if (moving && !ramp) return ways;
-    // Backwards through the positions their times fall, and limits do not come one after the other.
-    if (!(this.course.period > 0)) return null;
-    const limits = this.limits();
-    for (const stretch of this.stretches(moving ? limits : outermost(limits))) {
-      const part = this.part(stretch);
-      if (!part) return null;
-      ways.push({ stretch, part });
-    }
-    return ways.length ? ways : null;
-  }
-
-  /** What the input has gained at a place since a stretch began; null outside it. */
-  private gained({ begin, end }: Stretch, time: number, input: number): number | null {
-    const { period, drift } = this.course, slack = NEAR * period, since = time - begin.time;
-    const laps = Math.floor((since + slack) / period), inside = since - laps * period;
-    return inside <= end.time - begin.time + slack ? input - begin.input - laps * drift : null;
-  }
-
-  /** The share of a part of a stroke that the output has passed; undefined where there is no part, null for a part
-   *  that the stroke is too short for. */
-  private part({ begin, end }: Stretch): ((value: number) => number | undefined) | null {
-    const { part } = this.phase, size = Math.abs(end.value - begin.value), slack = NEAR * size;
-    if (!part) return () => undefined;
-    const ways = part.amounts.map(([value, share]) => value * (share ? size : 1)), last = ways[ways.length - 1];
-    const [from, to] = part.word === "first" ? [0, ways[0]] : part.word === "last" ? [size - ways[0], size] : [ways[0], size - last];
-    if (!(from >= -slack && from < to && to <= size + slack)) return null;
-    return (value) => {
-      let gone = (value - begin.value) * Math.sign(end.value - begin.value);
-      if (this.angular && size < TURN) gone -= TURN * Math.floor((gone + (TURN - size) / 2) / TURN);
-      return gone >= from - slack && gone <= to + slack ? (gone - from) / (to - from) : OUTSIDE;
+/** While the input is between two coordinates; of angles modulo one turn, from the larger to the smaller one through its
+ *  end where the input grows; null for more than a turn. */
+function interval({ between: ends }: Interval, values: Record<string, number>, course: Course): Passed | null {
+  const [start, end] = ends.map((name) => values[name]), gap = end - start, heading = (course.input(1) - course.input(0)) * course.pace;
+  if (!course.turns)
+    return (_call, _i, place) => {
+      const q = course.input(place);
+      return q >= Math.min(start, end) - NEAR && q <= Math.max(start, end) + NEAR ? clipped((q - start) / gap) : null;
     };
-  }
-
-  /** Where the rate passes zero, by increasing time. */
-  private limits(): Limit[] {
-    const { rate, course, call } = this, { n } = call, { inputs, drift, period } = course, found: Limit[] = [];
-    const first = rate.findIndex((x) => x !== 0);
-    const input = (i: number) => inputs[i % n] + Math.floor(i / n) * drift;
-    for (let k = first + 1, last = first; first >= 0 && k <= first + n; k++) {
-      const [a, b] = [rate[last % n], rate[k % n]];
-      if (b === 0) continue;
-      if (a * b < 0) {
-        const of = (x: number) => course.at(x, (one) => one.row(this.phase.rate)[0]);
-        const x = root(of, input(last), input(k), a, b), laps = x - inputs[0] >= Math.abs(drift) || inputs[0] - x >= Math.abs(drift) ? 1 : 0;
-        let value = course.at(x, (one) => this.read(one, 0));
-        if (this.angular) value = nearest(value, this.value[last % n]);
-        const time = course.time(0) + ((x - inputs[0]) / drift) * period;
-        found.push({ input: x - laps * drift, time: time - laps * period, value, max: a > 0 });
-      }
-      last = k;
-    }
-    return found.sort((a, b) => a.time - b.time);
-  }
-
-  /** From each limit of one kind to the other kind's next one. */
-  private stretches(limits: Limit[]): Stretch[] {
-    const { ends } = this.phase, { period, drift } = this.course, found: Stretch[] = [];
-    limits.forEach((end, k) => {
-      const before = limits.at(k - 1)!;
-      if (before.max !== (ends[0] === "max") || end.max !== (ends[1] === "max")) return;
-      found.push({ begin: k ? before : { ...before, time: before.time - period, input: before.input - drift }, end });
-    });
-    return found;
-  }
+  if (Math.abs(gap) > TURN + NEAR) return null;
+  const length = gap < 0 && heading > 0 ? modulo(gap, TURN) || TURN : gap, size = Math.abs(length), low = Math.min(start, start + length);
+  return (_call, _i, place) => {
+    const passed = within(course.input(place) - low, size, TURN), share = passed === null ? 0 : clipped(passed / size);
+    return passed === null ? null : length > 0 ? share : 1 - share;
+  };
 }
 
-const OUTSIDE = -Infinity;
+/** What is gone of a length in a lap, both ends included; null beyond. */
+function within(gone: number, length: number, lap: number): number | null {
+  const way = modulo(gone, lap), slack = NEAR * lap, passed = way > lap - slack ? way - lap : way;
+  return passed <= length + slack ? passed : null;
+}
+
+const clipped = (share: number) => Math.min(1, Math.max(0, share));
+
+/** While an output moves one way, from limit to limit for a ramp, or goes between its outermost limits, or in a part of
+ *  that; null where it never does. */
+function byOutput(call: Call, phase: PhaseOfOutput, course: Course): Passed | null {
+  const sign = phase.ends[1] === "max" ? 1 : -1, moves = (one: Call, i: number) => sign * one.row(phase.moving)[i] > 0;
+  const moving = phase.kind === "moving", angular = phase.rows.length > 1, { n } = call;
+  if (moving && !phase.ramp) return (one, i) => (moves(one, i) ? 0 : null);
+  const angles = angular ? unwrap(Float64Array.from({ length: n }, (_, i) => read(call, phase, i))) : null;
+  const output: Output = (one, i, near) => (angles ? nearest(read(one, phase, i), angles[near]) : read(one, phase, i));
+  const limits = reversals(call, phase, course, output), sense = Math.sign(course.pace), lap = course.closed ? n : 2 * n;
+  if (limits.some(({ value }) => Number.isNaN(value))) return null;
+  const ways = strokes(moving ? limits : outermost(limits), phase.ends, course.closed ? lap : null)
+    .map(({ begin, end }) => ({ begin, end, share: phase.part ? partOf(begin, end, phase) : shareOf(begin, end, course, n) }));
+  if (!ways.length || ways.some(({ share }) => !share)) return null;
+  return (one, i, place, near) => {
+    if (moving && !moves(one, i)) return null;
+    for (const { begin, end, share } of ways) {
+      const passed = within(sense * place - begin.way, end.way - begin.way, lap);
+      const there = passed === null ? null : share!(passed, () => output(one, i, near));
+      if (there !== null) return clipped(there);
+    }
+    return null;
+  };
+}
+
+/** An output at position i of a call; an angle as it goes on from a position near it. */
+type Output = (call: Call, i: number, near: number) => number;
+
+function read(call: Call, { rows }: PhaseOfOutput, i: number): number {
+  const a = call.row(rows[0])[i];
+  return rows.length > 1 ? Math.atan2(call.row(rows[1])[i], a) : a;
+}
+
+/** Where an output reverses, in the order of time. */
+function reversals(call: Call, phase: PhaseOfOutput, course: Course, output: Output): Limit[] {
+  const { pace, closed } = course, [rate, second, moving] = [phase.rate, phase.second, phase.moving].map((name) => call.row(name));
+  const found = events({
+    values: rate, slopes: second.map((x) => pace * x), closed,
+    at: (place) => {
+      const one = course.at(place);
+      return one ? [one.row(phase.rate)[0], pace * one.row(phase.second)[0]] : [NaN, NaN];
+    },
+    rests: (place) => (Number.isInteger(place) ? moving[place] : course.at(place)?.row(phase.moving)[0]) === 0,
+  });
+  const limits = found.map(({ place, grows }) => {
+    const one = course.at(place), value = one ? output(one, 0, Math.floor(place)) : NaN;
+    return { way: Math.sign(pace) * place, value, max: grows !== pace > 0 };
+  });
+  return limits.sort((a, b) => a.way - b.way);
+}
 
 /** Of all reversals those with the largest and the smallest value. */
 function outermost(limits: Limit[]): Limit[] {
@@ -214,4 +177,36 @@ function outermost(limits: Limit[]): Limit[] {
   const top = Math.max(...limits.filter(({ max }) => max).map(({ value }) => value)) - slack;
   const bottom = Math.min(...limits.filter(({ max }) => !max).map(({ value }) => value)) + slack;
   return limits.filter(({ max, value }) => (max ? value >= top : value <= bottom));
+}
+
+/** From each limit of one kind to the other kind's next one, through the end of a lap that closes. */
+function strokes(limits: Limit[], ends: ("max" | "min")[], lap: number | null): { begin: Limit; end: Limit }[] {
+  return limits.flatMap((end, k) => {
+    const before = limits.at(k - 1)!;
+    if (before.max !== (ends[0] === "max") || end.max !== (ends[1] === "max") || (!k && lap === null)) return [];
+    return [{ begin: k ? before : { ...before, way: before.way - lap! }, end }];
+  });
+}
+
+/** The share of a stroke by what is passed of it and by the output there; null outside of it. */
+type Share = (passed: number, value: () => number) => number | null;
+
+/** The share of the input's way; null where the input goes nowhere. */
+function shareOf(begin: Limit, end: Limit, { pace, drift, input }: Course, n: number): Share | null {
+  const at = (way: number, place = Math.sign(pace) * way) => input(modulo(place, n)) + Math.floor(place / n) * drift;
+  const first = at(begin.way), rise = at(end.way) - first;
+  return Math.abs(rise) < NEAR * (1 + Math.abs(first + rise)) ? null : (passed) => (at(begin.way + passed) - first) / rise;
+}
+
+/** The share of a part of a stroke, by the way of the output itself; null where the stroke is too short for it. */
+function partOf(begin: Limit, end: Limit, { part, rows }: PhaseOfOutput): Share | null {
+  const size = Math.abs(end.value - begin.value), slack = NEAR * size;
+  const ways = part!.amounts.map(([value, share]) => value * (share ? size : 1)), last = ways[ways.length - 1];
+  const [from, to] = part!.word === "first" ? [0, ways[0]] : part!.word === "last" ? [size - ways[0], size] : [ways[0], size - last];
+  if (!(from >= -slack && from < to && to <= size + slack)) return null;
+  return (_passed, value) => {
+    let gone = (value() - begin.value) * Math.sign(end.value - begin.value);
+    if (rows.length > 1 && size < TURN) gone -= TURN * Math.floor((gone + (TURN - size) / 2) / TURN);
+    return gone >= from - slack && gone <= to + slack ? (gone - from) / (to - from) : null;
+  };
 }

@@ -1,6 +1,6 @@
 // One machine solved at all its positions by its programs, and what is in the way where it cannot be.
 import { bytes, floats, type Group, type ModelData } from "./data";
-import { Call, Cycle, Kernels, type Code } from "./engine";
+import { type Call, Kernel, type Code } from "./engine";
 import { Drive } from "./drive";
 import { settle } from "./friction";
 import { type Between, type Course, follow } from "./loads";
@@ -35,7 +35,6 @@ export class Solver {
   private readonly one: Call;
   /** What loads take between the positions; null where they take nothing, or not as the rows have it. */
   private between: Between | null = null;
-  private readonly cycle: Cycle | null;
   private drive: Drive | null = null;
   private readonly arrays: Record<string, Float64Array> = {};
   private readonly coordinates: Float64Array[] = [];
@@ -47,10 +46,9 @@ export class Solver {
   constructor(readonly data: ModelData, compiled: Code) {
     const { positions } = data;
     this.n = positions.count;
-    const kernels = new Kernels(data.programs, compiled, data.tables, size(data));
-    this.main = kernels.call(data.main, this.n);
-    this.one = kernels.call(data.main, 1);
-    this.cycle = data.stages.length ? new Cycle(kernels, data.stages, this.n) : null;
+    const kernel = new Kernel(data.program, compiled, data.tables, size(data));
+    this.main = kernel.call(this.n);
+    this.one = kernel.call(1);
     for (const name in positions.arrays) this.arrays[name] = floats(positions.arrays[name]);
     const { inputs, steady } = positions, given = inputs[0]?.values;
     this.inputs = steady ? Float64Array.from({ length: this.n }, (_, i) => steady.start + i * steady.step) : given ? floats(given) : new Float64Array(1);
@@ -102,10 +100,6 @@ export class Solver {
     if (Object.keys(this.data.positions.modes).length) this.setModes(values);
     this.doubtful = false;
     this.found = this.paces(values);
-    if (this.cycle) {
-      Object.assign(this.found, this.cycle.run({ ...values, ...this.found }, this.arrays));
-      this.doubtful = Object.entries(this.found).some(([name, x]) => name.startsWith("doubt:") && !(x === 0));
-    }
     this.main.set({ ...values, ...this.found });
     this.main.give(this.arrays);
     if (this.iterated && !this.approach(values)) return this.lost(0);
@@ -132,13 +126,12 @@ export class Solver {
 
   /** The cycle as the phases of loads see it. */
   private get course(): Course {
-    const { steady, time, closed } = this.data.positions, { inputs, n } = this, drift = n * (steady?.step ?? 0);
-    const given = time === null ? null : floats(time);
+    const { steady, time, closed, drift, inputs } = this.data.positions;
     return {
-      inputs, closed, drift,
-      time: (i) => given?.[i] ?? (steady ? (steady.begin * steady.speed + i * steady.step) / this.speed : 0),
-      period: steady ? drift / this.speed : 0,
-      at: (input, value) => this.valueAt((input - inputs[0]) / steady!.step, value),
+      closed, drift, turns: inputs[0]?.turns ?? true,
+      pace: steady ? steady.step / this.speed : time === null ? 0 : floats(time)[1] - floats(time)[0],
+      input: (place) => (steady ? steady.start + place * steady.step : Number.isInteger(place) ? this.inputs[place] : (this.inputsAt(place)?.input ?? NaN)),
+      at: (place) => (this.run(place) ? this.one : null),
     };
   }
 
@@ -315,23 +308,27 @@ export class Solver {
 
   /** A value of the present machine at any place among the positions, of which the first is 0. */
   valueAt(place: number, value: (call: Call) => number): number {
+    return this.run(place) ? value(this.one) : NaN;
+  }
+
+  /** Runs the present machine at a place; false where the drivers are not known there. */
+  private run(place: number): boolean {
     const call = this.one, at = this.within(place), near = this.near(at), given = this.inputsAt(at);
-    if (!given) return NaN;
+    if (!given) return false;
     call.parameters.set(this.main.parameters);
     for (const name in given) call.positions[name]?.fill(given[name]);
     for (const name in this.data.positions.modes) call.positions[name]?.fill(this.arrays[name][near]);
     for (const name in call.fields) call.fields[name].fill(this.main.fields[name][near]);
     if (this.iterated) this.settle(call, this.statesAt(near));
     else call.run();
-    return value(call);
+    return true;
   }
 
   /** The same of a force. */
   forceAt(place: number, value: (call: Call) => number): number {
-    const { friction, positions } = this.data, call = this.one, at = this.within(place);
-    if (Number.isNaN(this.valueAt(place, () => 0))) return NaN;
-    const input = positions.steady ? positions.steady.start + at * positions.steady.step : NaN;
-    const found = this.between?.(call, input, this.near(at));
+    const { friction } = this.data, call = this.one, at = this.within(place);
+    if (!this.run(place)) return NaN;
+    const found = this.between?.(call, at, this.near(at));
     for (const name in found) call.fields[name]?.fill(found[name]);
     if (found) call.run();
     return friction.length && !this.locking && !settle(call, friction) ? NaN : value(call);
@@ -372,7 +369,7 @@ export function mixed(from: Values, to: Values, share: number): Values {
 
 /** Memory that a model's calls take, MB. */
 function size(data: ModelData): number {
-  const rows = data.programs.reduce((sum, p) => sum + p.outputs.length + p.positions.length + p.fields.length + 8, 0);
+  const { outputs, positions, fields } = data.program, rows = outputs.length + positions.length + fields.length + 8;
   return Math.ceil((3 * 8 * rows * (data.positions.count + 16)) / 1048576) + 2;
 }
 
@@ -380,5 +377,5 @@ export async function code(data: ModelData, number: number): Promise<Code> {
   const { module } = data;
   if (typeof module === "string") return { module: await WebAssembly.compile(bytes(module)) };
   if (module instanceof Uint8Array) return { module: await WebAssembly.compile(module) };
-  return { functions: (globalThis as unknown as { kernels: never[][] }).kernels[number] };
+  return { run: (globalThis as unknown as { kernels: never[] }).kernels[number] };
 }

@@ -20,15 +20,15 @@ const program: Program = {
   positions: ["cos:driver", "sin:driver"], fields: [], states: [], tables: [],
 };
 
-const functions: Code = {
-  functions: [([r, l, e, w], [cos, sin], _fields, _tables, _starts, out, n) => {
+const formulas: Code = {
+  run: ([r, l, e, w], [cos, sin], _fields, _tables, _starts, out, n) => {
     for (let i = 0; i < n; i++) {
       const [x, y] = [r * cos[i], r * sin[i]], height = y - e, along = Math.sqrt(l * l - height * height);
       const apart = Number(Math.abs(height) > l), rate = -y * w - (height * x * w) / along;
       [1 - apart, apart, 1 - (height / l) ** 2, height, l * l, x, y, x + along, e, x + along, rate, cos[i], sin[i]]
         .forEach((value, k) => (out[k * n + i] = value));
     }
-  }],
+  },
 };
 
 /** The machine at so many positions of a turn. */
@@ -36,14 +36,14 @@ export function sliderCrank(count: number): { data: ModelData; code: Code } {
   const step = (2 * Math.PI) / count, said = (text: string) => ({ en: text, zh: text });
   const data: ModelData = {
     name: said("slider-crank"), purpose: said(""), source: said(""), text: "", module: null,
-    programs: [program], main: 0, stages: [], tables: {}, sizes: "", drawing: { input: null, at: 0, places: [] },
+    program, tables: {}, sizes: "", drawing: { input: null, at: 0, places: [] },
     values: { "crank.length": CRANK, "rod.length": ROD, "guide.offset": OFFSET, "driver.speed": SPEED },
     dimensions: [
       dimension("crank.length", CRANK), dimension("rod.length", ROD),
       dimension("guide.offset", OFFSET, { positive: false }), dimension("driver.speed", SPEED, { positive: false, geometry: false }),
     ],
     positions: {
-      count, closed: true, period: (2 * Math.PI) / SPEED, modes: {}, breaks: null, time: null, arrays: {},
+      count, closed: true, period: (2 * Math.PI) / SPEED, modes: {}, breaks: null, time: null, arrays: {}, drift: 2 * Math.PI,
       steady: { driver: "driver", turns: true, start: 0, step, speed: SPEED, begin: 0 },
       inputs: [{ name: "driver", turns: true, values: null }],
     },
@@ -68,7 +68,7 @@ export function sliderCrank(count: number): { data: ModelData; code: Code } {
     ],
     glyphs: [], masses: [], undrawn: [],
   };
-  return { data, code: functions };
+  return { data, code: formulas };
 }
 
 /** Where the slider is by the theorem of Pythagoras. */

@@ -56,7 +56,7 @@ test("drivers between the positions follow their law within its pieces", () => {
   // A rise by t³ up to place 9, then standing still; five rows fit the cubic as it is.
   const law = (place: number) => (place < 9 ? (place / 9) ** 3 : 1), places = Array.from({ length: 20 }, (_, i) => i);
   const drive = new Drive({
-    count: 20, closed: false, period: null, steady: null, modes: {}, breaks: [9], time: packed(places.map((i) => 2 + 0.1 * i)),
+    count: 20, closed: false, period: null, drift: 0, steady: null, modes: {}, breaks: [9], time: packed(places.map((i) => 2 + 0.1 * i)),
     arrays: { "rate:driver": packed(places.map((i) => (i < 9 ? i ** 2 / 243 : 0))) },
     inputs: [{ name: "driver", turns: true, values: packed(places.map(law)) }],
   });
@@ -68,7 +68,7 @@ test("drivers between the positions follow their law within its pieces", () => {
     near(found["rate:driver"], place < 9 ? place ** 2 / 243 : 0, 1e-12);
   }
   const short = new Drive({
-    count: 6, closed: false, period: null, steady: null, modes: {}, breaks: [2], time: packed([0, 1, 2, 3, 4, 5]), arrays: {},
+    count: 6, closed: false, period: null, drift: 0, steady: null, modes: {}, breaks: [2], time: packed([0, 1, 2, 3, 4, 5]), arrays: {},
     inputs: [{ name: "driver", turns: true, values: packed([0, 1, 2, 3, 4, 5]) }],
   });
   assert.equal(short.at(1), null);

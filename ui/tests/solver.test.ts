@@ -1,11 +1,11 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { settle } from "../src/friction";
-import { Kernels } from "../src/engine";
-import { follow, nearest, unwrap } from "../src/loads";
+import { Kernel } from "../src/engine";
+import { nearest, unwrap } from "../src/loads";
 import { Model } from "../src/model";
 import { mixed, Solver } from "../src/solver";
-import { CRANK, OFFSET, ROD, slider, sliderCrank, SPEED } from "./machine";
+import { CRANK, OFFSET, ROD, slider, sliderCrank } from "./machine";
 import { allNear, near } from "./near";
 
 function machine(count: number) {
@@ -88,12 +88,12 @@ test("angles near others, and rows without jumps", () => {
 /** A program that an arm's friction f acts on: the reaction is 10 N and its share. */
 function rubbing(share: number, pace: number) {
   const program = { outputs: ["r:J|b.x", "r:J|b.y", "rate"], parameters: ["k", "rate"], positions: [], fields: ["f"], states: [], tables: [] };
-  const kernels = new Kernels([program], {
-    functions: [([k, rate], _positions, [f], _tables, _starts, out, n) => {
+  const kernel = new Kernel(program, {
+    run: ([k, rate], _positions, [f], _tables, _starts, out, n) => {
       for (let i = 0; i < n; i++) [out[i], out[n + i], out[2 * n + i]] = [10 + k * f[i], 0, rate];
-    }],
+    },
   });
-  const call = kernels.call(0, 3), term = { field: "f", rate: "rate", joint: "J", a: "a", b: "b", arm: 0.2, slides: false, on: ["b"] };
+  const call = kernel.call(3), term = { field: "f", rate: "rate", joint: "J", a: "a", b: "b", arm: 0.2, slides: false, on: ["b"] };
   call.set({ k: share, rate: pace });
   call.run();
   return { settled: settle(call, [term]), friction: call.fields.f[0], reaction: call.row("r:J|b.x")[0] };
@@ -108,31 +108,4 @@ test("friction agrees with the reaction that it causes, against the motion; it l
   }
   const locked = rubbing(-6, 1);
   assert.deepEqual([locked.settled, locked.friction, locked.reaction], [false, 0, 10]);
-});
-
-test("a load acts from one limit of a cosine to the other, and its ramp goes on with the input", () => {
-  const n = 24, program = { outputs: ["x", "v"], parameters: [], positions: ["q"], fields: ["acts:push", "share:push"], states: [], tables: [] };
-  const kernels = new Kernels([program], {
-    functions: [(_parameters, [q], _fields, _tables, _starts, out, length) => {
-      for (let i = 0; i < length; i++) [out[i], out[length + i]] = [Math.cos(q[i] - 0.1), -Math.sin(q[i] - 0.1)];
-    }],
-  });
-  const call = kernels.call(0, n), one = kernels.call(0, 1), inputs = Float64Array.from({ length: n }, (_, i) => (i * 2 * Math.PI) / n);
-  call.give({ q: inputs });
-  call.run();
-  const at = (q: number) => {
-    one.give({ q: [q] });
-    one.run();
-    return one;
-  };
-  const between = follow(call, [{ load: "push", rows: ["x"], rate: "v", moving: false, ramp: true, ends: ["max", "min"], part: null }], [], {}, {
-    inputs, closed: true, drift: 2 * Math.PI, period: 2 * Math.PI / SPEED, time: (i) => inputs[i] / SPEED, at: (q, value) => value(at(q)),
-  })!;
-  inputs.forEach((q, i) => {
-    const since = q - 0.1, acts = since >= 0 && since <= Math.PI;
-    assert.equal(call.fields["acts:push"][i], Number(acts));
-    if (acts) near(call.fields["share:push"][i], since / Math.PI, 1e-9);
-  });
-  near(between(at(1.234), 1.234, 5)["share:push"], 1.134 / Math.PI, 1e-9);
-  assert.equal(between(at(4), 4, 15)["acts:push"], 0);
 });

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Cycle, Kernels, look, reduce } from "../src/engine";
+import { look } from "../src/engine";
 import { Model } from "../src/model";
 import { digits, quantity, unitFor, Words } from "../src/words";
 import { written } from "../src/written";
@@ -97,34 +97,4 @@ test("a table's values and slopes are those of its cubics, and go on by its drif
     near(look(table, x - 3, 1), pieces[1](x), 1e-12);
   }
   assert.ok(Number.isNaN(look(table, NaN, 3)));
-});
-
-const rows = { outputs: ["y", "z", "good"], parameters: ["a"], positions: ["x"], fields: [], states: [], tables: [] };
-const squares = { functions: [([a]: Float64Array, [x]: Float64Array[], _f: unknown, _t: unknown, _s: unknown, out: Float64Array, n: number) => {
-  for (let i = 0; i < n; i++) [out[i], out[n + i], out[2 * n + i]] = [a * x[i], x[i] ** 2, Number(x[i] > 0)];
-}] };
-
-test("summaries of the valid positions", () => {
-  const call = new Kernels([rows], squares).call(0, 5);
-  call.set({ a: -2 });
-  call.give({ x: [-1, 3, 0, 4, 2] });
-  call.run();
-  const all = reduce({ valid: "good" }, call), of = (kind: string, output = "y", other = "") => all(output, kind, other);
-  assert.deepEqual(["min", "max", "argmin", "argmax", "first", "last", "sum", "mean", "valid", "count"].map((kind) => of(kind)), [-8, -4, 3, 4, -6, -4, -18, -6, 3, 3]);
-  near(of("rms"), Math.sqrt((36 + 64 + 16) / 3));
-  assert.deepEqual([of("at_min", "z", "y"), of("at_max", "z", "y")], [16, 4]);
-  assert.ok(Number.isNaN(reduce({ valid: "good" }, Object.assign(call, { row: () => new Float64Array(5), has: () => true }))("y", "min", "")));
-});
-
-test("a stage hands its numbers to the next one and to what follows it", () => {
-  const kernels = new Kernels(
-    [rows, { outputs: ["twice"], parameters: ["largest"], positions: [], fields: [], states: [], tables: [] }],
-    { functions: [squares.functions[0], ([largest], _p, _f, _t, _s, out, n) => out.fill(2 * largest, 0, n)] },
-  );
-  const stage = { kernel: 0, valid: null, count: "", complete: false, steps: null, starts: {}, after: null, keep: null };
-  const cycle = new Cycle(kernels, [
-    { ...stage, reductions: [{ name: "largest", output: "z", kind: "max", of: "" }] },
-    { ...stage, kernel: 1, steps: 1, reductions: [{ name: "found", output: "twice", kind: "first", of: "" }] },
-  ], 4);
-  assert.deepEqual(cycle.run({ a: 1 }, { x: [1, -5, 2, 0] }), { largest: 25, found: 50 });
 });

@@ -106,6 +106,12 @@ class Program:
         """The tables that are looked up, each once."""
         return tuple(dict.fromkeys(self._inputs("lookup")))
 
+    @property
+    def names(self) -> dict[str, list[str]]:
+        """The names of the outputs, and of the inputs of every kind, in their order."""
+        kinds = ("parameters", "positions", "fields", "states", "tables")
+        return {"outputs": list(self.output_names), **{kind: list(getattr(self, kind)) for kind in kinds}}
+
     def _inputs(self, kind: str) -> tuple[str, ...]:
         return tuple(name for op, _, _, name, _ in self.entries if op == kind)
 

@@ -1,9 +1,9 @@
-"""Programs as one WebAssembly module for browsers, by the same text that native code is made of.
+"""Programs as WebAssembly modules for browsers, by the same text that native code is made of.
 
 Positions are taken in vectors of four numbers (two of SIMD128 at a time); a program with states has one design.
 Square roots, absolute values and floors are instructions; the other functions are imported from the host
 (``env.linkwright_sin`` …), as native code takes them from the C library. The only other import is the memory.
-Function ``kernelN`` takes the address of program N's call block (see ``ir_kernel.Block``; 64 bits per place,
+Function ``kernel`` takes the address of the program's call block (see ``ir_kernel.Block``; 64 bits per place,
 addresses below 2³²).
 """
 
@@ -11,12 +11,10 @@ from __future__ import annotations
 
 import importlib.util
 import re
-from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
 from linkwright.engine.ir_kernel import kernel
-from linkwright.engine.ir_lookup import LOOKUP
 from linkwright.engine.ir_module import ENTRY
 from linkwright.engine.lines import Lines
 from linkwright.engine.machine_code import module_for
@@ -30,26 +28,14 @@ WIDTH = 4
 _INTERNAL = re.compile(r"(?m)^(define internal .*) nounwind \{$")
 
 
-def wasm_module(programs: Sequence[Program]) -> bytes | None:
-    """The module of some programs, every output stored; None where llvmlite or its WebAssembly target is missing."""
+def wasm_module(program: Program) -> bytes | None:
+    """The module of a program, every output stored; None where llvmlite or its WebAssembly target is missing."""
     machine = _machines() if importlib.util.find_spec("llvmlite") else None
     if machine is None:
         return None
-    declared: dict[str, None] = {}
-    bodies: list[str] = []
-    level = 3
-    for number, program in enumerate(programs):
-        text, wanted = kernel(Lines.of(program), 1 if program.next_states else WIDTH, None, library=True)
-        text = text.replace(f"@{ENTRY}(", f"@kernel{number}(").replace(f"@{LOOKUP}", f"@{LOOKUP}_{number}_")
-        text = _INTERNAL.sub(r"\1 alwaysinline nounwind {", text)
-        level = min(level, wanted)
-        for line in text.splitlines():
-            if line.startswith("declare "):
-                declared[line] = None
-            else:
-                bodies.append(line)
-    exports = {f"kernel{number}": number for number in range(len(programs))}
-    return linked(_object("\n".join([*declared, *bodies, ""]), machine[level]), exports)
+    text, level = kernel(Lines.of(program), 1 if program.next_states else WIDTH, None, library=True)
+    text = _INTERNAL.sub(r"\1 alwaysinline nounwind {", text.replace(f"@{ENTRY}(", "@kernel("))
+    return linked(_object(text, machine[level]), {"kernel": 0})
 
 
 def _object(text: str, machine: Any) -> bytes:

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from functools import cache
 from html import escape
 from importlib.resources import files
-from typing import Any
 
 import numpy as np
 
@@ -18,22 +17,20 @@ from linkwright.core.given import require
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
-from linkwright.cycle_programs.loaded_cycle import SIZES
 from linkwright.engine.javascript import javascript
-from linkwright.engine.portable import Kernels
 from linkwright.engine.wasm import wasm_module
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.files.write import dump
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
-from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.contacts import RackWay, Wheels, contact_shape
 from linkwright.page.dimensions import dimensions, drawn
 from linkwright.page.glyphs import glyphs, undrawn
-from linkwright.page.programs import PagePrograms
+from linkwright.page.positions import packed, positions
+from linkwright.page.programs import SIZES, PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.view import fitted
@@ -76,15 +73,10 @@ def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tup
 def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
     text = dump(motion.mechanism) if text is None else text
     programs = PagePrograms(motion)
-    kernels = Kernels()
-    main = kernels.number(programs.main)
-    stages = kernels.stages(programs.cycle) if programs.stages else []
-    module = wasm_module(kernels.programs)
-    names = [f"m{number}k{place}" for place in range(len(kernels.programs))]
+    module, name = wasm_module(programs.main), f"kernel{number}"
     script = ""
     if module is None:
-        pieces = [javascript(each, name) for each, name in zip(kernels.programs, names, strict=True)]
-        script = "\n".join([*pieces, f"(globalThis.kernels??=[])[{number}]=[{','.join(names)}];"])
+        script = f"{javascript(programs.main, name)}\n(globalThis.kernels??=[])[{number}]={name};"
     values = programs.values()
     known = signals(programs)
     machine = _machine(motion)
@@ -93,19 +85,18 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
     data = {
         **_said(motion.mechanism, text),
         "module": None if module is None else base64.b64encode(module).decode(),
-        "programs": kernels.described(),
-        "main": main,
-        "stages": stages,
+        "program": programs.main.names,
         "values": values,
         "tables": {name: table.numbers.tolist() for name, table in programs.tables.items()},
         "sizes": SIZES,
         "dimensions": [each.data() for each in changeable],
         "drawing": drawn(document, motion),
-        "positions": _positions(programs),
-        "fields": {name: _packed(row) for name, row in programs.fields().items()},
+        "positions": positions(motion, programs.arrays(), mode_inputs(programs.solver.assembly.modes)),
+        "fields": {name: packed(row) for name, row in programs.fields().items()},
         "starts": programs.starts if programs.iterated else {},
         "held": programs.held,
-        **programs.found_per_position,
+        "phases": programs.phases,
+        "angles": programs.angles,
         "friction": programs.friction(),
         "groups": _groups(programs),
         "signals": list(known.values()),
@@ -133,69 +124,13 @@ def _machine(motion: Motion) -> Machine:
     return Machine(motion, placed, fitted(motion, placed))
 
 
-def _packed(row: Any) -> str:
-    """Numbers as base64 of their 64-bit floats."""
-    return base64.b64encode(np.ascontiguousarray(row, dtype="<f8").tobytes()).decode()
-
-
-def _positions(programs: PagePrograms) -> Plain:
-    """Inputs per position; a single driver of constant speed is said by its law."""
-    positions, mechanism = programs.motion.positions, programs.mechanism
-    modes = list(programs.motion.modes)
-    signs = mode_inputs(programs.traced.solver.assembly.modes)
-    arrays = programs.arrays()
-    found: Plain = {
-        "count": positions.count, "closed": positions.closed, "period": positions.period, "steady": None,
-        "modes": {name: float(signs[name]) for name in modes},
-    }  # fmt: skip
-    drivers = list(mechanism.drivers.values())
-    name = drivers[0].name if drivers else ""
-    followed = {
-        "time",
-        "step",
-        "input",
-        *modes,
-        *(f"{kind}:{name}" for kind in ("cos", "sin", "slide", "turn")),
-    }
-    if len(drivers) == 1 and drivers[0].law.constant_speed is not None and followed.issuperset(arrays):
-        q = positions.coordinates[name][0]
-        step = float(q[1] - q[0]) if len(q) > 1 else 0.0
-        found["steady"] = {
-            "driver": name, "turns": positions.rotary[name], "start": float(q[0]), "step": step,
-            "speed": drivers[0].law.constant_speed, "begin": float(positions.time[0]),
-        }  # fmt: skip
-        arrays = {each: row for each, row in arrays.items() if each in modes}
-    found["breaks"] = None if found["steady"] else _breaks(mechanism, positions)
-    found["time"] = None if found["steady"] else _packed(positions.time)
-    found["arrays"] = {name: _packed(row) for name, row in arrays.items()}
-    found["inputs"] = [
-        {
-            "name": each,
-            "turns": positions.rotary[each],
-            "values": None if found["steady"] else _packed(rows[0]),
-        }
-        for each, rows in positions.coordinates.items()
-    ]
-    return found
-
-
-def _breaks(mechanism: Mechanism, positions: Positions) -> list[float] | None:
-    """Places among the positions of a cycle where a driver's law goes over; None of other positions."""
-    if not positions.cycle or positions.count < 3 or not mechanism.drivers:
-        return None
-    start, end = float(positions.around[0]), float(positions.around[-1])
-    breaks = np.unique(np.concatenate([each.law.breaks(start, end) for each in mechanism.drivers.values()]))
-    inside = breaks[(breaks > start) & (breaks < end)]
-    return [float(each) for each in (inside - start) / (positions.time[1] - start)]
-
-
 def _groups(programs: PagePrograms) -> list[Plain]:
-    placed = programs.traced.solver.motion.placed
+    placed = programs.solver.motion.placed
     return [
         {"name": each.name, "signature": each.signature, "links": list(each.links),
          "facts": list(placed[each.name].facts), "wheels": _wheels(programs, each.links),
          "dyad": row_name("quality", each.name) in programs.main.output_names}
-        for each in programs.traced.solver.structure.groups
+        for each in programs.solver.structure.groups
     ]  # fmt: skip
 
 

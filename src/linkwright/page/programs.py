@@ -1,29 +1,26 @@
-"""The programs of a page: all that it draws and plots, and before it the limit positions of its loads."""
+"""The formula of a page: all that it draws and plots of one position, and the numbers that it takes."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_groups
-from linkwright.core.outputs import SLIDE, owners_of, row_name, row_names
-from linkwright.cycle_programs.iterated_groups import ITERATIONS
-from linkwright.cycle_programs.limit_stages import constants, limit_stages
-from linkwright.cycle_programs.loaded_cycle import SIZES, along_input
-from linkwright.cycle_programs.traced_outputs import Traced
+from linkwright.core.json_data import Plain
+from linkwright.core.outputs import SLIDE, Output, row_name, row_names
 from linkwright.elements.topology import Group
-from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
-from linkwright.engine.stage import Stage
 from linkwright.engine.states import inputs_as_fields
 from linkwright.engine.table import Tables
 from linkwright.engine.trace import Scalar, select
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import canonical
+from linkwright.kinematics.names import canonical, program_names
+from linkwright.kinematics.programs import Manner
+from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.step_rule import StepRule
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.closure import dyads, transmission
@@ -31,14 +28,17 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, traced_rate
 from linkwright.kinetostatics.load_site import TracedSite, guide_state
 from linkwright.kinetostatics.run import solve_forces
-from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.dimensions import geometry_addresses
-from linkwright.page.loads import angles, fields, found_again, phases, traced_names
+from linkwright.page.loads import angles, found_again, interval, moving_name, phases, traced_name
 
-STEPS = 360
+#: Newton steps of groups without closed form at every position.
+ITERATIONS = 3
+#: The output that is the sum of magnitudes which may not exist.
+SIZES = "sizes of loads"
 
 
 def _rate_of(term: FrictionTerm) -> str:
@@ -47,7 +47,7 @@ def _rate_of(term: FrictionTerm) -> str:
 
 
 class PagePrograms:
-    """Programs of one mechanism and their inputs.
+    """The formula of one mechanism and its inputs.
 
     Outputs of ``main`` beside those of motion and forces: ``d:GUIDE`` direction of a guide, ``m:GROUP``
     transmission angle and ``quality:GROUP`` closeness to change points of a dyad, ``ok`` and ``outcome``.
@@ -62,36 +62,41 @@ class PagePrograms:
     @cached_property
     def held(self) -> list[str]:
         """Loads that a page cannot find again after a change: their course is that of the original."""
-        return [name for name in self._varying if name not in self.followed.names | self.positional.names]
+        return [load.name for load in self._varying if load not in self.found]
 
     @cached_property
-    def _varying(self) -> list[str]:
+    def found(self) -> list[Load]:
+        """Loads whose phases and angles the page finds at every position, and whose sizes are formulas."""
+        return [load for load in self._varying if found_again(load, self.motion)]
+
+    @property
+    def _varying(self) -> list[Load]:
         """The loads whose magnitudes are no numbers."""
-        fields = self._plain.forces.fields_needed() if self.forces is not None else ()
-        return owners_of("magnitude", fields)
+        return [each for each in self.mechanism.loads.values() if not each.magnitude.constant]
 
     @cached_property
-    def positional(self) -> AlongInput:
-        """Loads that are traced but for what the page finds at every position, and the numbers that they take."""
-        left = [self.mechanism.loads[name] for name in self._varying if name not in self.followed.names]
-        return numbers_of_loads([each for each in left if found_again(each, self.motion)], self.mechanism)
+    def _numbers(self) -> AlongInput:
+        """The numbers that they take."""
+        return numbers_of_loads(self.found, self.mechanism)
 
     @property
     def tables(self) -> Tables:
         """The tables of the loads."""
-        return {**self.positional.tables, **self.followed.tables}
-
-    @cached_property
-    def found_per_position(self) -> dict[str, list[dict[str, object]]]:
-        """``phases`` and ``angles`` that the page finds at every position."""
-        return {
-            "phases": phases(self._positional_loads, self.motion),
-            "angles": angles(self._positional_loads, self.motion, self.followed.constants),
-        }
+        return self._numbers.tables
 
     @property
-    def _positional_loads(self) -> list[Load]:
-        return [self.mechanism.loads[name] for name in sorted(self.positional.names)]
+    def phases(self) -> list[Plain]:
+        """The phases that the page finds."""
+        return phases(self.found, self.motion)
+
+    @property
+    def angles(self) -> list[Plain]:
+        """The angles that the page finds at every position."""
+        return [each for each in self._angles if each["field"] in self.main.fields]
+
+    @cached_property
+    def _angles(self) -> list[Plain]:
+        return angles(self.found, self.motion)
 
     def friction(self) -> list[dict[str, object]]:
         """The friction that the page finds again, with the links whose stored reactions add up to that on ``b``."""
@@ -104,63 +109,27 @@ class PagePrograms:
         ]  # fmt: skip
 
     @cached_property
-    def _plain(self) -> Traced:
-        return Traced(
-            self.mechanism, self.free, self.motion.positions, iterations=self._iterations, turning=True
-        )
-
-    @cached_property
-    def followed(self) -> AlongInput:
-        """Loads whose magnitudes are traced, and what they take."""
-        none = AlongInput(frozenset())
-        if self.forces is None or self.iterated:
-            return none
-        found, signals = [], MotionSignals(self.motion)
-        for name in (row_name("magnitude", name) for name in self._varying):
-            known = along_input(self._plain, self.free, [name])
-            if known is not None and known.limits(signals) is not None:
-                found.append(name)
-        return along_input(self._plain, self.free, found) or none
-
-    @cached_property
     def iterated(self) -> bool:
         """Whether a group without closed form is followed from position to position."""
         return bool(self.motion.solver.motion.next_states)
 
-    @property
-    def _iterations(self) -> int:
-        return ITERATIONS if self.iterated else 1
-
     @cached_property
-    def traced(self) -> Traced:
-        """The traces of motion and forces."""
-        found = Traced(
-            self.mechanism,
-            self.free,
-            self.motion.positions,
-            iterations=self._iterations,
-            turning=True,
-            along_input=self.followed.names | traced_names(self._positional_loads, self.motion),
+    def solver(self) -> MotionSolver:
+        """The traced motion, with the signs of assembly modes per position where these change."""
+        groups = frozenset(mode_groups(self.motion.modes)) if self.motion.modes else frozenset()
+        return MotionSolver(
+            self.mechanism, Manner(self.free, flipping=groups, iterations=ITERATIONS if self.iterated else 1)
         )
-        if self.motion.modes:
-            groups = frozenset(mode_groups(self.motion.modes))
-            found.solver.manner = replace(found.solver.manner, flipping=groups)
-        return found
 
     @cached_property
-    def stages(self) -> tuple[Stage, ...]:
-        """What is found before the main program: limit positions between which loads act."""
-        return tuple(limit_stages(self.traced, self.followed.outputs, valued=self.followed.valued))
-
-    @cached_property
-    def cycle(self) -> CycleProgram:
-        """The stages as a cycle program."""
-        return CycleProgram(self.stages)
+    def loaded(self) -> ForceSolver:
+        """The traced forces."""
+        return ForceSolver(self.solver, along_input=frozenset(map(traced_name, self.found)))
 
     @cached_property
     def main(self) -> Program:
         """All outputs; it carries states where groups are iterated."""
-        motion = self.traced.solver.motion
+        motion = self.solver.motion
         outputs = self._outputs(motion)
         if not self.iterated:
             return self._with_angles(Program.of(motion.trace, {**outputs, "ok": motion.valid}))
@@ -179,7 +148,7 @@ class PagePrograms:
 
     def _with_angles(self, program: Program) -> Program:
         """The program with the angles near which angles stay, where these turn through, taken per position."""
-        return inputs_as_fields(program, [str(each["field"]) for each in self.found_per_position["angles"]])
+        return inputs_as_fields(program, [str(each["field"]) for each in self._angles])
 
     @cached_property
     def starts(self) -> dict[str, float | str]:
@@ -189,7 +158,7 @@ class PagePrograms:
         return {name: states.get(name, self.begin.get(name, 0.0)) for name in self.main.states}
 
     def _outputs(self, motion: MotionTrace) -> dict[str, Scalar | bool]:
-        solver = self.traced.solver
+        solver = self.solver
         names = [name for name in solver.outputs.standard if name != "outcome"]
         frame = [canonical(self.mechanism, "frame", point) for point in self.mechanism.frame.points]
         names += [each for key in frame for each in row_names("position", key)]
@@ -216,27 +185,32 @@ class PagePrograms:
         return {**outputs, "outcome": motion.outcome}
 
     def _of_forces(self) -> dict[str, Scalar | bool]:
-        forces = self.traced.forces.outputs
+        forces = self.loaded.outputs
         names = list(forces.standard)
         for load in self.mechanism.loads:
             names += [*row_names("load", load), *row_names("load_place", load)]
         names += [*row_names("shaking_force"), row_name("shaking_moment")]
         found: dict[str, Scalar | bool] = {name: forces.value(name) for name in names}
-        motion, terms = self.traced.solver.motion, self.traced.forces.friction.terms
+        motion, terms = self.solver.motion, self.loaded.friction.terms
         found |= {_rate_of(term): traced_rate(motion, term) for term in terms}
-        return found if (sizes := self._sizes()) is None else {**found, SIZES: sizes}
+        found |= {
+            moving_name(each): self._moving(each)
+            for load in self.found
+            for each in load.magnitude.phase.outputs
+        }
+        fallible = self._numbers.fallible
+        return {**found, SIZES: sum((self._size(name) for name in fallible), 0.0)} if fallible else found
 
-    def _sizes(self) -> Scalar | None:
-        """Sum of the magnitudes that may not exist; None where there are none."""
-        if not (self.followed.fallible or self.positional.fallible):
-            return None
-        total, motion = self.followed.sizes(self.traced.solver.motion), self.traced.solver.motion
-        partly = traced_names(self._positional_loads, self.motion)
-        for name in self.positional.fallible:
-            load = self.mechanism.loads[name]
-            site = TracedSite(motion, load, along_input=True, phase_known=name not in partly)
-            total = total + site.magnitude()
-        return total
+    def _moving(self, output: Output) -> Scalar:
+        """The rate of an output, zero at rest."""
+        _, rates = program_names(self.mechanism, output)
+        rate, second = (self.solver.outputs.value(name) for name in rates)
+        return self.solver.motion.moving(rate, second, output.dimension)
+
+    def _size(self, name: str) -> Scalar:
+        load = self.mechanism.loads[name]
+        known = traced_name(load) != name
+        return TracedSite(self.solver.motion, load, along_input=True, phase_known=known).magnitude()
 
     @cached_property
     def dyads(self) -> tuple[Group, ...]:
@@ -244,26 +218,22 @@ class PagePrograms:
         return dyads(self.motion.structure)
 
     def values(self) -> dict[str, float]:
-        """Every parameter that a program takes, but those that the stages find."""
-        loads = {**self.positional.constants, **self.followed.constants}
-        known = {**self.traced.solver.nominal.parameters, **constants(self.traced), **loads}
-        wanted = dict.fromkeys([*self.main.parameters, *(self.cycle.dimensions if self.stages else ())])
-        return {name: known[name] for name in wanted if name in known}
+        """Every number that the program takes, and the ends of intervals of the input."""
+        known = {**self.solver.nominal.parameters, **self._numbers.constants}
+        ends = [end for load in self.found for end in interval(load)]
+        return {name: known[name] for name in dict.fromkeys([*self.main.parameters, *ends])}
 
     def fields(self) -> Mapping[str, Floats]:
-        """The course of what is held."""
+        """The course of what is held; zeros of what the page finds."""
         if self.forces is None:
             return {}
-        own = [str(each["field"]) for each in self.found_per_position["angles"]]
-        empty = dict.fromkeys(own, np.zeros(self.motion.positions.count))
-        known = {**self.forces.fields, **fields(self._positional_loads, self.motion), **empty}
-        return {name: known[name] for name in self.main.fields}
+        empty = np.zeros(self.motion.positions.count)
+        return {name: self.forces.fields.get(name, empty) for name in self.main.fields}
 
     def arrays(self) -> dict[str, Floats]:
-        """The inputs per position of all programs."""
+        """The inputs per position."""
         found = {**self.motion.positions.arrays, **self.motion.modes}
         count = self.motion.positions.count
         time = self.motion.positions.time
         found["step"] = np.full(count, time[1] - time[0] if count > 1 else 0.0)
-        wanted = {*self.main.positions, *(name for stage in self.stages for name in stage.program.positions)}
-        return {name: found[name] for name in found if name in wanted}
+        return {name: found[name] for name in found if name in self.main.positions}

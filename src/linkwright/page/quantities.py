@@ -52,16 +52,16 @@ def _motion(page: PagePrograms) -> Iterator[Output]:
         yield from Output("angle", name).course
     for name in mechanism.guides:
         yield from Output("displacement", name).course
-    for key in page.traced.solver.outputs.point_keys():
+    for key in page.solver.outputs.point_keys():
         yield from (Output("velocity", key), Output("acceleration", key))
     for group in page.dyads:
         yield Output("transmission_angle", group.name)
 
 
 def _forces(page: PagePrograms) -> Iterator[Output]:
-    for name in page.traced.forces.forces.efforts:
+    for name in page.loaded.forces.efforts:
         yield Output("effort", name, slides=page.mechanism.drivers[name].joint in page.mechanism.guides)
-    stored = {(joint, link) for joint, link, _ in page.traced.forces.outputs.reaction_keys()}
+    stored = {(joint, link) for joint, link, _ in page.loaded.outputs.reaction_keys()}
     for joint, link in reaction_pairs(page.mechanism):
         if (joint, link) in stored:
             yield Output("reaction", joint, on=link)
@@ -137,7 +137,7 @@ def usual_curves(page: PagePrograms, known: Mapping[Output, Plain]) -> list[str]
 def point_keys(page: PagePrograms) -> list[Plain]:
     """All points with what they are: on the frame or moving, a joint or not."""
     frame = {canonical(page.mechanism, "frame", point) for point in page.mechanism.frame.points}
-    keys = [*frame, *(key for key in page.traced.solver.outputs.point_keys() if key not in frame)]
+    keys = [*frame, *(key for key in page.solver.outputs.point_keys() if key not in frame)]
     return [
         {"key": key, "fixed": key in frame, "moved": moving_dimensions(page, key)} for key in sorted(keys)
     ]

@@ -3,15 +3,13 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 
 const [engine, job, result] = process.argv.slice(2);
-const { Kernels, Cycle, look } = await import(pathToFileURL(engine).href);
+const { Kernel, look } = await import(pathToFileURL(engine).href);
 const { works } = JSON.parse(readFileSync(job, "utf8"));
 const number = (row) => Float64Array.from(row, (x) => (x === null ? NaN : x));
 const arrays = (given) => Object.fromEntries(Object.entries(given).map(([name, row]) => [name, number(row)]));
 
 function run(work, code) {
-  const kernels = new Kernels(work.programs, code, work.tables);
-  if (work.stages) return new Cycle(kernels, work.stages, work.n).run(work.values, arrays(work.positions));
-  const call = kernels.call(0, work.n);
+  const call = new Kernel(work.program, code, work.tables).call(work.n);
   call.set(work.values);
   call.give(arrays({ ...work.positions, ...work.fields }));
   call.starts.set(number(work.starts));
@@ -21,6 +19,6 @@ function run(work, code) {
 
 const found = works.map((work) => ({
   wasm: work.module && run(work, { module: new WebAssembly.Module(Buffer.from(work.module, "base64")) }),
-  text: run(work, { functions: new Function("look", `${work.text}\nreturn [${work.names}];`)(look) }),
+  text: run(work, { run: new Function("look", `${work.text}\nreturn kernel;`)(look) }),
 }));
 writeFileSync(result, JSON.stringify(found));

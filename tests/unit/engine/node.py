@@ -1,4 +1,4 @@
-"""Programs and cycle programs evaluated by Node, with the engine that pages carry."""
+"""Programs evaluated by Node, with the engine that pages carry."""
 
 from __future__ import annotations
 
@@ -14,9 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.javascript import javascript
-from linkwright.engine.portable import Kernels
 from linkwright.engine.program import Program
 from linkwright.engine.table import Tables
 from linkwright.engine.wasm import wasm_module
@@ -26,7 +24,7 @@ needs_node = pytest.mark.skipif(NODE is None, reason="no Node on this machine")
 
 
 def work(
-    what: Program | CycleProgram,
+    program: Program,
     values: Mapping[str, float],
     positions: Mapping[str, Any],
     n: int,
@@ -36,19 +34,11 @@ def work(
     tables: Tables | None = None,
 ) -> dict[str, Any]:
     """One evaluation of one design as plain data."""
-    kernels = Kernels()
-    stages = kernels.stages(what) if isinstance(what, CycleProgram) else None
-    if isinstance(what, Program):
-        kernels.number(what)
-    names = [f"k{number}" for number in range(len(kernels.programs))]
-    module = wasm_module(kernels.programs)
-    texts = [javascript(each, name) for each, name in zip(kernels.programs, names, strict=True)]
+    module = wasm_module(program)
     return {
-        "programs": kernels.described(),
-        "stages": stages,
+        "program": program.names,
         "module": module and base64.b64encode(module).decode(),
-        "text": "\n".join(texts),
-        "names": names,
+        "text": javascript(program, "kernel"),
         "values": dict(values),
         "positions": {name: _plain(row) for name, row in positions.items()},
         "fields": {name: _plain(row) for name, row in (fields or {}).items()},
@@ -63,7 +53,7 @@ def _plain(row: Any) -> list[float | None]:
 
 
 def in_node(works: Sequence[dict[str, Any]], folder: Path) -> list[dict[str, dict[str, Any]]]:
-    """Results of the works, by ``wasm`` and ``text``, by the names of the outputs or cycle values."""
+    """Results of the works, by ``wasm`` and ``text``, by the names of the outputs."""
     assert NODE is not None
     engine = files("linkwright") / "page" / "built" / "engine.mjs"
     job, result = folder / "job.json", folder / "result.json"

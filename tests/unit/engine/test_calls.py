@@ -146,7 +146,7 @@ def test_numbers_of_inputs_that_do_not_fit_are_refused() -> None:
 def test_machines_without_the_compiler_or_the_count_of_cores(monkeypatch: pytest.MonkeyPatch) -> None:
     assert available.__wrapped__() is True
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
-    assert available.__wrapped__() is False and wasm_module([]) is None
+    assert available.__wrapped__() is False and wasm_module(Program.of(Trace(), {})) is None
     monkeypatch.undo()
 
     def missing() -> None:

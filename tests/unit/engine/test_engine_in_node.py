@@ -1,4 +1,4 @@
-"""WebAssembly and JavaScript evaluated by Node, against NumPy: gallery files, functions, look-ups, cycle programs."""
+"""WebAssembly and JavaScript evaluated by Node, against NumPy: gallery files, functions, look-ups."""
 
 from __future__ import annotations
 
@@ -12,13 +12,8 @@ import pytest
 from tests.unit.engine.node import in_node, needs_node, work
 
 import linkwright as lw
-from linkwright.cycle_programs.loaded_cycle import loaded_cycle
-from linkwright.cycle_programs.traced_outputs import Traced
-from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
-from linkwright.engine.reductions import KINDS, Reduction
-from linkwright.engine.stage import Stage
 from linkwright.engine.states import states_as_fields
 from linkwright.engine.table import Table
 from linkwright.engine.tangent import slope
@@ -107,49 +102,11 @@ def test_functions_look_ups_and_states(tmp_path: Path) -> None:
         agree(got[kind], dict(zip(program.output_names, want, strict=True)), kind)
 
 
-def test_reductions_and_what_follows_them(tmp_path: Path) -> None:
-    t = Trace()
-    x, a = t.position("x"), t.parameter("a")
-    y = sin(x) * a + cos(3.0 * x)
-    program = Program.of(t, {"y": y, "z": x * x, "valid": cos(x) < 0.8})
-    after = Trace()
-    ratio = after.parameter("y.at_max.z") / (after.parameter("valid.count") + after.parameter("z.mean"))
-    found = {
-        kind: Reduction("y", kind, "z" if kind.startswith("at_") else "")  # type: ignore[arg-type]
-        for kind in KINDS
-    }
-    stage = Stage(program, found, after=Program.of(after, {"ratio": ratio}), count="counted")
-    cycle = CycleProgram((stage,))
-    positions = {"x": np.linspace(0.0, 6.0, 37)}
-    want = cycle.evaluate([[0.6]], positions, backend="numpy")
-    (got,) = in_node([work(cycle, {"a": 0.6}, positions, 37)], tmp_path)
-    for kind in ("wasm", "text"):
-        agree(got[kind], {name: value[0] for name, value in want.items()}, kind)
-
-
-def test_the_crushers_limits_and_torque(tmp_path: Path) -> None:
-    """The cycle program of a load that acts between two limit positions, and those limits as the gallery has them."""
-    mechanism = lw.load("gallery:jaw_crusher_sixbar")
-    traced = Traced(mechanism, ("pitman.length",), lw.solve_motion(mechanism, steps=360).positions)
-    loaded = loaded_cycle(traced, ("pitman.length",), ["driver.effort"], [Reduction("driver.effort", "max")])
-    assert loaded is not None
-    part = {"pitman.length": np.array([1.25])}
-    want, _ = loaded.evaluate(part, 1, "numpy")
-    values = dict(zip(loaded.cycle.dimensions, loaded.table(part)[0].tolist(), strict=True))
-    positions = {name: row for name, row in traced.positions.arrays.items() if ":" in name or name == "input"}
-    (got,) = in_node([work(loaded.cycle, values, positions, 360)], tmp_path)
-    for kind in ("wasm", "text"):
-        agree(got[kind], {name: value[0] for name, value in want.items() if "moved" not in name}, kind)
-        (limit,) = (got[kind][name] for name in want if name.startswith("limit:") and name.endswith(":max"))
-        largest = math.degrees(limit) % 360.0
-        assert largest == pytest.approx(360.0 - 89.862115, abs=1e-5)
-
-
 def test_a_module_is_small() -> None:
     """The six-bar with all reactions."""
     solver = ForceSolver(lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar")).solver)
     program = solver.program(solver.outputs.standard).program
-    module = wasm_module([program])
+    module = wasm_module(program)
     assert module is not None
     assert module[:8] == b"\0asm\1\0\0\0"
     assert len(module) < 6000
