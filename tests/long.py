@@ -27,6 +27,7 @@ STEPS: Mapping[str, str] = {
     "machines": "-m tests.random_mechanisms --count 2000 --seed {day} --workers 2",
     "gears": "-m tests.random_geared --count 500 --seed {day}",
     "numbers": "-m tests.brute_force --count 200 --seed {day}",
+    "gradients": "-m tests.gradients --count 100 --seed {day}",
     "joints": "-m tests.random_cells --seeds 10",
     "branches": "-m tests.random_branches --count 400 --first {day}",
     "drawings": "-m tests.unit.kinematics.random_drawings --count 200 --off 2",
