@@ -4,10 +4,10 @@
     python -m tests.gradients --only jaw_crusher_sixbar 1000013
 
 Of every machine some numbers of ``lw.metrics`` are taken as objectives of some dimensions, those of loads and of
-their phases among them. The gradient of ``lw.objective`` is compared with differences over two sizes of steps, of several
-sizes the two that agree best; ``Objective.many`` must give the same at the machine and at designs beside it. A
-derivative is wrong where it is further off than 1e-6 of the largest one of its number, or than what the two sizes of
-steps leave open; a number with a bend at the machine has no derivative, and is not judged.
+their phases among them. The gradient of ``lw.objective`` is compared with differences over two sizes of steps, of
+several sizes the two that agree best; ``Objective.many`` must give the same at the machine and at designs beside it.
+A derivative is wrong where it is further off than 1e-6 of the largest one of its number, or than what the two sizes
+of steps leave open; a number with a bend at the machine has no derivative, and is not judged.
 
 Exit code: 0 nothing wrong, 1 something wrong, 2 wrong use.
 """
