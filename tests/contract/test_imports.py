@@ -34,6 +34,7 @@ STAGES = (
     ("kinematics",),
     ("kinetostatics",),
     ("dyads",),
+    ("cycle",),
     ("metrics", "machine", "worked"),
     ("cycle_programs",),
     ("study", "optimisation", "synthesis", "cams", "gears", "parts", "tolerance"),

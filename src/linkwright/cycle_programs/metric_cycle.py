@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
+from linkwright.cycle.summary import STROKES, TRUE_SPEED, Summary, one, output_of, signal_of
 from linkwright.cycle_programs.followed_points import FollowedPoints, followed_points
 from linkwright.cycle_programs.gauss_cycle import PIECES, SHARE, GaussCycle, can_have_corners, reversing
 from linkwright.cycle_programs.limit_stages import constants, rates, whole_turns
@@ -46,7 +47,6 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.traced_loads import AlongInput
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
-from linkwright.metrics.summary import STROKES, TRUE_SPEED, Summary, one, output_of, signal_of
 
 #: Designs of one call.
 BLOCK = 2048

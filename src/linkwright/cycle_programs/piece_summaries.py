@@ -24,6 +24,7 @@ from linkwright.core.piecewise import (
     largest,
     weights_up_to,
 )
+from linkwright.cycle.summary import Summary
 from linkwright.cycle_programs import piece_kernels
 from linkwright.engine.call_block import address_of
 from linkwright.engine.kernel_writer import LANES
@@ -31,7 +32,6 @@ from linkwright.engine.llvm_backend import CompiledProgram
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Run, code_for
-from linkwright.metrics.summary import Summary
 
 #: Sides of a signal on which its summaries lie, and the two extremes of the integral of its lack of the mean.
 SIDES: Mapping[str, tuple[str, ...]] = {

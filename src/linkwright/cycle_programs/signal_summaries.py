@@ -8,9 +8,9 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.piecewise import POINTS, WEIGHTS, Peak, weights_at, weights_up_to
+from linkwright.cycle.summary import TRUE_SPEED, Summary
 from linkwright.cycle_programs.piece_summaries import SIDES, Reduced
 from linkwright.cycle_programs.steady_designs import SMOOTH, SteadyDesigns
-from linkwright.metrics.summary import TRUE_SPEED, Summary
 
 
 class Seen:

@@ -8,6 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.piecewise import POINTS, TO_LAST, Peak, largest, weights_at
+from linkwright.cycle.summary import Summary
 from linkwright.cycle_programs.gauss_cycle import SHARE
 from linkwright.cycle_programs.piece_summaries import UP_TO, integral
 from linkwright.engine.cycle import Known
@@ -15,7 +16,6 @@ from linkwright.engine.program import Program
 from linkwright.engine.stage import Run, Stage
 from linkwright.machine.speeds import Slopes, Speeds, SteadyCycles
 from linkwright.metrics.flywheel import NOTHING
-from linkwright.metrics.summary import Summary
 from linkwright.metrics.true_speed import EFFORT, INERTIA, required
 
 #: Polynomials whose last orders are below this share of a signal's size meet it.

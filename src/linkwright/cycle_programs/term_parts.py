@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from linkwright.cycle.summary import STROKES, TRUE_SPEED, Summary, one, output_of, signal_of
 from linkwright.cycle_programs.joint_bends import rests
 from linkwright.cycle_programs.limit_stages import extreme_name
 from linkwright.cycle_programs.piece_summaries import SIDES
@@ -11,7 +12,6 @@ from linkwright.cycle_programs.terms import Term
 from linkwright.engine.trace import Scalar, absolute, maximum
 from linkwright.kinetostatics.load_site import limit_name
 from linkwright.metrics import Analysis
-from linkwright.metrics.summary import STROKES, TRUE_SPEED, Summary, one, output_of, signal_of
 from linkwright.metrics.true_speed import EFFORT, INERTIA
 
 #: Kinds of summaries that are places of an output's limit.

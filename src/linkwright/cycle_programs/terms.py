@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.search import first_largest
+from linkwright.cycle.summary import Extreme
 from linkwright.engine.trace import Scalar, absolute, minimum, select
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.names import find_point
@@ -18,7 +19,6 @@ from linkwright.metrics import METRICS, Analysis
 from linkwright.metrics.base import Metric, MetricValue, Number
 from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.outputs import turns_fully
-from linkwright.metrics.summary import Extreme
 from linkwright.registry import offered
 
 

@@ -15,6 +15,7 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, row_names
 from linkwright.core.piecewise import POINTS, Piecewise, largest, reach, sought
 from linkwright.core.search import first_largest
+from linkwright.cycle.summary import STROKES, TRUE_SPEED, Extreme, Summary, one, signal_of
 from linkwright.engine.recently_made import Recent
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
@@ -28,7 +29,6 @@ from linkwright.metrics.cycle_grid import PASSED, CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.reached_extremes import PartlyReached
 from linkwright.metrics.solved_again import in_enough_positions
-from linkwright.metrics.summary import STROKES, TRUE_SPEED, Extreme, Summary, one, signal_of
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]

@@ -12,12 +12,12 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.cycle.summary import Extreme
 from linkwright.engine.trace import Scalar
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Result
 from linkwright.metrics.quantities import number as in_unit
 from linkwright.metrics.quantities import shown, shown_unit
-from linkwright.metrics.summary import Extreme
 from linkwright.registry import Registry
 from linkwright.units import si_unit
 from linkwright.words import has, say

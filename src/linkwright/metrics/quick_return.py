@@ -10,10 +10,10 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.core.outputs import Output
+from linkwright.cycle.summary import Extreme
 from linkwright.engine.trace import Scalar, floor, maximum
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, Number
-from linkwright.metrics.summary import Extreme
 
 
 @METRICS.register("quick_return_ratio")

@@ -11,12 +11,12 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.search import first_largest, lowest, peaks
+from linkwright.cycle.summary import Extreme
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import ROUNDING, Forces
 from linkwright.metrics.range_ends import RangeEnds
 from linkwright.metrics.reached_ways import Ways
 from linkwright.metrics.solved_again import Resolver
-from linkwright.metrics.summary import Extreme
 
 #: Samples that may hold an extreme at most.
 MOST = 4

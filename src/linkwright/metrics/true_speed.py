@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from linkwright.cycle.summary import TRUE_SPEED, Extreme, Summary
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.equivalent import Equivalent, equivalent
 from linkwright.machine.flywheel import flywheel_inertia
 from linkwright.machine.speed import SteadyCycle
 from linkwright.metrics.analysis import Analysis, finds
-from linkwright.metrics.summary import TRUE_SPEED, Extreme, Summary
 
 #: The outputs that the true speed follows from.
 EFFORT, INERTIA = "input_torque", "equivalent_inertia"

@@ -9,11 +9,11 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.cycle.summary import Extreme
 from linkwright.engine.trace import Scalar, absolute, select
 from linkwright.kinetostatics.named_outputs import RATIO
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
-from linkwright.metrics.summary import Extreme
 
 #: Of two sizes as large as each other the positive one counts, whatever rounding leaves.
 _BUT_ROUNDING = 1.0 - 1e-12

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from linkwright.core.given import one_or_more
+from linkwright.cycle.summary import KINDS, Summary
 from linkwright.errors import RequestError
 from linkwright.kinematics.names import PHRASES
 from linkwright.metrics.base import METRICS
-from linkwright.metrics.summary import KINDS, Summary
 from linkwright.registry import offered
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse
+from linkwright.cycle.summary import one
 from linkwright.cycle_programs.terms import OWN, Asked, Term, metric_of
 from linkwright.engine.machine_code import available
 from linkwright.engine.stage import Backend
@@ -22,7 +23,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import Number
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.outputs import mechanism_outputs, usual_output
-from linkwright.metrics.summary import one
 from linkwright.metrics.wanted import is_summary, wanted
 from linkwright.optimisation.paths import PathErrors
 from linkwright.optimisation.problem import Problem

@@ -17,6 +17,7 @@ from linkwright.core.given import one_of, require, whole
 from linkwright.core.html import columns_html
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
+from linkwright.cycle.summary import Summary
 from linkwright.engine.machine_code import available
 from linkwright.engine.stage import BACKENDS, Backend
 from linkwright.engine.threads import chunks
@@ -24,7 +25,6 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.summary import Summary
 from linkwright.metrics.wanted import wanted
 from linkwright.study.cluster import current, in_order, in_turn
 from linkwright.study.design_numbers import numbers_of

@@ -14,6 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_of, require
 from linkwright.core.outputs import Output
+from linkwright.cycle.summary import KINDS, Summary, reductions
 from linkwright.cycle_programs.iterated_groups import Following, following, limits_beside
 from linkwright.cycle_programs.limit_stages import constants
 from linkwright.cycle_programs.loaded_cycle import (
@@ -46,7 +47,6 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.summary import KINDS, Summary, reductions
 from linkwright.metrics.wanted import is_metric, wanted
 from linkwright.study.design_numbers import Numbers
 from linkwright.study.objective_terms import PathError, Terms, number_of_points, weighted

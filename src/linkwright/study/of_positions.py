@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
@@ -15,7 +16,6 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.quantities import shown
-from linkwright.metrics.summary import Summary
 from linkwright.words.sentence import Sentence
 
 #: What a summary is of the values at the positions.

@@ -12,6 +12,7 @@ from linkwright.core.arrays import Flags, Floats, Indices, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input, mode_groups
 from linkwright.core.progress import Progress, current_progress, paced
+from linkwright.cycle.summary import Summary, finished, reductions
 from linkwright.cycle_programs.change_points import ChangePoints, near_enough
 from linkwright.cycle_programs.iterated_groups import MARGIN, following
 from linkwright.cycle_programs.loaded_cycle import LoadedCycle, loaded_cycle
@@ -33,7 +34,6 @@ from linkwright.kinematics.positions import Positions
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.summary import Summary, finished, reductions
 from linkwright.study.finished_parts import identity, once
 
 #: The result that says whether a design passes its cycle.

@@ -10,9 +10,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
-from linkwright.metrics.summary import Summary
 from linkwright.metrics.wanted import wanted
 from linkwright.parts.base import PERCENT, Block, Result, Row, fault, put, shown
 from linkwright.study.designs import Sweep, sweep

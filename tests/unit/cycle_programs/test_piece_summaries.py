@@ -9,11 +9,11 @@ import pytest
 from tests.every import every
 
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS
+from linkwright.cycle.summary import Summary
 from linkwright.cycle_programs.piece_summaries import PieceSummaries, Reduced
 from linkwright.engine.program import Program
 from linkwright.engine.stage import Run
 from linkwright.engine.trace import Trace, absolute, cos, exp, select, sin, sqrt
-from linkwright.metrics.summary import Summary
 
 TURN = 2.0 * np.pi
 SHARE, VALID = "share", "valid"

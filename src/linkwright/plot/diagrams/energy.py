@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.cycle.summary import Extreme
 from linkwright.errors import LinkwrightError
 from linkwright.machine.energy import EnergyFluctuation
 from linkwright.machine.equivalent import Equivalent, equivalent
 from linkwright.machine.running import SteadyRunning
 from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.analysis import Analysis, Kind
-from linkwright.metrics.summary import Extreme
 from linkwright.metrics.true_speed import steady_cycle
 from linkwright.pictures.diagram import COLOURS
 from linkwright.plot.diagrams.axes import InputAxis, significant, unit_of

@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeAlias, TypeVar, cast
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.cycle.summary import Extreme
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.positions import at_times
@@ -19,7 +20,6 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.machine.running import SteadyRunning, steady_running
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Kind
-from linkwright.metrics.summary import Extreme
 from linkwright.plot.diagrams.axes import InputAxis, unit_of
 from linkwright.words import Say
 from linkwright.words.characters import one_line

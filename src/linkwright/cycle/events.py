@@ -1,0 +1,334 @@
+"""Events: where a signal changes its sign over the cycles of many designs, all found at once.
+
+The signal is looked at on polynomial pieces, which are halved until they meet it; places where it is rounding of
+zero decide
+nothing. Between two places that do, in one stretch without cuts, Newton's steps of the formula itself find the root;
+elsewhere the sign changes at a cut, or over a rest, of which the middle counts. What is found is flat: so many
+events as there are, by design and time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import field
+
+import numpy as np
+
+from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.dataclass import dataclass
+from linkwright.cycle.formula import HIGH, LOW, Formula, Known
+from linkwright.cycle.pieces import Layout, Pieces, Wanted
+from linkwright.cycle.polynomials import LOOKS, TO_LOOKS, turning_points
+from linkwright.cycle.stretches import Stretches
+
+#: Pieces of a lap to begin with, and to what share of its size they meet a signal.
+PIECES, MET = 6, 1e-5
+#: Share of a signal's size up to which it is rounding of zero.
+NOTHING = 1e-11
+#: Newton's steps at most; one of this share of the bracket is the last, as what is left is its square.
+STEPS, NEAR = 60, 1e-7
+#: A turn this near to zero, as share of the signal's size in its piece, may hide two roots between two looks.
+HIDDEN = 0.02
+AT = np.zeros(1)
+Designs = Mapping[str, Floats]
+#: What loads do in pieces of unit length that begin at some times of designs, as they do at a place nearby.
+Loaded = Callable[[Indices, Floats, Floats], dict[str, Floats]]
+
+
+def at_times(designs: Designs, design: Indices, time: Floats) -> dict[str, Floats]:
+    """Columns of pieces of unit length that begin at some times: derivatives by the place are those by the time."""
+    return {name: each[design] for name, each in designs.items()} | {LOW: time, HIGH: time + 1.0}
+
+
+@dataclass
+class Events:
+    """Changes of sign of one output of a formula: ``design``, ``time`` (s), ``rising`` (from below to above zero),
+    (k,).
+
+    ``edges`` (2, k): the cuts between which an event lies that is no root, -1 of roots; ``bar``: derivatives by the
+    times, gathered on the way back; ``within``: a place of the piece in which it was found, s.
+    """
+
+    formula: Formula
+    known: Known
+    name: str
+    designs: Designs
+    stretches: Stretches
+    design: Indices
+    time: Floats
+    rising: Flags
+    edges: Indices
+    within: Floats
+    loaded: Loaded | None = None
+    bar: Floats = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.bar = np.zeros(len(self.time))
+
+    def columns(self, chosen: Indices | slice = slice(None)) -> dict[str, Floats]:
+        """Pieces that begin at the events."""
+        design, time = self.design[chosen], self.time[chosen]
+        loads = self.loaded(design, time, self.within[chosen]) if self.loaded else {}
+        return at_times(self.designs, design, time) | loads
+
+    def kept(self, chosen: Indices | Flags) -> Events:
+        """Some of them, with bars of their own."""
+        parts = (self.design[chosen], self.time[chosen], self.rising[chosen], self.edges[:, chosen])
+        return Events(
+            self.formula,
+            self.known,
+            self.name,
+            self.designs,
+            self.stretches,
+            *parts,
+            self.within[chosen],
+            self.loaded,
+        )
+
+    def pull(self) -> tuple[Indices, dict[str, Floats], Indices]:
+        """By the implicit function theorem, dx/dp = -g_p / g_x, derivatives by the columns of the designs, of the
+        roots of these numbers; what lies at cuts goes on to these."""
+        roots = np.flatnonzero(self.edges[0] < 0)
+        if len(roots) < len(self.time):
+            tied = np.flatnonzero(self.edges[0] >= 0)
+            for edge in self.edges:
+                self.stretches.move_edges(self.stretches.edge[edge[tied]], 0.5 * self.bar[tied])
+            span, design = self.stretches.span, self.design[tied]
+            middle = self.stretches.begin[self.edges[:, tied]].mean(axis=0)
+            halves = np.round(2.0 * (self.time[tied] - middle) / span.period[design])
+            np.add.at(span.bar, design, 0.5 * halves * self.bar[tied])
+        columns = self.columns(roots)
+        slope = self.formula.with_slope.run(self.known, columns, AT)[0, 2 * self.formula.place[self.name] + 1]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            weight = np.where(self.bar[roots] == 0.0, 0.0, -self.bar[roots] / slope)
+        return self.design[roots], self.formula.vjp(self.known, columns, AT, {self.name: weight[None]}), roots
+
+
+def events(
+    formula: Formula, known: Known, designs: Designs, stretches: Stretches, loaded: Loaded | None = None
+) -> list[Events]:
+    """All changes of sign of every output of a formula over the cycles of designs; ``loaded``: of one that takes
+    loads."""
+    span = stretches.span
+
+    def columns(stretch: Indices, first: Floats, last: Floats) -> dict[str, Floats]:
+        design = stretches.design[stretch]
+        low, high = stretches.ends(stretch, first, last)
+        found = {name: each[design] for name, each in designs.items()} | {LOW: low, HIGH: high}
+        if loaded is not None:
+            middle = 0.5 * (low + high)
+            found |= loaded(design, low, middle)
+        return found
+
+    layout = Layout(stretches.design, span.count, columns)
+    wanted = Wanted(even=tuple(range(len(formula.outputs))), met=MET)
+    run = lambda columns, nodes: formula.run(known, columns, nodes)  # noqa: E731
+    curve = Pieces(run, layout, *stretches.first_pieces(PIECES), wanted)
+    found = _Search(formula, known, designs, stretches, curve, loaded).found()
+    return [
+        Events(formula, known, name, designs, stretches, *found.of(k), loaded)
+        for k, name in enumerate(formula.outputs)
+    ]
+
+
+@dataclass(frozen=True)
+class _Found:
+    """Events of all signals behind each other, in order of signal, design and time."""
+
+    signal: Indices
+    design: Indices
+    time: Floats
+    rising: Flags
+    edges: Indices
+    within: Floats
+
+    def of(self, k: int) -> tuple[Indices, Floats, Flags, Indices, Floats]:
+        """Those of one signal."""
+        first, last = np.searchsorted(self.signal, [k, k + 1])
+        part = slice(first, last)
+        return self.design[part], self.time[part], self.rising[part], self.edges[:, part], self.within[part]
+
+
+@dataclass(frozen=True)
+class _Brackets:
+    """Pairs of places between which a signal changes its sign: ``piece`` of the left one, times, a first guess."""
+
+    signal: Indices
+    piece: Indices
+    left: Floats
+    right: Floats
+    guess: Floats
+    rising: Flags
+
+    def __add__(self, other: _Brackets) -> _Brackets:
+        names = ("signal", "piece", "left", "right", "guess", "rising")
+        return _Brackets(*(np.concatenate([getattr(self, name), getattr(other, name)]) for name in names))
+
+    def taken(self, chosen: Flags | Indices) -> _Brackets:
+        names = ("signal", "piece", "left", "right", "guess", "rising")
+        return _Brackets(*(getattr(self, name)[chosen] for name in names))
+
+
+class _Search:
+    """The search for the changes of sign of a formula's outputs on pieces that meet them."""
+
+    def __init__(
+        self,
+        formula: Formula,
+        known: Known,
+        designs: Designs,
+        stretches: Stretches,
+        curve: Pieces,
+        loaded: Loaded | None,
+    ) -> None:
+        self.formula, self.known, self.designs = formula, known, designs
+        self.stretches, self.curve, self.loaded = stretches, curve, loaded
+        self.low, self.width = curve.columns[LOW], curve.width
+
+    def found(self) -> _Found:
+        """All of them."""
+        curve = self.curve
+        with np.errstate(invalid="ignore"):
+            span = 0.5 * (curve.top - curve.bottom)
+            near = (curve.top >= -span) & (curve.bottom <= span)
+        signal, piece = np.nonzero(near)
+        looks = TO_LOOKS @ curve.values(signal, piece)
+        brackets, edges = self._changes(near, signal, piece, looks)
+        free = edges[0] < 0
+        roots = brackets.taken(free) + self._hidden(signal, piece, looks)
+        time = np.append(self._polished(roots), self._at_edges(edges[:, ~free]))
+        roots = roots + brackets.taken(~free)
+        tied = np.append(np.full((2, len(roots.piece) - int((~free).sum())), -1), edges[:, ~free], axis=1)
+        design = curve.design[roots.piece]
+        time = self.stretches.span.within(design, time)
+        lap = self.stretches.span.period[design]
+        middle = self.low[roots.piece] + 0.5 * self.width[roots.piece]
+        middle = (
+            middle - np.round((middle - time) / lap) * lap if self.stretches.span.course.closed else middle
+        )
+        order = np.lexsort((time, design, roots.signal))
+        return _Found(
+            roots.signal[order],
+            design[order],
+            time[order],
+            roots.rising[order],
+            tied[:, order],
+            middle[order],
+        )
+
+    def _changes(
+        self, near: Flags, signal: Indices, piece: Indices, looks: Floats
+    ) -> tuple[_Brackets, Indices]:
+        """Neighbours among the places that decide with different signs, and the stretches before and after the cut,
+        or the rest, that lies between them; -1 where none does."""
+        curve = self.curve
+        nothing = NOTHING * np.maximum(curve.size, 0.0)
+        count, looked = len(LOOKS), np.arange(len(LOOKS))
+        far_signal, far_piece = np.nonzero(~near)
+        sig = np.concatenate([np.repeat(signal, count), far_signal])
+        at = np.concatenate([np.repeat(piece, count), far_piece])
+        look = np.concatenate([np.tile(looked, len(signal)), np.full(len(far_signal), count // 2)])
+        value = np.concatenate([looks.T.ravel(), curve.whole[far_signal, far_piece]])
+        decided = np.abs(value) > nothing[sig, curve.design[at]]
+        sig, at, look, value = (each[decided] for each in (sig, at, look, value))
+        order = np.lexsort((look, at, sig))
+        sig, at, look, value = (each[order] for each in (sig, at, look, value))
+        owner = sig * curve.designs + curve.design[at]
+        following, lap = self._following(owner)
+        here = np.arange(len(owner)) if following is None else following[0]
+        there = here[:0] if following is None else following[1]
+        changed = (value[here] > 0.0) != (value[there] > 0.0)
+        here, there, lap = here[changed], there[changed], lap[changed]
+        time = self.low[at] + 0.5 * self.width[at] * (1.0 + LOOKS[look])
+        left = time[here]
+        right = time[there] + lap * curve.period[curve.design[at[there]]]
+        a, b = value[here], value[there]
+        guess = left + (right - left) * a / (a - b)
+        brackets = _Brackets(sig[here], at[here], left, right, guess, b > 0.0)
+        return brackets, self._edges_between(at[here], at[there], lap)
+
+    def _following(self, owner: Indices) -> tuple[tuple[Indices, Indices] | None, Floats]:
+        """The next place of every one of the same signal and design, around cycles that close, and whether that is a
+        lap on."""
+        if not len(owner):
+            return None, np.empty(0)
+        here = np.arange(len(owner))
+        begins = np.flatnonzero(np.append(True, owner[1:] != owner[:-1]))
+        last = np.append(begins[1:], len(owner)) - 1
+        there = here + 1
+        lap = np.zeros(len(owner))
+        there[last], lap[last] = begins, 1.0
+        if not self.stretches.span.course.closed:
+            kept = np.ones(len(owner), dtype=np.bool_)
+            kept[last] = False
+            here, there, lap = here[kept], there[kept], lap[kept]
+        return (here, there), lap
+
+    def _edges_between(self, left: Indices, right: Indices, lap: Floats) -> Indices:
+        """Stretches whose beginnings are the first and the last cut between two pieces, (2, k); -1 in one stretch."""
+        stretch, design = self.curve.stretch, self.stretches.design
+        before, after = stretch[left], stretch[right]
+        counts = np.bincount(design, minlength=self.stretches.span.count)
+        alone = (before == after) & ((lap == 0.0) | ((counts[design[before]] == 1) & (self.stretches.edge[before] < 0)
+                                                     & bool(self.stretches.span.course.turns)))  # fmt: skip
+        first = np.searchsorted(design, design[before])
+        following = first + (before + 1 - first) % counts[design[before]]
+        return np.where(alone, -1, np.stack([following, after]))
+
+    def _at_edges(self, edges: Indices) -> Floats:
+        """Times of cuts, or of the middles between two of them, s."""
+        begin, span = self.stretches.begin, self.stretches.span
+        first, last = begin[edges[0]], begin[edges[1]]
+        period = span.period[self.stretches.design[edges[0]]]
+        return np.asarray(first + 0.5 * np.where(last < first, last + period - first, last - first))
+
+    def _hidden(self, signal: Indices, piece: Indices, looks: Floats) -> _Brackets:
+        """Two roots between looks of the same sign: where the polynomial turns near zero, and the formula passes
+        it."""
+        here = looks[1:-1]
+        size = np.abs(looks).max(axis=0, initial=0.0)
+        near = (np.abs(here) <= np.abs(looks[:-2])) & (np.abs(here) <= np.abs(looks[2:]))
+        near &= (np.abs(here) < HIDDEN * size) & (here * looks[:-2] > 0.0) & (here * looks[2:] > 0.0)
+        place, row = np.nonzero(near)
+        signal, piece, above = signal[row], piece[row], here[place, row] > 0.0
+        low, high = LOOKS[place], LOOKS[place + 2]
+        x = turning_points(self.curve.values(signal, piece), low, high, LOOKS[place + 1])
+        time, left, right = (
+            self.low[piece] + 0.5 * self.width[piece] * (1.0 + each) for each in (x, low, high)
+        )
+        if len(piece):
+            value = self._at(self.formula, piece, time)[signal, np.arange(len(piece))]
+            nothing = NOTHING * self.curve.size[signal, self.curve.design[piece]]
+            passed = np.flatnonzero(((value > 0.0) != above) & (np.abs(value) > nothing))
+        else:
+            passed = np.empty(0, dtype=np.intp)
+        signal, piece, above, time = signal[passed], piece[passed], above[passed], time[passed]
+        left, right = left[passed], right[passed]
+        both = _Brackets(signal, piece, left, time, 0.5 * (left + time), ~above)
+        return both + _Brackets(signal, piece, time, right, 0.5 * (time + right), above)
+
+    def _at(self, formula: Formula, piece: Indices, time: Floats) -> Floats:
+        """Outputs (outputs, k) of a formula at times, s, one in each of some pieces."""
+        design = self.curve.design[piece]
+        columns = at_times(self.designs, design, time)
+        if self.loaded is not None:
+            columns |= self.loaded(design, time, self.low[piece] + 0.5 * self.width[piece])
+        found: Floats = formula.run(self.known, columns, AT)[0]
+        return found
+
+    def _polished(self, brackets: _Brackets) -> Floats:
+        """Roots by Newton's steps within their brackets, all at once."""
+        left, right, time, rising = brackets.left, brackets.right, brackets.guess, brackets.rising
+        width, rows = right - left, np.arange(len(left))
+        for _ in range(STEPS if len(left) else 0):
+            found = self._at(self.formula.with_slope, brackets.piece, time)
+            g, slope = found[2 * brackets.signal, rows], found[2 * brackets.signal + 1, rows]
+            beyond = (g >= 0.0) == rising
+            left, right = np.where(beyond, left, time), np.where(beyond, time, right)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                newton = time - g / slope
+            newton = np.where((newton >= left) & (newton <= right), newton, 0.5 * (left + right))
+            moved, time = np.abs(newton - time), newton
+            if (moved <= NEAR * width).all():
+                break
+        return time

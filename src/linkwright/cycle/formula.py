@@ -1,0 +1,125 @@
+"""Pointwise formulas: outputs at places of pieces of a cycle, with slopes, and weighted sums differentiated.
+
+A piece is one design between two times. A formula takes the columns of a piece (its ends ``low`` and ``high``,
+dimensions that
+vary, what loads do in it) and a place in it, its node; nothing goes over from one place to the next. Pieces are the
+lanes of the machine code, nodes its outer loop.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.dataclass import dataclass
+from linkwright.engine.adjoint import Adjoints
+from linkwright.engine.derivative import forward
+from linkwright.engine.llvm_backend import CompiledProgram, compile_program
+from linkwright.engine.machine_code import available
+from linkwright.engine.numpy_backend import numpy_program
+from linkwright.engine.program import Program
+from linkwright.engine.replay import Replay, depending
+from linkwright.engine.table import Tables
+
+#: Place in a piece, 0 to 1; times, s, of a piece's ends; the number of its design.
+NODE, LOW, HIGH, ROW = "node", "low", "high", "row"
+#: Below this number of places NumPy has answered before a program is compiled.
+WORTH_COMPILING = 20_000
+Columns = Mapping[str, Floats]
+
+
+@dataclass(frozen=True)
+class Known:
+    """What all pieces share: ``numbers`` by the names of parameters, ``tables`` that are looked up, and whether the
+    code is ``compiled``: None where that depends on how much there is to do."""
+
+    numbers: Mapping[str, float]
+    tables: Tables | None = None
+    compiled: bool | None = None
+
+    def compiles(self, places: int) -> bool:
+        """Whether so many places at a time are worth machine code."""
+        wanted = places >= WORTH_COMPILING if self.compiled is None else self.compiled
+        return wanted and available()
+
+
+class Formula:
+    """A program over pieces; ``columns``: what it takes of them, ``fields``: what it takes at every place."""
+
+    def __init__(self, program: Program) -> None:
+        if program.states:
+            raise ValueError(f"a formula carries no states: {', '.join(program.states)}")
+        self.program = program
+        self.outputs, self.columns, self.fields = program.output_names, program.positions, program.fields
+        self.place = {name: k for k, name in enumerate(self.outputs)}
+        self._pulls: dict[tuple[str, ...], Formula] = {}
+
+    def run(self, known: Known, columns: Columns, nodes: Floats, fields: Columns | None = None) -> Floats:
+        """Outputs, (nodes, outputs, pieces), from ``columns`` (pieces,), ``nodes`` (n,) and ``fields`` (n,
+        pieces)."""
+        numbers = np.array([known.numbers.get(name, np.nan) for name in self.program.parameters])
+        table = np.tile(numbers, (len(nodes), 1))
+        if NODE in self.program.parameters:
+            table[:, self.program.parameters.index(NODE)] = nodes
+        count = len(columns[LOW])
+        given = {name: columns[name] for name in self.columns}
+        own = {name: fields[name] for name in self.fields} if fields else {}
+        if known.compiles(count * len(nodes)) and (code := self._code) is not None:
+            return np.ascontiguousarray(code.store(table, given, own, length=count, tables=known.tables))
+        program = numpy_program(self.program)
+        return program.run_designs(table, given, own, length=count, tables=known.tables)
+
+    @cached_property
+    def _code(self) -> CompiledProgram | None:
+        return compile_program(self.program)
+
+    @cached_property
+    def with_slope(self) -> Formula:
+        """The outputs and, behind each, its derivative by the place in the piece."""
+        if NODE not in self.program.parameters:
+            raise ValueError("the outputs are the same at all places")
+        both = forward(self.program, [NODE])
+        return Formula(both.only([name for each in self.outputs for name in (each, f"{each}|{NODE}")]))
+
+    def vjp(
+        self,
+        known: Known,
+        columns: Columns,
+        nodes: Floats,
+        weights: Mapping[str, Floats],
+        fields: Columns | None = None,
+    ) -> dict[str, Floats]:
+        """Derivatives by the columns, (pieces,) each, of the sum over the nodes of ``weights`` (nodes, pieces) times
+        the outputs of these names."""
+        pull = self._pull(tuple(weights))
+        seeds = {_seed(name): np.ascontiguousarray(each) for name, each in weights.items()}
+        found = pull.run(known, columns, nodes, {**(fields or {}), **seeds})
+        return dict(zip(pull.outputs, found.sum(axis=0), strict=True))
+
+    def _pull(self, names: tuple[str, ...]) -> Formula:
+        """The weighted sum's derivatives as a formula."""
+        if names not in self._pulls:
+            replay, lines = Replay(self.program), dict(self.program.outputs)
+            adjoints = Adjoints(replay, depending(self.program, self.columns))
+            for name in names:
+                adjoints.add(lines[name], replay.trace.field_input(_seed(name)))
+            adjoints.sweep_back(set(range(len(self.program.nodes))))
+            inputs = {node.name: i for i, node in enumerate(self.program.nodes) if node.op == "position"}
+            bars = {name: adjoints.found[i].value for name, i in inputs.items() if i in adjoints.found}
+            self._pulls[names] = Formula(Program.of(replay.trace, bars))
+        return self._pulls[names]
+
+    def varying(self, name: str) -> list[str]:
+        """The outputs that change with an input."""
+        found: set[int] = set()
+        for k, node in enumerate(self.program.nodes):
+            if (not node.args and node.name == name) or any(each in found for each in node.args):
+                found.add(k)
+        return [each for each, k in self.program.outputs if k in found]
+
+
+def _seed(name: str) -> str:
+    return f"seed:{name}"

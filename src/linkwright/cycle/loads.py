@@ -1,0 +1,193 @@
+"""Loads over the cycles of many designs: the events at which they begin and end, and what they do in a piece.
+
+A load acts in a piece as it does in its middle, so that ends of phases need no slack. Formulas take of it the columns
+``acts`` and, of a ramp, the place where its phase begins and how far it goes, along the time of an input that turns
+steadily, else the input, or the output of which a phase is a part of the stroke.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+
+import numpy as np
+
+from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.cycle.events import AT, Designs, at_times
+from linkwright.cycle.formula import Formula, Known
+from linkwright.cycle.limits import Limits
+from linkwright.cycle.machine import length_name, since_name
+from linkwright.cycle.stretches import Span
+from linkwright.cycle.strokes import Ends, Strokes
+from linkwright.kinetostatics.load_site import ACTS
+from linkwright.loads.base import Load
+from linkwright.loads.phases import SwingPhase
+
+Columns = dict[str, Floats]
+
+
+class Acting(ABC):
+    """When one load acts; ``events``: where it begins and ends to."""
+
+    events: list[Ends]
+
+    def __init__(self, load: Load, span: Span) -> None:
+        self.name, self.ramp, self.span = load.name, load.magnitude.size.ramp, span
+
+    @property
+    @abstractmethod
+    def missing(self) -> Flags:
+        """Designs whose cycle has no such phase, (designs,)."""
+
+    @abstractmethod
+    def columns(self, design: Indices, middle: Floats) -> Columns:
+        """What formulas take of pieces around some times, s."""
+
+    @abstractmethod
+    def pull(self, design: Indices, middle: Floats, by_columns: Mapping[str, Floats]) -> None:
+        """From derivatives by these columns those by the events and limits that they follow from."""
+
+    def _named(self, acts: Flags, since: Floats, length: Floats) -> Columns:
+        found = {f"{ACTS}:{self.name}": acts.astype(np.float64)}
+        if self.ramp:
+            found |= {since_name(self.name): since, length_name(self.name): length}
+        return found
+
+    def _bars(self, acts: Flags, by_columns: Mapping[str, Floats]) -> tuple[Floats, Floats] | None:
+        """Derivatives by the beginning and the length of the phase; None where none are."""
+        since, length = by_columns.get(since_name(self.name)), by_columns.get(length_name(self.name))
+        if since is None or length is None:
+            return None
+        return np.where(acts, since, 0.0), np.where(acts, length, 0.0)
+
+
+class OnStrokes(Acting):
+    """From events to other ones; ``backwards``: the share of the phase falls from 1 to 0 as time goes on."""
+
+    def __init__(self, load: Load, strokes: Strokes, *, backwards: bool = False) -> None:
+        super().__init__(load, strokes.span)
+        self.strokes, self.backwards = strokes, backwards
+        self.events = [strokes.start, strokes.finish]
+
+    @property
+    def missing(self) -> Flags:
+        return np.asarray(np.bincount(self.strokes.design, minlength=self.span.count) == 0)
+
+    def columns(self, design: Indices, middle: Floats) -> Columns:
+        found, acts, since = self.strokes.at(design, middle)
+        if not self.ramp:
+            return self._named(acts, since, since)
+        begin = self._along(design, since)
+        length = np.where(acts, self._along(design, since + self.strokes.length[found]) - begin, 1.0)
+        if self.backwards:
+            begin, length = begin + length, -length
+        return self._named(acts, begin, length)
+
+    def _along(self, design: Indices, time: Floats) -> Floats:
+        """The time itself of an input that turns steadily, else the input, rad or m."""
+        return time if self.span.course.turns else self._input(time)[0]
+
+    def _input(self, time: Floats) -> tuple[Floats, Floats]:
+        """The first driver's coordinate and rate at times, s, perhaps of cycles before and after."""
+        course, law = self.span.course, self.span.course.first.law
+        laps, gained = np.zeros(len(time)), 0.0
+        if course.closed:
+            laps = np.floor((time - course.begin) / course.duration)
+            gained = law.at(course.begin + course.duration) - law.at(course.begin)
+        value, rate, _ = law.coordinate(time - laps * course.duration)
+        return value + laps * gained, rate
+
+    def pull(self, design: Indices, middle: Floats, by_columns: Mapping[str, Floats]) -> None:
+        found, acts, since = self.strokes.at(design, middle)
+        bars = self._bars(acts, by_columns)
+        if bars is None:
+            return
+        by_begin, by_end = bars[0] - bars[1], bars[1]
+        if self.backwards:
+            by_begin, by_end = bars[1], bars[0] - bars[1]
+        if not self.span.course.turns:
+            by_begin = by_begin * self._input(since)[1]
+            by_end = by_end * self._input(since + self.strokes.length[found])[1]
+        if not len(self.strokes.begin):
+            return
+        period, until = self.span.period[design], since + self.strokes.length[found]
+        for events, place, time, bar in (
+            (self.strokes.start, self.strokes.begin[found], since, by_begin),
+            (self.strokes.finish, self.strokes.end[found], until, by_end),
+        ):
+            np.add.at(events.bar, place, bar)
+            if self.span.course.turns:
+                np.add.at(self.span.bar, design, bar * np.round((time - events.time[place]) / period))
+
+
+class InPart(Acting):
+    """While an output, on its way from one outermost limit to the other, is in a part of that way."""
+
+    def __init__(
+        self,
+        load: Load,
+        phase: SwingPhase,
+        strokes: Strokes,
+        limits: Limits,
+        value: Formula,
+        known: Known,
+        designs: Designs,
+    ) -> None:
+        super().__init__(load, strokes.span)
+        self.strokes, self.limits, self.designs = strokes, limits, designs
+        self._value, self._known = value, known
+        self._kinds = phase.start, phase.end
+        first, last = limits.at(phase.start), limits.at(phase.end)
+        self.shares, ways = part_of(phase)
+        stroke = last - first
+        self.begin = first + self.shares[0] * stroke + np.sign(stroke) * ways[0]
+        self.length = first + self.shares[1] * stroke + np.sign(stroke) * ways[1] - self.begin
+        beyond = 1e-9 * np.abs(stroke)
+        gone = (self.begin - first) * np.sign(stroke)
+        with np.errstate(invalid="ignore"):
+            fits = (gone >= -beyond) & (gone + np.abs(self.length) <= np.abs(stroke) + beyond)
+            self._fits = fits & (self.length * stroke > 0.0)
+        self.events = [strokes.start, strokes.finish]
+
+    @property
+    def missing(self) -> Flags:
+        return np.asarray(~self._fits | (np.bincount(self.strokes.design, minlength=self.span.count) == 0))
+
+    def columns(self, design: Indices, middle: Floats) -> Columns:
+        _, acts, _ = self.strokes.at(design, middle)
+        value = self._value.run(self._known, at_times(self.designs, design, middle), AT)[0, 0]
+        share = (value - self.begin[design]) / self.length[design]
+        return self._named(acts & (share > 0.0) & (share < 1.0), self.begin[design], self.length[design])
+
+    def pull(self, design: Indices, middle: Floats, by_columns: Mapping[str, Floats]) -> None:
+        acts = self.columns(design, middle)[f"{ACTS}:{self.name}"] > 0.5
+        bars = self._bars(acts, by_columns)
+        if bars is not None:
+            by_length = bars[1] * (self.shares[1] - self.shares[0])
+            by_last = bars[0] * self.shares[0] + by_length
+            self._by_limits(design, bars[0] * (1.0 - self.shares[0]) - by_length, by_last)
+
+    def _by_limits(self, design: Indices, by_first: Floats, by_last: Floats) -> None:
+        for kind, bar in zip(self._kinds, (by_first, by_last), strict=True):
+            np.add.at(self.limits.bar, self.limits.outermost[kind][design], bar)
+
+    def reach(self, which: int) -> Floats:
+        """The value of the output where the part begins (0) or ends (1), (designs,)."""
+        return self.begin + which * self.length
+
+    def pull_reach(self, which: int, design: Indices, bars: Floats) -> None:
+        """From derivatives by these values those by the limits."""
+        share = self.shares[which]
+        self._by_limits(design, bars * (1.0 - share), bars * share)
+
+
+def part_of(phase: SwingPhase) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Where a part of a stroke begins and ends: shares of the stroke, and ways from there."""
+    assert phase.part is not None
+    amounts = [(a.value, 0.0) if a.share else (0.0, a.value) for a in phase.part.amounts]
+    (first, way), (last, back) = amounts[0], amounts[-1]
+    if phase.part.word == "first":
+        return (0.0, first), (0.0, way)
+    if phase.part.word == "last":
+        return (1.0 - first, 1.0), (-way, 0.0)
+    return (first, 1.0 - last), (way, -back)

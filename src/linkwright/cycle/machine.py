@@ -1,0 +1,349 @@
+"""What the formulas of a machine's cycle are made of: its traced motion and forces, and the numbers that these
+take."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Mapping
+from functools import cached_property, partial
+from typing import NoReturn
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.outputs import Output, RelativeAngle
+from linkwright.cycle.course import Course
+from linkwright.cycle.formula import HIGH, LOW, NODE, Formula, Known
+from linkwright.engine.program import Program
+from linkwright.engine.recently_made import Recent
+from linkwright.engine.replay import inlined
+from linkwright.engine.trace import Mask, Scalar, Trace, Value, absolute, cos, nearest_turn, select, sin
+from linkwright.engine.trace import angle as angle_of
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import output_meant, program_names
+from linkwright.kinematics.programs import Manner
+from linkwright.kinematics.solver import MotionSolver
+from linkwright.kinetostatics.friction import FrictionTerm, moving_rate
+from linkwright.kinetostatics.friction_stage import can_be_traced
+from linkwright.kinetostatics.load_site import ACTS, angle_between, guide_state, middle_name, output_value
+from linkwright.kinetostatics.named_outputs import Named, Quantity
+from linkwright.kinetostatics.programs import ForcePrograms, force_programs
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
+from linkwright.loads.base import Load
+from linkwright.loads.phases import Always, MovingPhase
+from linkwright.loads.sizes import Formula as Expression
+from linkwright.loads.sizes import Table
+from linkwright.mechanism.mechanism import Mechanism
+
+#: Change of an angle from a line, rad, up to which there is no doubt how often it turned.
+CLEAR = 0.75 * np.pi
+#: The output that is 1 where a position is reached, its rotations counted and its friction certain.
+VALID = "valid"
+#: What goes to and fro: an output, the angle between two links, the parts of a joint with friction.
+Swing = Output | RelativeAngle | FrictionTerm
+
+
+class NotTogether(Exception):
+    """A machine whose cycle cannot be written as formulas of one position each."""
+
+
+class _Named(Named):
+    """Outputs in the user's words, angles near numbers that the machine tells."""
+
+    def __init__(self, forces: ForcePrograms) -> None:
+        super().__init__(forces, _no_angle, _no_line)
+
+    def _angle(self, name: str, output: Output) -> Quantity:
+        return Quantity(name, output, "angle", angle_between(self.motion.motion, "frame", output.owner))
+
+    def _continuous(self, link: str) -> Scalar:
+        """The angle of a link with its turns over the cycle."""
+        motion = self.motion.motion
+        first, turns = (motion.trace.parameter(_line_name(link, which)) for which in ("first", "turns"))
+        line = first + turns * self._of_formula(None, 0)
+        if motion.angles.follows(link):
+            return nearest_turn(motion.angles(link), line)
+        e = motion.poses[link].direction
+        return nearest_turn(angle_of(e.y, e.x), line)
+
+
+def _no_angle(link: str) -> NoReturn:
+    raise AssertionError(f"the angle of {link} is found near a number of the machine")
+
+
+_no_line = _no_angle
+
+
+def _line_name(link: str, which: str) -> str:
+    """Names of the parameters of a line near which a rotation runs over the input: its place where that is zero, rad,
+    and its turns in a turn of it."""
+    return f"line {which}:{link}"
+
+
+class Traces:
+    """The formulas of all machines of one shape over courses of one kind; ``varied``: dimensions that are columns."""
+
+    def __init__(self, programs: ForcePrograms, varied: frozenset[str], course: Course) -> None:
+        self.programs, self.varied, self.course = programs, varied, course
+        self.motion, self.named = programs.motion.motion, _Named(programs)
+        self._kept: dict[Hashable, Formula] = {}
+        self._quantities: dict[str, Quantity] = {}
+
+    def quantity(self, words: str) -> Quantity:
+        """An output in the user's words."""
+        if words not in self._quantities:
+            self._quantities[words] = self.named.quantity(words)
+        return self._quantities[words]
+
+    def square(self, words: str) -> Scalar | None:
+        """The square of an output that is a root or a size; None of others.
+
+        It is smooth where the size comes near zero, and has its extremes where that has.
+        """
+        value = self.quantity(words).value
+        op, *args = value.trace.lines[value.index] if isinstance(value, Value) else ("",)
+        if op not in ("sqrt", "abs"):
+            return None
+        inside = Value(value.trace, args[0])  # type: ignore[union-attr]
+        return inside if op == "sqrt" else inside * inside
+
+    def rates(self, each: Swing) -> Scalar:
+        """The rate of what goes to and fro, rad/s or m/s."""
+        if isinstance(each, Output):
+            return self.programs.motion.outputs.value(program_names(self.motion.mechanism, each)[1][0])
+        if isinstance(each, FrictionTerm) and each.slides:
+            return guide_state(self.motion, each.joint)[2]
+        a, b = (self.motion.states[link] for link in (each.a, each.b))
+        return b.omega - a.omega
+
+    def value(self, output: Output) -> Scalar:
+        """The value of an output, of an angle near a number of the machine."""
+        return output_value(self.motion, output)
+
+    def valid(self) -> Scalar:
+        """1 where a position is reached, rotations are counted and friction is certain, else 0."""
+        motion, friction = self.motion, self.programs.friction
+        found: Mask = motion.valid
+        for name, rotation in motion.angles.carried.items():
+            near = absolute(rotation - motion.trace.state(name)) < CLEAR
+            found = motion.trace.logic("and", found, near)
+        if friction is not None:
+            found = motion.trace.logic("and", found, friction.certain)
+        return select(found, 1.0, 0.0)
+
+    def formula(
+        self,
+        key: Hashable,
+        outputs: Callable[[], Mapping[str, Scalar]],
+        then: Callable[[Trace, dict[str, Scalar]], Mapping[str, Scalar]] | None = None,
+    ) -> Formula:
+        """Traced outputs as a formula over pieces, or what is made of them and of columns ``then``."""
+        if key not in self._kept:
+            with self.programs.motion.lock:
+                self._kept[key] = self._made(outputs(), then)
+        return self._kept[key]
+
+    def _made(
+        self,
+        outputs: Mapping[str, Scalar],
+        then: Callable[[Trace, dict[str, Scalar]], Mapping[str, Scalar]] | None,
+    ) -> Formula:
+        t = Trace()
+        node, low, high = t.parameter(NODE), t.position(LOW), t.position(HIGH)
+        given = self.course.inputs(t, low + (high - low) * node, self.varied)
+        source = Program.of(self.motion.trace, outputs)
+        more: dict[str, Scalar] = {
+            name: t.position(name) for name in source.parameters if name in self.varied
+        }
+        for name in source.states:
+            first, turns = (t.parameter(_line_name(name, which)) for which in ("first", "turns"))
+            more[name] = first + turns * given["input"]
+        for name in source.fields:
+            kind, _, load = name.partition(":")
+            if kind == ACTS:
+                more[name] = t.position(name)
+            elif kind == "share":
+                more[name] = self._share(t, load, given, more)
+        found = inlined(source, t, {**given, **more})
+        return Formula(Program.of(t, found if then is None else then(t, {**found, "input": given["input"]})))
+
+    def _share(self, t: Trace, load: str, given: Mapping[str, Scalar], more: Mapping[str, Scalar]) -> Scalar:
+        """The share of a load's phase that is passed, along the input, or the value of an output."""
+        phase = self.motion.mechanism.loads[load].magnitude.phase
+        along = given["time" if self.course.turns else "input"]
+        if phase.in_part:
+            source = Program.of(self.motion.trace, {"along": self.value(phase.outputs[0])})
+            along = inlined(
+                source, t, {**given, **{n: t.position(n) for n in source.parameters if n in self.varied}}
+            )["along"]
+        return (along - t.position(since_name(load))) / t.position(length_name(load))
+
+
+def since_name(load: str) -> str:
+    """The column that is the place, along the input or an output, where a load's phase begins."""
+    return f"since:{load}"
+
+
+def length_name(load: str) -> str:
+    """The column that is how far a load's phase goes along it."""
+    return f"length:{load}"
+
+
+_traces: Recent[ForcePrograms, Traces] = Recent(32)
+
+
+class Machine:
+    """One mechanism over a course of its input, or many designs of it with some dimensions ``varied``.
+
+    Raises NotTogether where its cycle is no formula of one position: it passes change points or not all of its
+    cycle, a load has no formula, or an angle that one takes turns through.
+    """
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        nominal: Motion,
+        varied: Iterable[str] = (),
+        *,
+        static: bool = False,
+        compiled: bool | None = None,
+    ) -> None:
+        self.mechanism, self.nominal, self.varied = mechanism, nominal, tuple(varied)
+        if not nominal.whole or nominal.modes or nominal.steps < 3 or not mechanism.drivers:
+            raise NotTogether("not all of the cycle is passed by one formula")
+        self.loads = self._traced_loads()
+        self.course = Course.of(mechanism, nominal.positions, seam=self._seamed())
+        self.terms: tuple[FrictionTerm, ...] = ()
+        solver = MotionSolver(mechanism, Manner(frozenset(self.varied)), nominal.solver.assembly)
+        rubbing = any(joint.friction_arm for joint in mechanism.joints.values())
+        names = frozenset(f"{ACTS}:{name}" if self._phased(name) else name for name in self.loads.names)
+        programs = force_programs(solver.programs, inertia=not static, along_input=names, rubbing=rubbing)
+        if rubbing:
+            terms = programs._terms
+            if not can_be_traced(terms):
+                raise NotTogether("more friction in one group than is traced")
+            self.terms = terms.terms
+        if solver.programs.motion.next_states.keys() - solver.programs.motion.angles.carried.keys():
+            raise NotTogether("a group without closed form")
+        columns = frozenset(self.varied)
+        key = (columns, self.course.key)
+        self.traces = _traces.get(programs, key, lambda: Traces(programs, columns, self.course))
+        parameters = nominal.design.parameters if not self.varied else solver.nominal.parameters
+        self._numbers = {**parameters, **self.loads.constants}
+        self._tables, self._compiled = self.loads.tables, compiled
+
+    def _traced_loads(self) -> AlongInput:
+        """The loads that vary, and the numbers that they take."""
+        varying = [each for each in self.mechanism.loads.values() if not each.magnitude.constant]
+        for load in varying:
+            if not load.magnitude.has_formula or None in load.magnitude.size.outputs(self.mechanism):
+                raise NotTogether("a load has no formula of one position")
+        known = numbers_of_loads(varying, self.mechanism)
+        if known.angles:
+            middles = known.middles(MotionSignals(self.nominal))
+            if middles is None:
+                raise NotTogether("a load has no formula of one position")
+            known = AlongInput(known.names, constants={**known.constants, **middles}, tables=known.tables)
+        return known
+
+    def _phased(self, name: str) -> bool:
+        """Whether a load acts in a phase whose ends are events."""
+        own = self.mechanism.loads[name].magnitude
+        return not isinstance(own.phase, Always) and not (
+            isinstance(own.phase, MovingPhase) and not own.size.ramp
+        )
+
+    def _seamed(self) -> bool:
+        """Whether a load goes by the time, or by the turns of the input."""
+        sizes = (self.mechanism.loads[name].magnitude.size for name in self.loads.names)
+        return any(
+            (isinstance(size, Expression) and bool(size.expression.names & {"t", "input"}))
+            or (isinstance(size, Table) and bool(size.known_at))
+            for size in sizes
+        )
+
+    @cached_property
+    def phases(self) -> dict[str, Load]:
+        """The loads with such phases, by name."""
+        return {name: self.mechanism.loads[name] for name in sorted(self.loads.names) if self._phased(name)}
+
+    def meant(self, words: str) -> Output:
+        """The output that words mean."""
+        known = self.nominal.solver.programs.meanings
+        if words not in known:
+            known[words] = output_meant(self.mechanism, words)
+        return known[words]
+
+    # formulas -------------------------------------------------------------------------------------------
+    def formula(
+        self,
+        key: Hashable,
+        outputs: Callable[[], Mapping[str, Scalar]],
+        then: Callable[[Trace, dict[str, Scalar]], Mapping[str, Scalar]] | None = None,
+    ) -> Formula:
+        """As :meth:`Traces.formula`, with the numbers that it takes found."""
+        found = self.traces.formula(key, outputs, then)
+        for name in found.program.parameters:
+            if name not in self._numbers and name != NODE:
+                self._numbers[name] = self._number(name)
+        return found
+
+    @cached_property
+    def known(self) -> Known:
+        """The numbers that formulas take beside columns."""
+        return Known(self._numbers, self._tables, self._compiled)
+
+    def _number(self, name: str) -> float:
+        """An angle near which one of the machine runs, or a line near which it does."""
+        if name.startswith("middle:"):
+            link = name.removeprefix(middle_name("frame", ""))
+            angle = self.nominal.link(link).angle
+            low, high = float(np.nanmin(angle)), float(np.nanmax(angle))
+            return 0.5 * (low + high)
+        if not name.startswith("line "):
+            return float("nan")
+        which, _, owner = name.removeprefix("line ").partition(":")
+        rotation = (
+            self.nominal.states[owner] if owner in self.nominal.states else self.nominal.link(owner).angle
+        )
+        rotary = next(iter(self.nominal.positions.rotary.values()))
+        line = line_near(rotation, self.nominal.input if rotary else np.zeros(len(rotation)))
+        if line is None:
+            raise NotTogether("a rotation runs near no line")
+        return line[which == "turns"]
+
+    def swings(self, term: FrictionTerm | RelativeAngle) -> bool:
+        """Whether the parts of a joint, or two links, move against each other at all."""
+        return bool(np.nanmax(np.abs(moving_rate(self.nominal, term)), initial=0.0) > 0.0)
+
+    def bends(self) -> tuple[Formula, Formula] | None:
+        """Zero where joints go over from one formula to the next, or half a turn from there; cosines that tell
+        which."""
+        joints = {name: joint.bends for name, joint in self.mechanism.joints.items() if joint.bends}
+        if not joints:
+            return None
+        motion = self.traces.motion
+
+        def turned(*, cosines: bool) -> dict[str, Scalar]:
+            found: dict[str, Scalar] = {}
+            for name, bends in joints.items():
+                a, b = (motion.poses[link].direction for link in (bends.carrier, bends.link))
+                for k, angle in enumerate(bends.angles):
+                    turn = angle + motion.dimensions(bends.phase)
+                    c, s, along, across = cos(turn), sin(turn), a.dot(b), a.cross(b)
+                    found[f"{name} {k}"] = along * c + across * s if cosines else across * c - along * s
+            return found
+
+        key = tuple((name, bends.angles) for name, bends in joints.items())
+        sines = self.formula(("bends", key), partial(turned, cosines=False))
+        return sines, self.formula(("bends there", key), partial(turned, cosines=True))
+
+
+def line_near(rotation: Floats, q: Floats) -> tuple[float, float] | None:
+    """The line near which a rotation (n,) runs over the input (n,), rad where that is zero and turns in a turn of it;
+    None where it is too far from any."""
+    way = float(q[-1] - q[0])
+    whole = max(1.0, np.round(abs(way) / (2.0 * np.pi)))
+    turns = float(np.round(whole * (rotation[-1] - rotation[0]) / way) / whole) if way else 0.0
+    rest = rotation - turns * q
+    return (0.5 * float(rest.max() + rest.min()), turns) if np.ptp(rest) < 2.0 * CLEAR else None

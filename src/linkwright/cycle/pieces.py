@@ -1,0 +1,271 @@
+"""Signals of many designs as polynomials on pieces of their cycles: sizes, means, integrals, extremes.
+
+Every piece has sixteen Gauss points; one that its polynomial does not meet, and that matters for what is asked, is
+halved
+(Trefethen, Approximation Theory and Approximation Practice, ch. 8 and 18). Pieces of all designs lie behind each
+other, by design and time, so that designs may have as many as each needs: what belongs to a design is ``reduceat``
+over its pieces. Arrays are (POINTS, signals, pieces).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import field
+from typing import Any, Protocol, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.dataclass import dataclass
+from linkwright.cycle.formula import HIGH, LOW, Columns
+from linkwright.cycle.polynomials import HIDDEN, LAST, NODES, POINTS, SLACK, UP_TO, WEIGHTS
+
+#: A piece is met where its last orders are below this share of the signal's size.
+MET = 1e-11
+#: Sizes of signals of one dimension differ by less than this share, or the small one is rounding of the large one.
+ALIKE = 1e-4
+#: Halvings of a piece, and the share of a cycle below which it is halved no more.
+HALVINGS, NARROW = 44, 1e-13
+#: More pieces of a design than these that are unmet at once are noise, which no halving smooths.
+CROWD = 96
+
+
+Number = TypeVar("Number", bound=np.generic)
+
+
+class Signals(Protocol):
+    """What gives values at nodes of pieces, (nodes, signals, pieces)."""
+
+    def __call__(self, columns: Columns, nodes: Floats) -> Floats: ...
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What pieces must be met for: signals ``even`` everywhere, sides (signal, sign) near their extremes; ``alike``:
+    the number of its dimension for every signal, of which sizes are compared."""
+
+    even: tuple[int, ...] = ()
+    sides: tuple[tuple[int, float], ...] = ()
+    met: float = MET
+    alike: Sequence[int] = ()
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Stretches of cycles in which pieces lie, by design and time; ``columns(stretch, first, last)``: what formulas
+    take of pieces between two shares of their stretches."""
+
+    design: Indices
+    designs: int
+    columns: Callable[[Indices, Floats, Floats], dict[str, Floats]]
+
+
+@dataclass
+class _Batch:
+    """Pieces of one evaluation: ``place`` (stretch, first, last), ``stats`` (4, signals, pieces), ``columns``, and
+    where their values lie."""
+
+    stretch: Indices
+    first: Floats
+    last: Floats
+    chunk: Indices
+    column: Indices
+    stats: Floats
+    columns: dict[str, Floats]
+    unmet: Flags = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
+
+    def taken(self, chosen: Indices | Flags) -> _Batch:
+        """Some of the pieces."""
+        return _Batch(
+            self.stretch[chosen],
+            self.first[chosen],
+            self.last[chosen],
+            self.chunk[chosen],
+            self.column[chosen],
+            self.stats[:, :, chosen],
+            {name: each[chosen] for name, each in self.columns.items()},
+            self.unmet[chosen],
+        )
+
+
+class Pieces:
+    """Signals on pieces of a layout and on the halves of those that are not met.
+
+    ``stretch``, ``first`` and ``last`` share of it, ``design``: (pieces,); ``top``, ``bottom``, ``rough`` (size of
+    the last
+    orders), ``whole`` (mean): (signals, pieces); ``size``: (signals, designs); ``unmet`` (designs,): a piece that
+    matters is not met, and is halved no more.
+    """
+
+    def __init__(
+        self, signals: Signals, layout: Layout, stretch: Indices, first: Floats, last: Floats, wanted: Wanted
+    ) -> None:
+        self.designs, self.wanted = layout.designs, wanted
+        self._chunks: list[Floats] = []
+        self._best = np.full((len(wanted.sides), self.designs), -np.inf)
+        self._owner, self._length = layout.design, np.ones(self.designs)
+        self.size: Floats = np.empty(0)
+        done: list[_Batch] = []
+        for turn in range(HALVINGS):
+            batch = self._evaluated(signals, layout.columns(stretch, first, last), stretch, first, last)
+            halved = batch.unmet if turn + 1 < HALVINGS else np.zeros_like(batch.unmet)
+            if not turn:
+                count = np.bincount(layout.design[batch.stretch[halved]], minlength=self.designs)
+                halved = (
+                    halved
+                    & (count <= CROWD + 4 * np.bincount(layout.design[stretch]))[layout.design[stretch]]
+                )
+            done.append(batch.taken(~halved) if halved.any() else batch)
+            if not halved.any():
+                break
+            stretch, first, last = batch.stretch[halved], batch.first[halved], batch.last[halved]
+            middle = 0.5 * (first + last)
+            stretch = np.concatenate([stretch, stretch])
+            first, last = np.concatenate([first, middle]), np.concatenate([middle, last])
+            order = np.argsort(layout.design[stretch], kind="stable")
+            stretch, first, last = stretch[order], first[order], last[order]
+        self._take(done[0] if len(done) == 1 else _joined(done))
+
+    def _take(self, batch: _Batch) -> None:
+        self.stretch, self.first, self.last, self.columns = (
+            batch.stretch,
+            batch.first,
+            batch.last,
+            batch.columns,
+        )
+        self._chunk, self._column = batch.chunk, batch.column
+        self.top, self.bottom, self.rough, self.whole = batch.stats
+        self.design = self._owner[self.stretch]
+        self.starts = np.searchsorted(self.design, np.arange(self.designs))
+        self.width = self.columns[HIGH] - self.columns[LOW]
+        self.period = self.total(self.width)
+        self.unmet = np.bincount(self.design[batch.unmet], minlength=self.designs) > 0
+
+    def _evaluated(
+        self, signals: Signals, columns: dict[str, Floats], stretch: Indices, first: Floats, last: Floats
+    ) -> _Batch:
+        """New pieces with what is asked of their values, and which of them are not met."""
+        values = signals(columns, NODES)
+        number = len(self._chunks)
+        self._chunks.append(values)
+        flat, shape, design = values.reshape(POINTS, -1), values.shape[1:], self._owner[stretch]
+        top, bottom = values.max(axis=0), values.min(axis=0)
+        rough, whole = np.abs(LAST @ flat).max(axis=0).reshape(shape), (WEIGHTS @ flat).reshape(shape)
+        sides = [top[k] if sign > 0.0 else -bottom[k] for k, sign in self.wanted.sides]
+        highest = np.array(sides).reshape(-1, len(design))
+        starts = np.flatnonzero(np.diff(design, prepend=-1))
+        there, width = design[starts], columns[HIGH] - columns[LOW]
+        if not number:
+            self.size = np.full((shape[0], self.designs), -np.inf)
+            self._length[there] = np.add.reduceat(width, starts)
+        for known, new in ((self.size, np.maximum(top, -bottom)), (self._best, highest)):
+            known[:, there] = np.maximum(known[:, there], np.maximum.reduceat(new, starts, axis=1))
+        unmet = self._unmet(design, width, (top, bottom, rough), highest)
+        places = np.full(len(design), number), np.arange(len(design))
+        return _Batch(stretch, first, last, *places, np.stack([top, bottom, rough, whole]), columns, unmet)
+
+    def _unmet(
+        self, design: Indices, width: Floats, stats: tuple[Floats, Floats, Floats], highest: Floats
+    ) -> Flags:
+        """Pieces that are not met, and matter."""
+        top, bottom, rough = stats
+        limit = (self.wanted.met * self._sizes())[:, design]
+        coarse = (rough > limit) & np.asarray(np.isfinite(self.size).all(axis=0))[design]
+        matters = np.zeros_like(coarse)
+        if coarse.any():
+            for k in self.wanted.even:
+                matters[k] = rough[k] * np.minimum(1.0, 12.0 * width / self._length[design]) > limit[k]
+            for n, (k, _) in enumerate(self.wanted.sides):
+                reach = highest[n] + SLACK * (top[k] - bottom[k]) + HIDDEN * rough[k]
+                matters[k] |= reach >= self._best[n, design]
+        return np.asarray((coarse & matters).any(axis=0) & (width > NARROW * self._length[design]))
+
+    def _sizes(self) -> Floats:
+        """Sizes of the signals, of such as are small beside others of their dimension a share of these."""
+        if not len(self.wanted.alike):
+            return self.size
+        found = self.size.copy()
+        kinds = np.asarray(self.wanted.alike)
+        for kind in dict.fromkeys(self.wanted.alike):
+            rows = np.flatnonzero(kinds == kind)
+            if len(rows) > 1:
+                found[rows] = np.maximum(found[rows], ALIKE * self.size[rows].max(axis=0))
+        return found
+
+    def values(self, signals: Indices | int, pieces: Indices | None = None) -> Floats:
+        """Values (POINTS, k) of signals, of each in one of the pieces, or of one in all of them."""
+        pieces = np.arange(len(self.stretch)) if pieces is None else pieces
+        signals = np.broadcast_to(signals, pieces.shape)
+        if len(self._chunks) == 1:
+            return self._chunks[0][:, signals, self._column[pieces]]
+        found, chunk, column = np.empty((POINTS, len(pieces))), self._chunk[pieces], self._column[pieces]
+        for number, values in enumerate(self._chunks):
+            mine = np.flatnonzero(chunk == number)
+            found[:, mine] = values[:, signals[mine], column[mine]]
+        return found
+
+    # by design ------------------------------------------------------------------------------------------
+    def each(self, of_designs: NDArray[Number]) -> NDArray[Number]:
+        """What belongs to a design, at its pieces."""
+        return of_designs[..., self.design]
+
+    def total(self, of_pieces: Floats) -> Floats:
+        """Sums over the pieces of every design."""
+        return np.add.reduceat(of_pieces, self.starts, axis=-1)
+
+    def most(self, of_pieces: Floats) -> Floats:
+        """The largest over the pieces of every design."""
+        return np.maximum.reduceat(of_pieces, self.starts, axis=-1)
+
+    @property
+    def passed(self) -> Flags:
+        """Designs whose signals are numbers everywhere, (designs,)."""
+        return np.asarray(np.isfinite(self.size).all(axis=0))
+
+    # means ----------------------------------------------------------------------------------------------
+    def mean(self, k: int) -> Floats:
+        """The mean over time of a signal, (designs,)."""
+        return self.total(self.whole[k] * self.width) / self.period
+
+    def mean_square(self, k: int) -> Floats:
+        """The mean over time of its square, (designs,)."""
+        return self.total(WEIGHTS @ self.values(k) ** 2 * self.width) / self.period
+
+    def excess(self, k: int, mean: Floats) -> Floats:
+        """The integral over time of what a signal lacks of its mean, up to every node, (POINTS, pieces)."""
+        lack = (self.each(mean) - self.values(k)) * self.width
+        whole = np.where(self.each(self.passed), WEIGHTS @ lack, 0.0)
+        before = np.cumsum(whole) - whole
+        return np.asarray(before - self.each(before[self.starts]) + UP_TO @ lack)
+
+    def contenders(
+        self, sides: Sequence[tuple[int, float]], parts: Sequence[Flags | None]
+    ) -> tuple[Floats, Indices, Indices]:
+        """Values (POINTS, k) times the sign of all sides on the pieces that may hold their largest one, with the
+        number of
+        the side and the piece; every piece where nothing is a number. ``parts``: the pieces in which a side is asked
+        for."""
+        signals, signs = np.array([k for k, _ in sides]), np.array([sign for _, sign in sides])
+        highest = np.where(signs[:, None] > 0.0, self.top[signals], -self.bottom[signals])
+        for n, part in enumerate(parts):
+            if part is not None:
+                highest[n] = np.where(part, highest[n], -np.inf)
+        reach = highest + SLACK * (self.top - self.bottom)[signals] + HIDDEN * self.rough[signals]
+        side, piece = np.nonzero(~(reach < self.each(self.most(highest))))
+        return self.values(signals[side], piece) * signs[side], side, piece
+
+
+def _joined(batches: Sequence[_Batch]) -> _Batch:
+    """All pieces by stretch and share."""
+
+    def row(name: str) -> Any:
+        return np.concatenate([getattr(each, name) for each in batches])
+
+    columns = {name: np.concatenate([each.columns[name] for each in batches]) for name in batches[0].columns}
+    stretch, first, last, chunk, column, unmet = map(
+        row, ("stretch", "first", "last", "chunk", "column", "unmet")
+    )
+    stats = np.concatenate([each.stats for each in batches], axis=2)
+    found = _Batch(stretch, first, last, chunk, column, stats, columns, unmet)
+    return found.taken(np.lexsort((first, stretch)))

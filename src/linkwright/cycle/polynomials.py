@@ -1,0 +1,93 @@
+"""Polynomials through sixteen Gauss points: series, integrals, places and values of their extremes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.polynomial import chebyshev, legendre
+
+from linkwright.core.arrays import Floats, Indices
+from linkwright.cycle import peak_kernel
+
+POINTS = 16
+_X, _W = legendre.leggauss(POINTS)
+#: Gauss points and their weights in a piece from 0 to 1.
+NODES, WEIGHTS = 0.5 * (1.0 + _X), 0.5 * _W
+#: From values at the nodes to Chebyshev coefficients, (orders, nodes); to the last three of Legendre's series.
+SERIES = np.linalg.inv(chebyshev.chebvander(_X, POINTS - 1))
+LAST = SERIES[-3:]
+#: Places, -1 to 1, at which a piece is looked at, both ends among them, and from values at the nodes to these.
+LOOKS = -np.cos(np.pi * np.arange(33) / 32)
+TO_LOOKS = chebyshev.chebvander(LOOKS, POINTS - 1) @ SERIES
+#: From coefficients to those of the slope; from values to those of the integral from the piece's beginning, the piece
+#: 1 long, and to this at the nodes.
+SLOPE = np.vstack([chebyshev.chebder(np.eye(POINTS)), np.zeros((1, POINTS))])
+INTEGRAL = 0.5 * chebyshev.chebint(np.eye(POINTS), lbnd=-1) @ SERIES
+UP_TO = chebyshev.chebvander(_X, POINTS) @ INTEGRAL
+#: How much higher than at its nodes a signal may rise in a piece that is met, as share of its span there: half of
+#: the gap
+#: between two nodes, squared, is 0.009 of it, and up to the ends it may rise by 0.025; where it is not met, in
+#: multiples
+#: of the size of its last orders.
+SLACK, HIDDEN = 0.03, 8.0
+#: So many polynomials, or more, are climbed by machine code.
+COMPILED = 1000
+_STEPS = 4
+
+
+def value_at(series: Floats, x: Floats) -> Floats:
+    """Chebyshev series (s, POINTS, k) at places (k,), (s, k)."""
+    found: Floats = (series * np.cos(np.arange(POINTS)[:, None] * np.arccos(x))).sum(axis=1)
+    return found
+
+
+def weights_at(place: Floats) -> Floats:
+    """Weights (POINTS, k) of the values at the nodes in the value at places (k,), -1 to 1."""
+    return np.asarray((chebyshev.chebvander(place, POINTS - 1) @ SERIES).T)
+
+
+def weights_up_to(place: Floats) -> Floats:
+    """The same in the integral from the piece's beginning up to places, the piece 1 long."""
+    return np.asarray((chebyshev.chebvander(place, POINTS) @ INTEGRAL).T)
+
+
+def climbed(rows: Floats) -> tuple[Floats, Floats]:
+    """Place (-1 to 1) and value (k,) of the largest of polynomials through ``rows`` (POINTS, k).
+
+    From the highest look by Newton's steps between its neighbours, halvings where these leave the bracket.
+    """
+    if rows.shape[1] >= COMPILED and peak_kernel.possible():
+        return peak_kernel.climbed(rows)
+    looks = TO_LOOKS @ rows
+    best = looks.argmax(axis=0)
+    top, x = looks[best, np.arange(rows.shape[1])], LOOKS[best]
+    low, high = LOOKS[np.maximum(best - 1, 0)], LOOKS[np.minimum(best + 1, len(LOOKS) - 1)]
+    series = SERIES @ rows
+    slope = SLOPE @ series
+    both = np.stack([slope, SLOPE @ slope])
+    for _ in range(_STEPS):
+        first, second = value_at(both, x)
+        low, high = np.where(first > 0.0, x, low), np.where(first > 0.0, high, x)
+        with np.errstate(all="ignore"):
+            step = x - first / second
+        x = np.where((step >= low) & (step <= high), step, 0.5 * (low + high))
+    value = value_at(series[None], x)[0]
+    return np.where(value > top, x, LOOKS[best]), np.maximum(value, top)
+
+
+def turning_points(rows: Floats, low: Floats, high: Floats, start: Floats) -> Floats:
+    """Places (k,) in brackets at which polynomials through ``rows`` (POINTS, k) turn, by Newton's steps."""
+    slope = SLOPE @ (SERIES @ rows)
+    both, x = np.stack([slope, SLOPE @ slope]), start
+    for _ in range(_STEPS):
+        first, second = value_at(both, x)
+        with np.errstate(all="ignore"):
+            x = np.clip(np.nan_to_num(x - first / second), low, high)
+    return x
+
+
+def best_of(value: Floats, owner: Indices) -> Indices:
+    """Of values (k,) in the order of their owners the number of the first largest one of every owner."""
+    starts = np.flatnonzero(np.append(True, owner[1:] != owner[:-1]))
+    best = np.maximum.reduceat(value, starts)
+    first = np.flatnonzero(~(value < np.repeat(best, np.diff(np.append(starts, len(owner))))))
+    return np.asarray(first[np.append(True, owner[first][1:] != owner[first][:-1])])

@@ -1,0 +1,133 @@
+"""Stretches of the cycles of many designs between neighbouring cuts, and the pieces that lie in them to begin
+with."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from linkwright.core.arrays import Floats, Indices
+from linkwright.core.dataclass import dataclass
+from linkwright.cycle.course import Course
+
+#: Nearer to each other, as share of the cycle, two cuts are one.
+SAME = 1e-11
+_NONE: Floats = np.empty(0)
+
+
+@dataclass(frozen=True)
+class Span:
+    """The cycles of some designs: all begin at the ``begin``, s, of a course; ``period`` (designs,), s, and ``bar``,
+    derivatives by the periods, gathered on the way back."""
+
+    course: Course
+    period: Floats
+    bar: Floats
+
+    @property
+    def count(self) -> int:
+        """Number of designs."""
+        return len(self.period)
+
+    @property
+    def begin(self) -> float:
+        """Where all of them begin, s."""
+        return self.course.begin
+
+    def order(self, design: Indices, time: Floats) -> Floats:
+        """Numbers that grow with the design, and in it with the time since the place from which its cycle is seen."""
+        share = (time - self.begin) / self.period[design] - self.course.origin
+        return np.asarray(2.0 * design + (share - np.floor(share) if self.course.closed else share))
+
+    def within(self, design: Indices, time: Floats) -> Floats:
+        """The same times in the cycle that is seen."""
+        if not self.course.closed:
+            return time
+        share = (time - self.begin) / self.period[design] - self.course.origin
+        return np.asarray(time - np.floor(share) * self.period[design])
+
+
+class Cuts(Protocol):
+    """Times at which cycles are cut, (k,) by design, with what is wanted differentiated by them."""
+
+    design: Indices
+    time: Floats
+    bar: Floats
+
+
+class Stretches:
+    """``design``, ``begin`` and ``length``, s, of all stretches, by design and time, around cycles that close.
+
+    ``more``: times, s, at which all are cut; ``edge`` and ``after``: numbers of the cuts at both ends among those of
+    all ``families``; -1 where no family moves the end.
+    """
+
+    def __init__(self, span: Span, families: Sequence[Cuts], more: Floats = _NONE) -> None:
+        self.span, self.families = span, tuple(families)
+        course, every = span.course, np.arange(span.count)
+        fixed = np.append(course.breaks[:-1] if course.closed else course.breaks, more)
+        design = [each.design for each in families] + [np.repeat(every, len(fixed))]
+        time = [each.time for each in families] + [np.tile(fixed, span.count)]
+        moving = sum(len(each.time) for each in families)
+        owner, at = np.concatenate(design), np.concatenate(time)
+        number = np.where(np.arange(len(owner)) < moving, np.arange(len(owner)), -1)
+        without = every[np.bincount(owner, minlength=span.count) == 0]
+        owner = np.concatenate([owner, without])
+        at = np.concatenate([at, span.begin + course.origin * span.period[without]])
+        number = np.concatenate([number, np.full(len(without), -1)])
+        at = span.within(owner, at)
+        order = np.lexsort((number >= 0, at, owner))
+        owner, at, number = owner[order], at[order], number[order]
+        first = np.append(True, owner[1:] != owner[:-1])
+        apart = first | (np.diff(at, prepend=0.0) > SAME * span.period[owner])
+        owner, at, number, first = owner[apart], at[apart], number[apart], first[apart]
+        begins = np.flatnonzero(first)
+        last = np.append(begins[1:], len(owner)) - 1
+        after = np.arange(1, len(owner) + 1)
+        after[last] = begins
+        lap = np.where(after <= np.arange(len(owner)), span.period[owner], 0.0)
+        self.design, self.begin, self.length = owner, at, at[after] + lap - at
+        self.edge, self.after, self.lap = number, number[after], lap > 0.0
+        if not course.closed:
+            kept = np.ones(len(owner), dtype=np.bool_)
+            kept[last] = False
+            for name in ("design", "begin", "length", "edge", "after", "lap"):
+                setattr(self, name, getattr(self, name)[kept])
+
+    def first_pieces(self, each: float) -> tuple[Indices, Floats, Floats]:
+        """Stretch and shares of pieces of about equal length, ``each`` of a lap of the input; stretches that have
+        the same number in their designs are cut into as many."""
+        design = self.design
+        place = np.arange(len(design)) - np.searchsorted(design, design)
+        share, longest = self.length / self.span.period[design], np.zeros(int(place.max()) + 1)
+        np.maximum.at(longest, place, share)
+        count = np.maximum(1, np.ceil(each * self.span.course.laps * longest)).astype(np.intp)[place]
+        stretch = np.repeat(np.arange(len(design)), count)
+        k = np.arange(len(stretch)) - np.repeat(np.cumsum(count) - count, count)
+        return stretch, k / count[stretch], (k + 1) / count[stretch]
+
+    def ends(self, stretch: Indices, first: Floats, last: Floats) -> tuple[Floats, Floats]:
+        """Times, s, of pieces between two shares of their stretches."""
+        begin, length = self.begin[stretch], self.length[stretch]
+        return begin + first * length, begin + last * length
+
+    def move(self, stretch: Indices, first: Floats, last: Floats, low: Floats, high: Floats) -> None:
+        """From derivatives by the ends of pieces, ``low`` and ``high``, those by the cuts and by the periods."""
+        by_edge, by_after = low * (1.0 - first) + high * (1.0 - last), low * first + high * last
+        edge, after, origin = self.edge[stretch], self.after[stretch], self.span.course.origin
+        self.move_edges(edge, by_edge)
+        self.move_edges(after, by_after)
+        laps = np.where(edge < 0, origin * by_edge, 0.0)
+        laps += (np.where(after < 0, origin, 0.0) + self.lap[stretch]) * by_after
+        np.add.at(self.span.bar, self.design[stretch], laps)
+
+    def move_edges(self, edge: Indices, bars: Floats) -> None:
+        """Adds derivatives by cuts of some numbers."""
+        flat = np.zeros(sum(len(each.time) for each in self.families) + 1)
+        np.add.at(flat, edge, bars)
+        place = 0
+        for each in self.families:
+            each.bar += flat[place : place + len(each.time)]
+            place += len(each.time)
