@@ -114,7 +114,7 @@ def _judged(mechanism: lw.Mechanism, unjudged: Counter[str]) -> Iterator[Judged]
             continue
         scale = max(abs(bounded.value), SMALL * largest[row.unit], LEAST)
         value = abs(row.value) if row.metric in SIZES else row.value
-        difference, slack = abs(value - bounded.value), bounded.slack + ROUNDING * largest[row.unit]
+        difference, slack = abs(value - bounded.value), bounded.slack + ROUNDING * max(largest[row.unit], 1.0)
         said = f"{row.value!r}, by brute force {bounded.value!r} ± {slack:.1e}"
         yield Judged(
             row.metric,

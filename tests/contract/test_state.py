@@ -7,8 +7,11 @@ from pathlib import Path
 
 import pytest
 from tests.state.__main__ import main
+from tests.state.counting import counted
 from tests.state.dumping import lines
 from tests.state.rows import Row, leaves, rows
+
+import linkwright as lw
 
 FORCES = [
     Row("forces", "press", "A on rod.x", "N", [1000.0, -2000.0]),
@@ -164,3 +167,10 @@ def test_an_interruption_leaves_no_file(tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.setattr("tests.state.dumping.finished", interrupted)
     assert main(["dump", str(tmp_path / "out"), "--only", "gears"]) == 130
     assert not list(tmp_path.iterdir())
+
+
+def test_count_of_files_and_functions() -> None:
+    files, functions, rooms = counted(lambda: lw.load("gallery:crank_rocker"))
+    assert functions > files > 5
+    assert sum(rooms.values()) == functions
+    assert counted(lambda: None) == (0, 0, {})

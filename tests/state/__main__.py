@@ -3,11 +3,13 @@
     python -m tests.state dump before.state
     python -m tests.state dump after.state --only forces metrics
     python -m tests.state compare before.state after.state
+    python -m tests.state count --rooms
 
 ``dump`` writes the rows of all parts, or of some, into one file: machines of the gallery, random mechanisms,
 calculations, syntheses, references, findings of damaged files. ``compare`` prints what differs by more than the
 tolerance (see `tests/state/comparing.py`), and a line for every part. What was renamed on purpose between the two is
 no difference with ``--renamed``: a regular expression that the names of the first have, and what stands in its place.
+``count`` prints how many files and functions of the package some calls run through (see `tests/state/counting.py`).
 
 Exit code: 0 equal (or written), 1 different, 2 wrong use, 130 interrupted.
 """
@@ -51,6 +53,9 @@ def main(given: Sequence[str] | None = None) -> int:
         help="names of A that B has not",
     )
     compare.set_defaults(run=_compare)
+    count = commands.add_parser("count", help="print how many files and functions some calls run through")
+    count.add_argument("--rooms", action="store_true", help="with the functions of every room")
+    count.set_defaults(run=_count)
     options = parser.parse_args(given)
     found: int = options.run(parser, options)
     return found
@@ -91,6 +96,14 @@ def _compare(parser: argparse.ArgumentParser, options: argparse.Namespace) -> in
     for line in comparing.report(found, options.most):
         print(line)
     return int(any(each.differences for each in found.values()))
+
+
+def _count(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
+    from tests.state import counting
+
+    for line in counting.report(options.rooms):
+        print(line, flush=True)
+    return 0
 
 
 if __name__ == "__main__":
