@@ -32,6 +32,7 @@ STAGES = (
     ("structure",),
     ("groups",),
     ("kinematics",),
+    ("events",),
     ("kinetostatics",),
     ("dyads",),
     ("cycle",),

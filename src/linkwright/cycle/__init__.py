@@ -1,1 +1,1 @@
-"""The cycle of one machine or of many designs: events, pieces between them, summaries, and their gradients."""
+"""The cycle of one machine or of many designs: loads over it, summaries of signals, and their gradients."""

@@ -15,18 +15,18 @@ import numpy as np
 from linkwright.core.arrays import EQUAL, Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, RelativeAngle
-from linkwright.cycle.events import AT, Events, events
-from linkwright.cycle.formula import HIGH, LOW, NODE, ROW, Formula
-from linkwright.cycle.inputs import AtInput
-from linkwright.cycle.limits import Limits
 from linkwright.cycle.loads import Acting, InPart, OnStrokes
 from linkwright.cycle.machine import VALID, Machine, Swing
-from linkwright.cycle.pieces import Layout, Pieces, Wanted
-from linkwright.cycle.polynomials import best_of, climbed
-from linkwright.cycle.stretches import Cuts, Span, Stretches
-from linkwright.cycle.strokes import between, of_limits
 from linkwright.cycle.summary import STROKES, TRUE_SPEED, Summary, one, output_of, signal_of
 from linkwright.engine.trace import Scalar, Trace, absolute, sin
+from linkwright.events.events import AT, Events, events
+from linkwright.events.formula import HIGH, LOW, NODE, ROW, Formula
+from linkwright.events.inputs import AtInput
+from linkwright.events.limits import Limits
+from linkwright.events.pieces import Layout, Pieces, Wanted
+from linkwright.events.polynomials import best_of, climbed
+from linkwright.events.stretches import Cuts, Span, Stretches
+from linkwright.events.strokes import between, of_limits
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.phases import InputPhase, MovingPhase, SwingPhase
 from linkwright.loads.sizes import Table

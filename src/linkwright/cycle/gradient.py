@@ -14,9 +14,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.cycle.cycle import REACH, Signal, Solved
-from linkwright.cycle.events import Events
-from linkwright.cycle.formula import HIGH, LOW
-from linkwright.cycle.polynomials import NODES, WEIGHTS, weights_at, weights_up_to
+from linkwright.events.events import Events
+from linkwright.events.formula import HIGH, LOW
+from linkwright.events.polynomials import NODES, WEIGHTS, weights_at, weights_up_to
 
 #: Derivatives by the values of signals at the nodes, (POINTS, pieces), and by the widths of the pieces.
 Weights = tuple[dict[Signal, Floats], Floats]

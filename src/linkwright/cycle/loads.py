@@ -13,12 +13,12 @@ from collections.abc import Mapping
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.cycle.events import AT, Designs, at_times
-from linkwright.cycle.formula import Formula, Known
-from linkwright.cycle.limits import Limits
 from linkwright.cycle.machine import length_name, since_name
-from linkwright.cycle.stretches import Span
-from linkwright.cycle.strokes import Ends, Strokes
+from linkwright.events.events import AT, Designs, at_times
+from linkwright.events.formula import Formula, Known
+from linkwright.events.limits import Limits
+from linkwright.events.stretches import Span
+from linkwright.events.strokes import Ends, Strokes
 from linkwright.kinetostatics.load_site import ACTS
 from linkwright.loads.base import Load
 from linkwright.loads.phases import SwingPhase

@@ -11,13 +11,13 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, RelativeAngle
-from linkwright.cycle.course import Course
-from linkwright.cycle.formula import HIGH, LOW, NODE, Formula, Known
 from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.replay import inlined
 from linkwright.engine.trace import Mask, Scalar, Trace, Value, absolute, cos, nearest_turn, select, sin
 from linkwright.engine.trace import angle as angle_of
+from linkwright.events.course import Course
+from linkwright.events.formula import HIGH, LOW, NODE, Formula, Known
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant, program_names
 from linkwright.kinematics.programs import Manner

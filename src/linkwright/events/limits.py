@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.cycle.events import AT, Events
-from linkwright.cycle.formula import LOW, Formula
-from linkwright.cycle.stretches import Span
+from linkwright.events.events import AT, Events
+from linkwright.events.formula import LOW, Formula
+from linkwright.events.stretches import Span
 
 #: Limits nearer to the outermost ones than this share of the way are outermost, too.
 ALIKE = 1e-9

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.cycle.formula import HIGH, LOW, Columns
-from linkwright.cycle.polynomials import HIDDEN, LAST, NODES, POINTS, SLACK, UP_TO, WEIGHTS
+from linkwright.events.formula import HIGH, LOW, Columns
+from linkwright.events.polynomials import HIDDEN, LAST, NODES, POINTS, SLACK, UP_TO, WEIGHTS
 
 #: A piece is met where its last orders are below this share of the signal's size.
 MET = 1e-11

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.cycle.course import Course
+from linkwright.events.course import Course
 
 #: Nearer to each other, as share of the cycle, two cuts are one.
 SAME = 1e-11

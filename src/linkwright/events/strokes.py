@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.cycle.stretches import Span
+from linkwright.events.stretches import Span
 
 
 class Ends(Protocol):

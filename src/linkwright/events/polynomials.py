@@ -6,7 +6,7 @@ import numpy as np
 from numpy.polynomial import chebyshev, legendre
 
 from linkwright.core.arrays import Floats, Indices
-from linkwright.cycle import peak_kernel
+from linkwright.events import peak_kernel
 
 POINTS = 16
 _X, _W = legendre.leggauss(POINTS)

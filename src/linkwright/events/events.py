@@ -16,10 +16,10 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.cycle.formula import HIGH, LOW, Formula, Known
-from linkwright.cycle.pieces import Layout, Pieces, Wanted
-from linkwright.cycle.polynomials import LOOKS, TO_LOOKS, turning_points
-from linkwright.cycle.stretches import Stretches
+from linkwright.events.formula import HIGH, LOW, Formula, Known
+from linkwright.events.pieces import Layout, Pieces, Wanted
+from linkwright.events.polynomials import LOOKS, TO_LOOKS, turning_points
+from linkwright.events.stretches import Stretches
 
 #: Pieces of a lap to begin with, and to what share of its size they meet a signal.
 PIECES, MET = 6, 1e-5

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.cycle.stretches import Span
+from linkwright.events.stretches import Span
 
 
 @dataclass
