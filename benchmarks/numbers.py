@@ -1,4 +1,4 @@
-"""Design numbers of one crusher and of many, beside the hand-written NumPy cycle of its motion and forces."""
+"""Design numbers of one crusher, beside the hand-written NumPy cycle of its motion and forces."""
 
 from __future__ import annotations
 
@@ -10,18 +10,12 @@ import numpy as np
 import linkwright as lw
 from benchmarks import by_numpy
 from benchmarks.cases import sixbar
+from benchmarks.cycles import METRICS
 from benchmarks.kernels_alone import HAND
 from benchmarks.timing import Candidate
-from linkwright.cycle_programs.metric_cycle import MetricCycle, metric_cycle
 from linkwright.kinematics.motion import Rows
-from linkwright.metrics import METRICS
 
-METRICS_OF, RUNNING, COMPARED, STUDIED = (
-    "metrics",
-    "steady_running",
-    "compare of two",
-    "design numbers of many",
-)
+METRICS_OF, RUNNING, COMPARED = "metrics", "steady_running", "compare of two"
 EDITED, PREPARED, UNLOADED, BY_NUMPY = (
     "an edited value solved again",
     "prepared, solved",
@@ -34,17 +28,11 @@ LINK = "pitman.length"
 class NumbersWork:
     """The gallery's six-bar crusher with its load between limit positions."""
 
-    def __init__(self, designs: int, steps: int) -> None:
+    def __init__(self, steps: int) -> None:
         self.mechanism, self.steps = lw.load("gallery:jaw_crusher_sixbar"), steps
         self.length, self.edits = self.mechanism.dimension(LINK), 0
         self.forces = lw.solve_forces(self.mechanism, steps=steps)
         self.work = sixbar(steps)
-        self.names = [name for name, metric in METRICS.items() if not metric.on_request]
-        cycle = metric_cycle(self.mechanism, [LINK], self.names)
-        assert cycle is not None
-        self.cycle: MetricCycle = cycle
-        random = np.random.default_rng(0)
-        self.columns = {LINK: self.length * random.uniform(0.99, 1.01, designs)}
         self.other = self.mechanism.with_dimensions({LINK: 1.01 * self.length})
         self.prepared = lw.prepare(self.mechanism, vary=[LINK], steps=steps)
         bare = replace(self.mechanism, loads={})
@@ -52,7 +40,7 @@ class NumbersWork:
         self.by_numpy = lw.prepare(bare, vary=[LINK], steps=steps, backend="numpy")
 
     def candidates(self) -> list[Candidate]:
-        """One call each; many designs count as one by their share."""
+        """One call each."""
         nominal = self.work.nominal()
         runs: dict[str, Callable[[], object]] = {
             HAND: lambda: by_numpy.sixbar(self.work.cosine, self.work.sine, nominal),
@@ -66,16 +54,7 @@ class NumbersWork:
             UNLOADED: lambda: self.bare.solve({LINK: self._edit()}),
             BY_NUMPY: lambda: self.by_numpy.solve({LINK: self._edit()}),
         }
-        count = len(self.columns[LINK])
-        many = Candidate(
-            STUDIED, lambda: self.cycle.evaluate(self.columns, threads=1), count, f"{self.told}, a design"
-        )
-        return [*(Candidate(name, run) for name, run in runs.items()), many]
-
-    @property
-    def told(self) -> str:
-        """How many numbers."""
-        return f"{len(self.cycle.terms)} of them"
+        return [Candidate(name, run) for name, run in runs.items()]
 
     def _edit(self) -> float:
         self.edits += 1
@@ -88,14 +67,7 @@ class NumbersWork:
 
     def disagreement(self) -> float:
         """Largest relative difference of the numbers of many designs from those of one alone."""
-        found = self.cycle.evaluate({LINK: self.columns[LINK][:1]})
-        design = self.mechanism.with_dimensions({LINK: float(self.columns[LINK][0])})
-        table = lw.metrics(lw.solve_forces(design))
-        gaps = []
-        for term in self.cycle.terms:
-            values = [row.value for row in table[term.name]]
-            one = (
-                min(values) if term.better == "higher" else max(values, key=abs) if term.better else values[0]
-            )
-            gaps.append(abs(float(found.values[term.name][0]) / one - 1.0))
-        return max(gaps)
+        table = lw.metrics(self.forces)
+        names = [name for name in METRICS if name in table.names]
+        found = lw.sweep(self.mechanism, {LINK: np.array([self.length])}, outputs=names, threads=1)
+        return max(abs(float(found[name][0]) / table.value(name) - 1.0) for name in names)

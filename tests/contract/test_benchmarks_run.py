@@ -110,7 +110,7 @@ def test_command_prints_tables_and_goals(
     monkeypatch.setattr(sections, "QUICK", sections.Size(16, 2, 1e-4, 64, 64, 8, 4, 4, 1, (2, 4)))
     monkeypatch.setattr(command, "QUICK", sections.QUICK)
     before = report.PAGE.read_text(encoding="utf-8")
-    assert command.main(["--quick", "--only", "public", "gradient", "growth", "loaded"]) == 0
+    assert command.main(["--quick", "--only", "public", "gradient", "growth", "cycles"]) == 0
     printed = capsys.readouterr().out
     tables = [line for line in printed.splitlines() if line.startswith("|")]
     assert len(tables) > 20 and any(re.search(r"\| 4 \w+ +\|", line) for line in tables)
