@@ -267,7 +267,8 @@ CORE = (1, 7)
 def test_loads_of_every_kind_are_found_again(
     opened: Opened, tmp_path: Path, name: str, load: str | None, changes: dict[str, float]
 ) -> None:
-    """Phases over several turns, of groups without closed form, of parts of strokes; angles of links that turn."""
+    """Phases over several turns, of groups without closed form, of parts of strokes, with drivers that follow laws;
+    angles of links that turn."""
     text = with_load(name, load)
     mechanism = lw.loads(text)
     opened.open(page_of(text, tmp_path))
@@ -294,6 +295,28 @@ def test_loads_are_found_again_where_the_driver_turns_back(opened: Opened, tmp_p
         ("r:R|plate.x", forces.reaction("R", on="plate")[:, 0]),
     ):
         np.testing.assert_allclose(np.array(got[name])[place], want, rtol=0, atol=1e-9 * np.abs(want).max())
+
+
+@pytest.mark.rotating
+def test_a_ramp_between_rests_goes_from_their_middles(opened: Opened, tmp_path: Path) -> None:
+    """A cam's lifter stands still for a while at both ends of its stroke."""
+    text = """
+format: 1
+name: cam
+frame: {points: {O: [0 mm, 0 mm]}}
+links: {cam: {points: [O]}, lifter: {points: [P], mass: 2 kg}}
+joints:
+  guide: {kind: prismatic, guide: frame, through: O, direction: 90 deg, block: lifter, at: P}
+  contact: {kind: cam, cam: cam, follower: lifter, at: P, touch: roller, base_radius: 40 mm, roller_radius: 8 mm,
+    program: [{dwell: 93 deg}, {rise: 20 mm, over: 88 deg}, {dwell: 57 deg}, {fall: 20 mm, over: 122 deg}]}
+driver: {turn: cam, about: O, speed: 60 rpm}
+loads: {push: {kind: force, on: lifter, at: P, direction: 270 deg, ramp: [100 N, 900 N],
+  phase: {of: guide, from: min, to: max}}}
+"""
+    opened.open(page_of(text, tmp_path))
+    for changes in ({}, {"contact.base_radius": 0.05}):
+        opened.run("(s, changes) => s.take({...s.model.values, ...changes})", changes)
+        rows_agree(opened, lw.loads(text).with_dimensions(changes))
 
 
 @pytest.mark.rotating

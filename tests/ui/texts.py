@@ -77,6 +77,22 @@ PER_POSITION = (
         "{kind: torque, on: carrier, magnitude: -9 N·m, phase: {moving: A.x, direction: increasing}}",
         {"carrier.mass": 2.5},
     ),
+    (
+        "dyad_rrr",
+        "{kind: force, on: bar_1, at: B, direction: 30 deg, ramp: [5 N, 50 N],"
+        " phase: {of: B.x, from: max, to: min, last: 0.3}}",
+        {"bar_1.length": 0.152},
+    ),
+    (
+        "stephenson_sixbar_triad",
+        "{kind: torque, on: rocker, ramp: [5 N·m, 50 N·m], phase: {of: rocker, from: max, to: min}}",
+        {"frame.O2.x": 0.202},
+    ),
+    (
+        "double_slider",
+        "{kind: force, on: bar, at: P, direction: 30 deg, ramp: [5 N, 50 N], phase: {of: wall, from: min, to: max}}",
+        {"foot.mass": 2.1},
+    ),
 )
 #: Numbers of pairs of PER_POSITION by what they are.
 RAMP_ON_A_TRIAD, PART_OF_A_STROKE, ANGLE_THAT_TURNS, SEVERAL_TURNS = 1, 2, 3, 5

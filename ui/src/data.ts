@@ -150,6 +150,14 @@ export interface AngleField {
   near: [string, number] | null;
 }
 
+/** Angles of a link against its carrier, beyond a dimension's value or a number, at which a cam goes over to another formula. */
+export interface Bends {
+  link: string;
+  carrier: string;
+  phase: [string, number];
+  angles: number[];
+}
+
 export interface Steady {
   driver: string;
   turns: boolean;
@@ -193,6 +201,7 @@ export interface ModelData {
   phases: Phase[];
   angles: AngleField[];
   friction: FrictionTerm[];
+  bends: Bends[];
   groups: Group[];
   signals: Signal[];
   numbers: Figure[];

@@ -1,22 +1,8 @@
 // What loads take per position once the motion is known: when they act, and angles of links that turn through.
 import type { AngleField, Interval, Phase, PhaseOfOutput } from "./data";
 import type { Call } from "./engine";
-import { events, modulo } from "./events";
+import { type Cycle, events, modulo, type Reading } from "./events";
 import { TURN } from "./numbers";
-
-/** The cycle as loads see it; a place is a number among its positions, of which the first is 0. */
-export interface Course {
-  closed: boolean;
-  /** Time from one position to the next, s; below zero where the positions go backwards. */
-  pace: number;
-  /** Whether the first driver turns; what its coordinate gains in a closed cycle. */
-  turns: boolean;
-  drift: number;
-  /** That coordinate at a place within the cycle. */
-  input: (place: number) => number;
-  /** A call that has run at a place; null where the drivers are not known there. */
-  at: (place: number) => Call | null;
-}
 
 /** Where an output reverses, and its value there. Ways are places in the order of time. */
 interface Limit {
@@ -25,31 +11,34 @@ interface Limit {
   max: boolean;
 }
 
-// Shares within which places belong to a phase, as in the core.
-const NEAR = 1e-9;
+// Share of a cycle within which places belong to a phase; of an output's way within which limits are equal and parts fit, as
+// in the core.
+const NEAR = 1e-11, ALIKE = 1e-9;
 
 /** What loads take at a place between positions, by the names of fields, of a call that has run there. */
 export type Between = (one: Call, place: number, near: number) => Record<string, number>;
 
-/** The share of a phase that is passed at a place, of a call that has run there for position i of its own; null where the
- *  load does not act. */
-type Passed = (call: Call, i: number, place: number, near: number) => number | null;
+/** The share of a phase that is passed at a place; null where the load does not act. */
+type Passed = (...where: Parameters<Reading>) => number | null;
 
-/** Writes the phases and angles of loads into a call that has run; null where a phase does not exist, else how they go on
+/** Writes the phases and angles of loads into the call of a cycle; null where a phase does not exist, else how they go on
  *  between the positions. */
-export function follow(call: Call, phases: Phase[], angles: AngleField[], values: Record<string, number>, course: Course): Between | null {
-  const rows = angles.map(({ field, a, b, near }) => {
+export function follow(cycle: Cycle, phases: Phase[], angles: AngleField[], values: Record<string, number>): Between | null {
+  const call = cycle.main, rows = angles.map(({ field, a, b, near }) => {
     const row = between(call, a, b, near && (values[near[0]] ?? near[1]));
     put(call, field, row);
     return row;
   });
-  const found = phases.map((phase) => ({ phase, passed: "between" in phase ? interval(phase, values, course) : byOutput(call, phase, course) }));
-  for (const { phase, passed } of found) {
+  const found: [load: string, passed: Passed][] = [];
+  for (const phase of phases) {
+    const passed = phase.kind === "input" ? interval(phase, values, cycle) : byOutput(phase, cycle);
     if (!passed) return null;
+    found.push([phase.load, passed]);
     const acts = new Float64Array(call.n), shares = new Float64Array(call.n);
     for (let i = 0; i < call.n; i++) {
       const share = passed(call, i, i, i);
-      if (share !== null) [acts[i], shares[i]] = [1, share];
+      acts[i] = Number(share !== null);
+      shares[i] = share ?? 0;
     }
     put(call, `acts:${phase.load}`, acts);
     put(call, `share:${phase.load}`, shares);
@@ -57,10 +46,10 @@ export function follow(call: Call, phases: Phase[], angles: AngleField[], values
   return (one, place, near) => {
     const taken: Record<string, number> = {};
     angles.forEach(({ field, a, b }, k) => (taken[field] = nearest(turned(one, a, b, 0), rows[k][near])));
-    for (const { phase, passed } of found) {
-      const share = passed!(one, 0, place, near);
-      taken[`acts:${phase.load}`] = Number(share !== null);
-      taken[`share:${phase.load}`] = share ?? 0;
+    for (const [load, passed] of found) {
+      const share = passed(one, 0, place, near);
+      taken[`acts:${load}`] = Number(share !== null);
+      taken[`share:${load}`] = share ?? 0;
     }
     return taken;
   };
@@ -98,18 +87,18 @@ export function unwrap(row: Float64Array): Float64Array {
 
 /** While the input is between two coordinates; of angles modulo one turn, from the larger to the smaller one through its
  *  end where the input grows; null for more than a turn. */
-function interval({ between: ends }: Interval, values: Record<string, number>, course: Course): Passed | null {
-  const [start, end] = ends.map((name) => values[name]), gap = end - start, heading = (course.input(1) - course.input(0)) * course.pace;
-  if (!course.turns)
+function interval({ between: ends }: Interval, values: Record<string, number>, { input, pace, turns }: Cycle): Passed | null {
+  const [start, end] = ends.map((name) => values[name]), gap = end - start, heading = (input(1) - input(0)) * pace;
+  if (!turns)
     return (_call, _i, place) => {
-      const q = course.input(place);
+      const q = input(place);
       return q >= Math.min(start, end) - NEAR && q <= Math.max(start, end) + NEAR ? clipped((q - start) / gap) : null;
     };
   if (Math.abs(gap) > TURN + NEAR) return null;
   const length = gap < 0 && heading > 0 ? modulo(gap, TURN) || TURN : gap, size = Math.abs(length), low = Math.min(start, start + length);
   return (_call, _i, place) => {
-    const passed = within(course.input(place) - low, size, TURN), share = passed === null ? 0 : clipped(passed / size);
-    return passed === null ? null : length > 0 ? share : 1 - share;
+    const gone = within(input(place) - low, size, TURN), share = gone === null ? 0 : clipped(gone / size);
+    return gone === null ? null : length > 0 ? share : 1 - share;
   };
 }
 
@@ -123,57 +112,47 @@ const clipped = (share: number) => Math.min(1, Math.max(0, share));
 
 /** While an output moves one way, from limit to limit for a ramp, or goes between its outermost limits, or in a part of
  *  that; null where it never does. */
-function byOutput(call: Call, phase: PhaseOfOutput, course: Course): Passed | null {
+function byOutput(phase: PhaseOfOutput, cycle: Cycle): Passed | null {
   const sign = phase.ends[1] === "max" ? 1 : -1, moves = (one: Call, i: number) => sign * one.row(phase.moving)[i] > 0;
-  const moving = phase.kind === "moving", angular = phase.rows.length > 1, { n } = call;
+  const moving = phase.kind === "moving", { closed } = cycle, { n } = cycle.main;
   if (moving && !phase.ramp) return (one, i) => (moves(one, i) ? 0 : null);
-  const angles = angular ? unwrap(Float64Array.from({ length: n }, (_, i) => read(call, phase, i))) : null;
-  const output: Output = (one, i, near) => (angles ? nearest(read(one, phase, i), angles[near]) : read(one, phase, i));
-  const limits = reversals(call, phase, course, output), sense = Math.sign(course.pace), lap = course.closed ? n : 2 * n;
-  if (limits.some(({ value }) => Number.isNaN(value))) return null;
-  const ways = strokes(moving ? limits : outermost(limits), phase.ends, course.closed ? lap : null)
-    .map(({ begin, end }) => ({ begin, end, share: phase.part ? partOf(begin, end, phase) : shareOf(begin, end, course, n) }));
-  if (!ways.length || ways.some(({ share }) => !share)) return null;
+  const output = outputOf(phase, cycle.main), limits = reversals(phase, cycle, output), sense = Math.sign(cycle.pace), lap = closed ? n : 2 * n;
+  if (!limits.length || limits.some(({ value }) => Number.isNaN(value))) return null;
+  const ways = strokes(moving ? limits : outermost(limits), phase.ends, closed ? lap : null)
+    .map(({ begin, end }) => ({ begin, end, share: phase.part ? partOf(begin, end, phase, output) : shareOf(begin, end, cycle) }));
+  if ((!moving && !ways.length) || ways.some(({ share }) => !share)) return null;
   return (one, i, place, near) => {
     if (moving && !moves(one, i)) return null;
     for (const { begin, end, share } of ways) {
-      const passed = within(sense * place - begin.way, end.way - begin.way, lap);
-      const there = passed === null ? null : share!(passed, () => output(one, i, near));
+      const gone = within(sense * place - begin.way, end.way - begin.way, lap);
+      const there = gone === null ? null : share!(gone, one, i, place, near);
       if (there !== null) return clipped(there);
     }
     return null;
   };
 }
 
-/** An output at position i of a call; an angle as it goes on from a position near it. */
-type Output = (call: Call, i: number, near: number) => number;
-
-function read(call: Call, { rows }: PhaseOfOutput, i: number): number {
-  const a = call.row(rows[0])[i];
-  return rows.length > 1 ? Math.atan2(call.row(rows[1])[i], a) : a;
+/** An output; an angle as it goes on from a position near it. */
+function outputOf({ rows }: PhaseOfOutput, main: Call): Reading {
+  const read: Reading = (call, i) => (rows.length > 1 ? Math.atan2(call.row(rows[1])[i], call.row(rows[0])[i]) : call.row(rows[0])[i]);
+  if (rows.length < 2) return read;
+  const [x, y] = rows.map((name) => main.row(name)), angles = unwrap(x.map((cosine, i) => Math.atan2(y[i], cosine)));
+  return (call, i, place, near) => nearest(read(call, i, place, near), angles[near]);
 }
 
 /** Where an output reverses, in the order of time. */
-function reversals(call: Call, phase: PhaseOfOutput, course: Course, output: Output): Limit[] {
-  const { pace, closed } = course, [rate, second, moving] = [phase.rate, phase.second, phase.moving].map((name) => call.row(name));
-  const found = events({
-    values: rate, slopes: second.map((x) => pace * x), closed,
-    at: (place) => {
-      const one = course.at(place);
-      return one ? [one.row(phase.rate)[0], pace * one.row(phase.second)[0]] : [NaN, NaN];
-    },
-    rests: (place) => (Number.isInteger(place) ? moving[place] : course.at(place)?.row(phase.moving)[0]) === 0,
-  });
-  const limits = found.map(({ place, grows }) => {
-    const one = course.at(place), value = one ? output(one, 0, Math.floor(place)) : NaN;
-    return { way: Math.sign(pace) * place, value, max: grows !== pace > 0 };
+function reversals({ rate, second, moving }: PhaseOfOutput, cycle: Cycle, output: Reading): Limit[] {
+  const row = (name: string): Reading => (call, i) => call.row(name)[i];
+  const limits = events(cycle, { value: row(rate), rate: row(second), rests: row(moving) }).map(({ place, grows }) => {
+    const one = cycle.at(place), value = one ? output(one, 0, place, Math.floor(place)) : NaN;
+    return { way: Math.sign(cycle.pace) * place, value, max: grows !== cycle.pace > 0 };
   });
   return limits.sort((a, b) => a.way - b.way);
 }
 
 /** Of all reversals those with the largest and the smallest value. */
 function outermost(limits: Limit[]): Limit[] {
-  const values = limits.map(({ value }) => value), slack = NEAR * (Math.max(...values) - Math.min(...values));
+  const values = limits.map(({ value }) => value), slack = ALIKE * (Math.max(...values) - Math.min(...values));
   const top = Math.max(...limits.filter(({ max }) => max).map(({ value }) => value)) - slack;
   const bottom = Math.min(...limits.filter(({ max }) => !max).map(({ value }) => value)) + slack;
   return limits.filter(({ max, value }) => (max ? value >= top : value <= bottom));
@@ -188,25 +167,25 @@ function strokes(limits: Limit[], ends: ("max" | "min")[], lap: number | null): 
   });
 }
 
-/** The share of a stroke by what is passed of it and by the output there; null outside of it. */
-type Share = (passed: number, value: () => number) => number | null;
+/** The share of a stroke, by what is gone of it and by the output there; null outside of it. */
+type Share = (gone: number, ...where: Parameters<Reading>) => number | null;
 
 /** The share of the input's way; null where the input goes nowhere. */
-function shareOf(begin: Limit, end: Limit, { pace, drift, input }: Course, n: number): Share | null {
+function shareOf(begin: Limit, end: Limit, { pace, drift, input, main: { n } }: Cycle): Share | null {
   const at = (way: number, place = Math.sign(pace) * way) => input(modulo(place, n)) + Math.floor(place / n) * drift;
   const first = at(begin.way), rise = at(end.way) - first;
-  return Math.abs(rise) < NEAR * (1 + Math.abs(first + rise)) ? null : (passed) => (at(begin.way + passed) - first) / rise;
+  return Math.abs(rise) < ALIKE * (1 + Math.abs(first + rise)) ? null : (gone) => (at(begin.way + gone) - first) / rise;
 }
 
 /** The share of a part of a stroke, by the way of the output itself; null where the stroke is too short for it. */
-function partOf(begin: Limit, end: Limit, { part, rows }: PhaseOfOutput): Share | null {
-  const size = Math.abs(end.value - begin.value), slack = NEAR * size;
+function partOf(begin: Limit, end: Limit, { part, rows }: PhaseOfOutput, output: Reading): Share | null {
+  const size = Math.abs(end.value - begin.value), [fits, slack] = [ALIKE * size, NEAR * size];
   const ways = part!.amounts.map(([value, share]) => value * (share ? size : 1)), last = ways[ways.length - 1];
   const [from, to] = part!.word === "first" ? [0, ways[0]] : part!.word === "last" ? [size - ways[0], size] : [ways[0], size - last];
-  if (!(from >= -slack && from < to && to <= size + slack)) return null;
-  return (_passed, value) => {
-    let gone = (value() - begin.value) * Math.sign(end.value - begin.value);
-    if (rows.length > 1 && size < TURN) gone -= TURN * Math.floor((gone + (TURN - size) / 2) / TURN);
-    return gone >= from - slack && gone <= to + slack ? (gone - from) / (to - from) : null;
+  if (!(from >= -fits && from < to && to <= size + fits)) return null;
+  return (_gone, ...where) => {
+    let way = (output(...where) - begin.value) * Math.sign(end.value - begin.value);
+    if (rows.length > 1 && size < TURN) way -= TURN * Math.floor((way + (TURN - size) / 2) / TURN);
+    return way >= from - slack && way <= to + slack ? (way - from) / (to - from) : null;
   };
 }

@@ -4,7 +4,8 @@ import { through } from "./drive";
 import type { Call } from "./engine";
 import type { Model } from "./model";
 import { nearest } from "./loads";
-import { least, root } from "./search";
+import { events } from "./events";
+import { least } from "./search";
 import type { Solver } from "./solver";
 
 export const TURN = 2 * Math.PI;
@@ -181,20 +182,12 @@ export function sampled({ data }: Model): "forces" | "all" | null {
 
 /** Input from one limit position to the other over the rest of the turn, at least 1; NaN for other ways than a single one
  * to and fro. */
-function ratio(model: Model, id: string, row: Float64Array): number {
-  if (!returns(row)) return NaN;
-  let top = 0, bottom = 0;
-  for (let i = 1; i < model.n; i++) {
-    if (row[i] > row[top]) top = i;
-    if (row[i] < row[bottom]) bottom = i;
-  }
-  const rate = id.startsWith("angle:") ? `w:${id.slice(6)}` : `sv:${id.slice(2)}`;
-  const limits = [top, bottom].map((i) => {
-    const of = (place: number) => model.solver.valueAt(place, (call) => call.row(rate)[0]), [a, b] = [of(i - 1), of(i + 1)];
-    return a * b < 0 ? root(of, i - 1, i + 1, a, b) : i;
-  });
-  const way = (((((limits[1] - limits[0]) / model.n) * TURN) % TURN) + TURN) % TURN;
-  return Math.max(way, TURN - way) / Math.min(way, TURN - way);
+function ratio({ n, solver }: Model, id: string, row: Float64Array): number {
+  const [, kind, owner] = /^(angle|s):(.*)$/.exec(id)!, [rate, second] = (kind === "s" ? ["sv", "sa"] : ["w", "g"]).map((each) => `${each}:${owner}`);
+  const limits = events(solver.cycle, { value: (call, i) => call.row(rate)[i], rate: (call, i) => call.row(second)[i] });
+  if (!returns(row) || limits.length !== 2) return NaN;
+  const way = limits[1].place - limits[0].place;
+  return Math.max(way, n - way) / Math.min(way, n - way);
 }
 
 /** Whether a closed row has two reversals and rests nowhere. */

@@ -1,33 +1,23 @@
 // Searches along one number, and the least change that brings a point to a place.
 
-/** Where a function that changes its sign between a and b is zero (Brent, Algorithms for Minimization, ch. 4). */
-export function root(f: (x: number) => number, a: number, b: number, fa = f(a), fb = f(b)): number {
-  let c = a, fc = fa, d = b - a, e = d;
-  for (let k = 0; k < 60; k++) {
-    if (Math.abs(fc) < Math.abs(fb)) [a, b, c, fa, fb, fc] = [b, c, b, fb, fc, fb];
-    const tolerance = 2e-16 * Math.abs(b) + 1e-15, m = 0.5 * (c - b);
-    if (Math.abs(m) <= tolerance || fb === 0) break;
-    if (Math.abs(e) < tolerance || Math.abs(fa) <= Math.abs(fb)) d = e = m;
-    else {
-      let p: number, q: number;
-      const s = fb / fa;
-      if (a === c) [p, q] = [2 * m * s, 1 - s];
-      else {
-        const r = fb / fc, t = fa / fc;
-        p = s * (2 * m * t * (t - r) - (b - a) * (r - 1));
-        q = (t - 1) * (r - 1) * (s - 1);
-      }
-      if (p > 0) q = -q;
-      else p = -p;
-      if (2 * p < Math.min(3 * m * q - Math.abs(tolerance * q), Math.abs(e * q))) [e, d] = [d, p / q];
-      else d = e = m;
-    }
-    [a, fa] = [b, fb];
-    b += Math.abs(d) > tolerance ? d : Math.sign(m) * tolerance;
-    fb = f(b);
-    if (fb > 0 === fc > 0) [c, fc, d, e] = [a, fa, b - a, b - a];
+// Steps of a search for a zero at most, the width of its bracket, as a share of the place, and the last step that end it.
+const STEPS = 80, WIDTH = 4e-16, LAST = 1e-8;
+
+/** Where a function of unlike signs, a and b, at two places is zero: Newton's steps with its slope, halvings where these
+ *  leave the bracket. */
+export function zero(at: (x: number) => [value: number, slope: number], low: number, high: number, a: number, b: number): number {
+  let x = low + (high - low) * (a / (a - b));
+  for (let k = 0; k < STEPS; k++) {
+    const [value, slope] = at(x), step = value / slope;
+    if (value === 0) return x;
+    if (Math.abs(step) <= LAST) return x - step;
+    if (value < 0 === a < 0) low = x;
+    else high = x;
+    if (Math.abs(high - low) <= WIDTH * Math.abs(high)) break;
+    const next = x - step;
+    x = (next - low) * (next - high) <= 0 ? next : 0.5 * (low + high);
   }
-  return b;
+  return x;
 }
 
 const GOLDEN = 0.3819660112501051;

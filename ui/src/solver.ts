@@ -2,8 +2,9 @@
 import { bytes, floats, type Group, type ModelData } from "./data";
 import { type Call, Kernel, type Code } from "./engine";
 import { Drive } from "./drive";
+import { corners, type Cycle } from "./events";
 import { settle } from "./friction";
-import { type Between, type Course, follow } from "./loads";
+import { type Between, follow } from "./loads";
 import { least } from "./search";
 
 export type Values = Record<string, number>;
@@ -28,10 +29,14 @@ export class Solver {
   readonly main: Call;
   readonly n: number;
   readonly inputs: Float64Array;
+  /** Time from one position to the next where no driver is steady, s. */
+  private readonly pace: number;
   /** Limits or magnitudes of loads that are not certain to be right. */
   doubtful = false;
   /** Friction for which no finite effort is found. */
   locking = false;
+  /** The machine over its cycle. */
+  cycle: Cycle;
   private readonly one: Call;
   /** What loads take between the positions; null where they take nothing, or not as the rows have it. */
   private between: Between | null = null;
@@ -50,7 +55,8 @@ export class Solver {
     this.main = kernel.call(this.n);
     this.one = kernel.call(1);
     for (const name in positions.arrays) this.arrays[name] = floats(positions.arrays[name]);
-    const { inputs, steady } = positions, given = inputs[0]?.values;
+    const { inputs, steady, time } = positions, given = inputs[0]?.values, times = time === null ? [0, 0] : floats(time);
+    this.pace = times[1] - times[0];
     this.inputs = steady ? Float64Array.from({ length: this.n }, (_, i) => steady.start + i * steady.step) : given ? floats(given) : new Float64Array(1);
     for (const name in data.fields) this.main.give({ [name]: floats(data.fields[name]) });
     for (const name of this.main.program.states) {
@@ -58,6 +64,7 @@ export class Solver {
       if (typeof start === "number") this.states[name] = start;
     }
     this.drawn = this.states;
+    this.cycle = this.over(data.values);
   }
 
   get iterated(): boolean {
@@ -104,11 +111,11 @@ export class Solver {
     this.main.give(this.arrays);
     if (this.iterated && !this.approach(values)) return this.lost(0);
     this.main.run();
-    [this.between, this.locking] = [null, false];
+    [this.between, this.locking, this.cycle] = [null, false, this.over(values)];
     const wall = this.reached(values), { friction, phases, angles } = this.data;
     if (wall) return wall;
     if (phases.length + angles.length) {
-      this.between = follow(this.main, phases, angles, values, this.course);
+      this.between = follow(this.cycle, phases, angles, values);
       this.doubtful ||= !this.between;
       this.main.run();
     }
@@ -124,15 +131,18 @@ export class Solver {
     return Object.fromEntries(names.map((name) => [name, share * this.data.values[name]]));
   }
 
-  /** The cycle as the phases of loads see it. */
-  private get course(): Course {
-    const { steady, time, closed, drift, inputs } = this.data.positions;
-    return {
-      closed, drift, turns: inputs[0]?.turns ?? true,
-      pace: steady ? steady.step / this.speed : time === null ? 0 : floats(time)[1] - floats(time)[0],
+  private over(values: Values): Cycle {
+    const { steady, closed, drift, inputs, breaks } = this.data.positions, { main, data } = this;
+    let found: number[] | null = null;
+    const cycle: Cycle = {
+      main, closed, drift, turns: inputs[0]?.turns ?? true, pace: steady ? steady.step / this.speed : this.pace,
       input: (place) => (steady ? steady.start + place * steady.step : Number.isInteger(place) ? this.inputs[place] : (this.inputsAt(place)?.input ?? NaN)),
       at: (place) => (this.run(place) ? this.one : null),
+      get corners() {
+        return (found ??= corners(cycle, breaks ?? [], data.bends, values));
+      },
     };
+    return cycle;
   }
 
   /** Signs of assembly modes pass change points only in the original, where they are known. */

@@ -14,7 +14,7 @@ export const dimension = (address: string, value: number, more: Partial<Dimensio
 const program: Program = {
   outputs: [
     "ok", "outcome", "quality:slide", "fact:slide|height", "fact:slide|length²",
-    "p:A.x", "p:A.y", "p:B.x", "p:B.y", "s:guide", "sv:guide", "e:crank.x", "e:crank.y",
+    "p:A.x", "p:A.y", "p:B.x", "p:B.y", "s:guide", "sv:guide", "sa:guide", "e:crank.x", "e:crank.y",
   ],
   parameters: ["crank.length", "rod.length", "guide.offset", "driver.speed"],
   positions: ["cos:driver", "sin:driver"], fields: [], states: [], tables: [],
@@ -25,7 +25,9 @@ const formulas: Code = {
     for (let i = 0; i < n; i++) {
       const [x, y] = [r * cos[i], r * sin[i]], height = y - e, along = Math.sqrt(l * l - height * height);
       const apart = Number(Math.abs(height) > l), rate = -y * w - (height * x * w) / along;
-      [1 - apart, apart, 1 - (height / l) ** 2, height, l * l, x, y, x + along, e, x + along, rate, cos[i], sin[i]]
+      // Of along² = l² − height² twice the rate.
+      const grown = (-height * x * w) / along, second = -x * w * w - ((x * w) ** 2 - height * y * w * w + grown ** 2) / along;
+      [1 - apart, apart, 1 - (height / l) ** 2, height, l * l, x, y, x + along, e, x + along, rate, second, cos[i], sin[i]]
         .forEach((value, k) => (out[k * n + i] = value));
     }
   },
@@ -47,7 +49,7 @@ export function sliderCrank(count: number): { data: ModelData; code: Code } {
       steady: { driver: "driver", turns: true, start: 0, step, speed: SPEED, begin: 0 },
       inputs: [{ name: "driver", turns: true, values: null }],
     },
-    fields: {}, starts: {}, held: [], phases: [], angles: [], friction: [],
+    fields: {}, starts: {}, held: [], phases: [], angles: [], friction: [], bends: [],
     groups: [{ name: "slide", signature: "RRP", links: ["rod", "slider"], facts: ["height", "length²"], wheels: [], dyad: true }],
     signals: [
       { id: "s:guide", form: "row", rows: ["s:guide"], kind: "length", name: said("way") },

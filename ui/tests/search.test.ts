@@ -1,22 +1,23 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { least, leastChange, root } from "../src/search";
+import { least, leastChange, zero } from "../src/search";
 import { allNear, near } from "./near";
 
-test("roots are those of known functions, whichever end is given first", () => {
-  const cases: [(x: number) => number, number, number, number][] = [
-    [(x) => Math.cos(x) - x, 0, 1, 0.7390851332151607], [(x) => x ** 3 - 2, 0, 4, Math.cbrt(2)],
-    [(x) => Math.exp(x) - 2, -5, 5, Math.LN2], [Math.sin, 3, 4, Math.PI], [(x) => Math.tanh(50 * (x - 0.1)), -1, 3, 0.1],
+test("zeros are those of known functions, whichever end is given first", () => {
+  const cases: [(x: number) => [number, number], number, number, number][] = [
+    [(x) => [Math.cos(x) - x, -Math.sin(x) - 1], 0, 1, 0.7390851332151607], [(x) => [x ** 3 - 2, 3 * x * x], 0, 4, Math.cbrt(2)],
+    [(x) => [Math.exp(x) - 2, Math.exp(x)], -5, 5, Math.LN2], [(x) => [Math.sin(x), Math.cos(x)], 3, 4, Math.PI],
+    [(x) => [Math.tanh(50 * (x - 0.1)), 50 / Math.cosh(50 * (x - 0.1)) ** 2], -1, 3, 0.1],
   ];
   for (const [f, a, b, wanted] of cases) {
-    near(root(f, a, b), wanted, 1e-14);
-    near(root(f, b, a), wanted, 1e-14);
+    near(zero(f, a, b, f(a)[0], f(b)[0]), wanted, 1e-14);
+    near(zero(f, b, a, f(b)[0], f(a)[0]), wanted, 1e-14);
   }
 });
 
-test("a root at an end is that end", () => {
-  assert.equal(root((x) => x, 0, 1), 0);
-  assert.equal(root((x) => x - 1, 0, 1), 1);
+test("a zero at an end is that end", () => {
+  assert.equal(zero((x) => [x, 1], 0, 1, 0, 1), 0);
+  assert.equal(zero((x) => [x - 1, 1], 0, 1, -1, 0), 1);
 });
 
 test("the least values of smooth and of broken functions", () => {

@@ -98,6 +98,7 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
         "phases": programs.phases,
         "angles": programs.angles,
         "friction": programs.friction(),
+        "bends": programs.bends,
         "groups": _groups(programs),
         "signals": list(known.values()),
         "numbers": numbers(programs, known),

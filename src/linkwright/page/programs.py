@@ -108,6 +108,22 @@ class PagePrograms:
             for term in terms
         ]  # fmt: skip
 
+    @property
+    def bends(self) -> list[Plain]:
+        """Where cams and the like go over to another formula: angles of a link against its carrier, to which a
+        dimension is added."""
+        found = [joint.bends for joint in self.mechanism.joints.values() if joint.bends is not None]
+        phase = self.solver.nominal.parameters
+        return [
+            {
+                "link": each.link,
+                "carrier": each.carrier,
+                "angles": each.angles,
+                "phase": [each.phase, phase[each.phase]],
+            }
+            for each in found
+        ]
+
     @cached_property
     def iterated(self) -> bool:
         """Whether a group without closed form is followed from position to position."""
