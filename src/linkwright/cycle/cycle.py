@@ -24,7 +24,7 @@ from linkwright.events.formula import HIGH, LOW, NODE, ROW, Formula
 from linkwright.events.inputs import AtInput
 from linkwright.events.limits import Limits
 from linkwright.events.pieces import Layout, Pieces, Wanted
-from linkwright.events.polynomials import best_of, climbed
+from linkwright.events.polynomials import best_of, climbed, largest
 from linkwright.events.stretches import Cuts, Span, Stretches
 from linkwright.events.strokes import between, of_limits
 from linkwright.kinetostatics.signals import MotionSignals
@@ -516,15 +516,11 @@ class Solved:
         """Piece, place and value of the largest and of the smallest integral over the time of a signal's lack of its
         mean."""
         if k not in self._excess:
-            lack, every = self.pieces.excess(k, self.means[k]), self.pieces
+            lack, design = self.pieces.excess(k, self.means[k]), self.pieces.design
             found = []
             for sign in (1.0, -1.0):
-                rows = sign * lack
-                top, bottom = rows.max(axis=0), rows.min(axis=0)
-                piece = np.flatnonzero(~(top + 0.1 * (top - bottom) < every.each(every.most(top))))
-                place, value = climbed(rows[:, piece])
-                best = best_of(value, every.design[piece])
-                found.append((piece[best], place[best], sign * value[best]))
+                piece, place, value = largest(sign * lack, design)
+                found.append((piece, place, sign * value))
             self._excess[k] = found
         return self._excess[k]
 

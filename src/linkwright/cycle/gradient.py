@@ -16,7 +16,7 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.cycle.cycle import REACH, Signal, Solved
 from linkwright.events.events import Events
 from linkwright.events.formula import HIGH, LOW
-from linkwright.events.polynomials import NODES, WEIGHTS, weights_at, weights_up_to
+from linkwright.events.polynomials import NODES, WEIGHTS, weights_at
 
 #: Derivatives by the values of signals at the nodes, (POINTS, pieces), and by the widths of the pieces.
 Weights = tuple[dict[Signal, Floats], Floats]
@@ -175,18 +175,11 @@ class Backward:
         """Largest less smallest of W(x) = ∫ (mean - signal): of the signal between both places, and of the mean's
         way there."""
         every, speed = self.pieces, np.abs(self.solved.speed)
-        upto, number = np.zeros_like(values), np.arange(len(every.stretch))
+        upto = np.zeros_like(values)
         high, low = self.solved.excess(k)
         for sign, (piece, place, _) in ((1.0, high), (-1.0, low)):
-            upto += sign * (number < every.each(piece)) * WEIGHTS[:, None]
-            upto[:, piece] += sign * weights_up_to(place)
+            upto[:, piece] += sign * weights_at(place) * (bar * speed)
         name = f"{self.solved.machine.course.first.name}.speed"
         if name in self.found:
             self.found[name] += bar * (high[2] - low[2]) * np.sign(self.solved.speed)
-        upto *= every.each(bar * speed)
-        mean = every.each(self.solved.means[k])
-        lack = mean - values
-        by_mean = every.total((upto * every.width).sum(axis=0))
-        share = every.each(by_mean / every.period)
-        weight = WEIGHTS[:, None] * every.width * share - upto * every.width
-        return weight, (upto * lack).sum(axis=0) - (WEIGHTS @ lack) * share
+        return every.through_excess(k, self.solved.means[k], upto)

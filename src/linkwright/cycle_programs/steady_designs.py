@@ -82,7 +82,13 @@ class SteadyDesigns:
     @cached_property
     def cycles(self) -> SteadyCycles:
         """Their cycles of steady running."""
-        return SteadyCycles(self.share, self.lift * self.work + self.inertia, self.inertia)
+        signals = (self.share, self.lift * self.work + self.inertia, self.inertia)
+        design = np.repeat(np.arange(len(self.share)), self.pieces)
+        return SteadyCycles(design, *(each.transpose(1, 0, 2).reshape(POINTS, -1) for each in signals))
+
+    def _uniform(self, values: Floats) -> Floats:
+        """Values on pieces (POINTS, designs · pieces) as those of designs with as many each."""
+        return values.reshape(POINTS, -1, self.pieces).transpose(1, 0, 2)
 
     def number(self, part: Summary) -> tuple[Floats, Flags]:
         """A number (designs,), and of which designs it is certain; NaN where the driver does no work."""
@@ -107,10 +113,10 @@ class SteadyDesigns:
         slopes = self.cycles.slopes(speeds, *_SIDES[part.kind])
         if part.kind == "size":
             with np.errstate(divide="ignore"):
-                slopes = slopes.scaled(np.where(size > 0.0, -1.0 / slopes.flywheel, 0.0))
-        elif part.kind != "fluctuation":
-            slopes = slopes.scaled(np.full(len(size), self.speed))
-        found = self._by_signals(part, slopes, size)
+                scale = np.where(size > 0.0, -1.0 / slopes.flywheel, 0.0)
+        else:
+            scale = np.full(len(size), 1.0 if part.kind == "fluctuation" else self.speed)
+        found = self._by_signals(part, slopes, size, scale)
         signals = (self.sense * self.torque, self.inertia, self.share)
         rest = self._value(part, size, speeds)
         for weight, signal in zip(found.values(), signals, strict=True):
@@ -124,7 +130,7 @@ class SteadyDesigns:
             return size
         if part.kind == "fluctuation":
             return speeds.fluctuation
-        return np.asarray(self.speed * (speeds.fastest[2] if part.kind == "fastest" else -speeds.slowest[2]))
+        return np.asarray(self.speed * (speeds.fastest if part.kind == "fastest" else speeds.slowest)[2])
 
     def _speeds(self, part: Summary) -> tuple[Floats, Speeds]:
         """The flywheels, and the speeds with them."""
@@ -150,12 +156,16 @@ class SteadyDesigns:
     def _lowest(self) -> Peak:
         return largest(-self.work, -self.work.min(axis=1))
 
-    def _by_signals(self, part: Summary, slopes: Slopes, size: Floats) -> dict[str, Floats]:
+    def _by_signals(self, part: Summary, slopes: Slopes, size: Floats, scale: Floats) -> dict[str, Floats]:
         """Derivatives by the effort, the inertia and the share of every Gauss point."""
-        work, inertia, share = self.lift * slopes.excess, slopes.inertia + slopes.excess, slopes.share
+        excess, inertia, share = (
+            scale[:, None, None] * self._uniform(each)
+            for each in (slopes.excess, slopes.inertia, slopes.share)
+        )
+        work, inertia = self.lift * excess, inertia + excess
         fluctuation = required(part)
         if part.kind != "size" and fluctuation is not None:
-            by_size = np.where(size > 0.0, slopes.flywheel, 0.0)
+            by_size = np.where(size > 0.0, scale * slopes.flywheel, 0.0)
             rows, scale = np.arange(len(size)), by_size / (fluctuation * self.speed**2)
             for sign, (piece, place, _, _) in ((1.0, self._highest), (-1.0, self._lowest)):
                 work[rows, :, piece] += sign * scale[:, None] * weights_at(place)

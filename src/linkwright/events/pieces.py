@@ -239,6 +239,19 @@ class Pieces:
         before = np.cumsum(whole) - whole
         return np.asarray(before - self.each(before[self.starts]) + UP_TO @ lack)
 
+    def through_excess(self, k: int, mean: Floats, weight: Floats) -> tuple[Floats, Floats]:
+        """From derivatives (POINTS, pieces) by the excess at the nodes those by the signal there, and by the widths
+        of the pieces; the mean changes with both."""
+        whole = np.where(self.each(self.passed), weight.sum(axis=0), 0.0)
+        after = np.cumsum(whole[::-1])[::-1] - whole
+        last = np.append(self.starts[1:], len(whole)) - 1
+        upto = UP_TO.T @ weight + WEIGHTS[:, None] * (after - self.each(after[last]))
+        lack = self.each(mean) - self.values(k)
+        by_mean = self.total((upto * self.width).sum(axis=0))
+        share = self.each(by_mean / self.period)
+        by_signal = WEIGHTS[:, None] * self.width * share - upto * self.width
+        return by_signal, (upto * lack).sum(axis=0) - (WEIGHTS @ lack) * share
+
     def contenders(
         self, sides: Sequence[tuple[int, float]], parts: Sequence[Flags | None]
     ) -> tuple[Floats, Indices, Indices]:

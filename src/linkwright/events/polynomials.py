@@ -8,6 +8,8 @@ from numpy.polynomial import chebyshev, legendre
 from linkwright.core.arrays import Floats, Indices
 from linkwright.events import peak_kernel
 
+#: Of every design: the piece of an extreme, its place in it (-1 to 1), and its value, (designs,) each.
+Peak = tuple[Indices, Floats, Floats]
 POINTS = 16
 _X, _W = legendre.leggauss(POINTS)
 #: Gauss points and their weights in a piece from 0 to 1.
@@ -18,11 +20,10 @@ LAST = SERIES[-3:]
 #: Places, -1 to 1, at which a piece is looked at, both ends among them, and from values at the nodes to these.
 LOOKS = -np.cos(np.pi * np.arange(33) / 32)
 TO_LOOKS = chebyshev.chebvander(LOOKS, POINTS - 1) @ SERIES
-#: From coefficients to those of the slope; from values to those of the integral from the piece's beginning, the piece
-#: 1 long, and to this at the nodes.
+#: From coefficients to those of the slope; from values to the integral from the beginning up to every node, the
+#: piece 1 long.
 SLOPE = np.vstack([chebyshev.chebder(np.eye(POINTS)), np.zeros((1, POINTS))])
-INTEGRAL = 0.5 * chebyshev.chebint(np.eye(POINTS), lbnd=-1) @ SERIES
-UP_TO = chebyshev.chebvander(_X, POINTS) @ INTEGRAL
+UP_TO = chebyshev.chebvander(_X, POINTS) @ (0.5 * chebyshev.chebint(np.eye(POINTS), lbnd=-1) @ SERIES)
 #: How much higher than at its nodes a signal may rise in a piece that is met, as share of its span there: half of
 #: the gap
 #: between two nodes, squared, is 0.009 of it, and up to the ends it may rise by 0.025; where it is not met, in
@@ -43,11 +44,6 @@ def value_at(series: Floats, x: Floats) -> Floats:
 def weights_at(place: Floats) -> Floats:
     """Weights (POINTS, k) of the values at the nodes in the value at places (k,), -1 to 1."""
     return np.asarray((chebyshev.chebvander(place, POINTS - 1) @ SERIES).T)
-
-
-def weights_up_to(place: Floats) -> Floats:
-    """The same in the integral from the piece's beginning up to places, the piece 1 long."""
-    return np.asarray((chebyshev.chebvander(place, POINTS) @ INTEGRAL).T)
 
 
 def climbed(rows: Floats) -> tuple[Floats, Floats]:
@@ -91,3 +87,14 @@ def best_of(value: Floats, owner: Indices) -> Indices:
     best = np.maximum.reduceat(value, starts)
     first = np.flatnonzero(~(value < np.repeat(best, np.diff(np.append(starts, len(owner))))))
     return np.asarray(first[np.append(True, owner[first][1:] != owner[first][:-1])])
+
+
+def largest(values: Floats, design: Indices) -> Peak:
+    """The largest of polynomials through ``values`` (POINTS, pieces) of every design, whose pieces lie in order."""
+    top, bottom = values.max(axis=0), values.min(axis=0)
+    starts = np.flatnonzero(np.append(True, design[1:] != design[:-1]))
+    highest = np.repeat(np.maximum.reduceat(top, starts), np.diff(np.append(starts, len(design))))
+    piece = np.flatnonzero(~(top + SLACK * (top - bottom) < highest))
+    place, value = climbed(values[:, piece])
+    best = best_of(value, design[piece])
+    return piece[best], place[best], value[best]

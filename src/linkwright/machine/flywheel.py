@@ -12,6 +12,8 @@ from linkwright.words.sentence import Sentence
 
 #: Coefficient of speed fluctuation δ for which flywheels are laid out where none is asked for.
 FLUCTUATION = 0.02
+#: A mean torque below this share of the largest one is zero.
+NOTHING = 1e-9
 
 
 def flywheel_inertia(energy: float, speed: float, fluctuation: float, *, present: float = 0.0) -> float:

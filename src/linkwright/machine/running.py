@@ -14,7 +14,7 @@ from linkwright.errors import LinkwrightError, speaker
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation
 from linkwright.machine.equivalent import Equivalent, steady_rate
-from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed_fluctuation
+from linkwright.machine.flywheel import NOTHING, flywheel_inertia, on_faster_shaft, speed_fluctuation
 from linkwright.machine.motor import Motor, motor
 from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.analysis import Analysis
@@ -40,8 +40,6 @@ DIMENSIONS = {
     "exact_flywheel": "inertia",
     "shaft_flywheel": "inertia",
 }
-#: A mean torque below this share of the largest one is zero.
-NOTHING = 1e-9
 
 
 @dataclass(frozen=True)

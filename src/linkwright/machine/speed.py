@@ -11,7 +11,6 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.piecewise import (
-    WEIGHTS,
     Extreme,
     Function,
     Integral,
@@ -21,7 +20,8 @@ from linkwright.core.piecewise import (
     nodes,
 )
 from linkwright.errors import LinkwrightError
-from linkwright.machine.speeds import Speeds, SteadyCycles, in_pieces
+from linkwright.events.polynomials import POINTS, WEIGHTS
+from linkwright.machine.speeds import Speeds, SteadyCycles
 from linkwright.machine.torque_curve import TorqueCurve
 
 #: A machine whose kinetic energy falls below this share of that at its mean speed stops, and one whose inertia falls
@@ -156,7 +156,7 @@ class SteadyCycle:
         for _ in range(ROUNDS):
             found = cycles.at(np.array([flywheel]))
             energy = self._energy(found, flywheel)
-            speed = self.speed * found.values[0].T
+            speed = self.speed * found.values.T
             curve = Piecewise(edges, speed)
             if curve.smooth.all():
                 break
@@ -182,9 +182,10 @@ class SteadyCycle:
         return self._cycles(edges, self.work(at), self.own(at))
 
     def _cycles(self, edges: Floats, work: Floats, inertia: Floats) -> SteadyCycles:
-        share = 0.5 * np.diff(edges)[:, None] * WEIGHTS / (edges[-1] - edges[0])
+        share = WEIGHTS[:, None] * (np.diff(edges) / (edges[-1] - edges[0]))
+        work, inertia = (each.reshape(-1, POINTS).T for each in (work, inertia))
         return SteadyCycles(
-            in_pieces(share), in_pieces(work) / (0.5 * self.speed * self.speed), in_pieces(inertia)
+            np.zeros(len(edges) - 1, dtype=np.intp), share, work / (0.5 * self.speed * self.speed), inertia
         )
 
     def _at(self, flywheel: float, energy: float, angle: Floats) -> Floats:

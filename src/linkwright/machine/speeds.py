@@ -1,4 +1,4 @@
-"""The true speed of many machines side by side, from signals at the Gauss points of their cycles."""
+"""The true speed of many machines, from signals at the Gauss points of the pieces of their cycles."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import POINTS, TO_LAST, Peak, largest, weights_at
+from linkwright.events.polynomials import LAST as LAST_ORDERS
+from linkwright.events.polynomials import Peak, largest, weights_at
 
 #: Share of the smallest kinetic energy in which a Newton step is the last one: what is left is its square.
 LAST = 1e-9
@@ -20,11 +21,13 @@ OF_SLOWNESS = 0.01
 
 @dataclass(frozen=True, eq=False)
 class Speeds:
-    """Speeds ω of some machines over their mean, (designs, POINTS, pieces), and what they follow from.
+    """Speeds ω of some machines over their mean, (POINTS, pieces), and what they follow from.
 
-    ``kinetic``: 2 E/ω_mean², kg·m², of the kinetic energy E; ``inertia``: all of it, flywheels included, kg·m².
+    ``design``: of the pieces; ``kinetic``: 2 E/ω_mean², kg·m², of the kinetic energy E; ``inertia``: all of it,
+    flywheels included, kg·m²; ``energy``: 2 E0/ω_mean², (designs,).
     """
 
+    design: Indices
     kinetic: Floats
     inertia: Floats
     energy: Floats
@@ -35,30 +38,21 @@ class Speeds:
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.sqrt(self.kinetic / self.inertia)
 
-    @property
+    @cached_property
     def fastest(self) -> Peak:
-        """The largest speed over the mean: piece, place in it, value, size of the last orders."""
-        return self._extremes[0]
-
-    @property
-    def slowest(self) -> Peak:
-        """The same of the smallest one; the value is negative."""
-        return self._extremes[1]
+        """The largest speed over the mean: piece, place in it, value."""
+        return largest(self.values, self.design)
 
     @cached_property
-    def _extremes(self) -> tuple[Peak, Peak]:
-        both, designs = np.concatenate([self.values, -self.values]), len(self.values)
-        piece, place, value, rough = largest(both, both.max(axis=1))
-        first, last = slice(designs), slice(designs, None)
-        return (
-            (piece[first], place[first], value[first], rough[first]),
-            (piece[last], place[last], value[last], rough[last]),
-        )
+    def slowest(self) -> Peak:
+        """The same of the smallest one."""
+        piece, place, value = largest(-self.values, self.design)
+        return piece, place, -value
 
     @property
     def fluctuation(self) -> Floats:
         """(ω_max - ω_min)/ω_mean, (designs,)."""
-        return np.asarray(self.fastest[2] + self.slowest[2])
+        return np.asarray(self.fastest[2] - self.slowest[2])
 
     @property
     def rough(self) -> Floats:
@@ -68,67 +62,65 @@ class Speeds:
         """
         with np.errstate(invalid="ignore", divide="ignore"):
             signals = (self.values, OF_SLOWNESS / self.values)
-            return np.asarray(np.maximum(*(np.abs(TO_LAST.T @ each).max(axis=(1, 2)) for each in signals)))
+            off = np.maximum(*(np.abs(LAST_ORDERS @ each).max(axis=0) for each in signals))
+        return np.asarray(np.maximum.reduceat(off, _starts(self.design)))
 
     def weights(self, fastest: float, slowest: float) -> Floats:
         """Weights of the speeds at the Gauss points in a sum of the largest and the smallest one."""
         found = np.zeros_like(self.values)
-        rows = np.arange(len(found))
-        for share, (piece, place, _, _) in ((fastest, self.fastest), (slowest, self.slowest)):
+        for share, (piece, place, _) in ((fastest, self.fastest), (slowest, self.slowest)):
             if share:
-                found[rows, :, piece] += share * weights_at(place)
+                found[:, piece] += share * weights_at(place)
         return found
 
 
 @dataclass(frozen=True, eq=False)
 class Slopes:
-    """Derivatives of a number of each design by excess work (as kg·m²), inertia and share of every Gauss point.
-
-    ``flywheel``: by the flywheel, (designs,).
-    """
+    """Derivatives of a number of each design by excess work (as kg·m²), inertia and share of every Gauss point,
+    (POINTS, pieces) each, and by the flywheel, (designs,)."""
 
     excess: Floats
     inertia: Floats
     share: Floats
     flywheel: Floats
 
-    def scaled(self, by: Floats) -> Slopes:
-        """The same of a multiple."""
-        each = by[:, None, None]
-        return Slopes(self.excess * each, self.inertia * each, self.share * each, self.flywheel * by)
-
 
 class SteadyCycles:
-    """Cycles of steady running of some machines, (designs, POINTS, pieces) each: ½ J ω² = E0 + W.
+    """Cycles of steady running of some machines, (POINTS, pieces) each: ½ J ω² = E0 + W.
 
-    ``share``: a point's share of the angle of the period; ``excess``: 2 W/ω_mean², kg·m², of the excess work W of the
-    driver; ``inertia``: J without a flywheel, kg·m². E0 follows from the mean speed: the mean of ω_mean/ω over the
-    angle is 1.
+    ``design``: of the pieces, in order; ``share``: a point's share of the angle of the period; ``excess``:
+    2 W/ω_mean², kg·m², of the excess work W of the driver; ``inertia``: J without a flywheel, kg·m². E0 follows from
+    the mean speed: the mean of ω_mean/ω over the angle is 1.
     """
 
-    def __init__(self, share: Floats, excess: Floats, inertia: Floats) -> None:
-        self.share, self.excess, self.inertia = share, excess, inertia
+    def __init__(self, design: Indices, share: Floats, excess: Floats, inertia: Floats) -> None:
+        self.design, self.share, self.excess, self.inertia = design, share, excess, inertia
+        self._starts = _starts(design)
 
     def at(self, flywheel: Floats) -> Speeds:
         """The speeds with flywheels (designs,), kg·m²; NaN where there is no inertia somewhere."""
-        inertia = self.inertia + flywheel[:, None, None]
+        inertia = self.inertia + flywheel[self.design]
         energy = self._energy(inertia)
-        return Speeds(energy[:, None, None] + self.excess, inertia, energy)
+        return Speeds(self.design, energy[self.design] + self.excess, inertia, energy)
+
+    def total(self, values: Floats) -> Floats:
+        """Sums over the Gauss points, (designs,)."""
+        return np.asarray(np.add.reduceat(values.sum(axis=0), self._starts))
+
+    def _least(self, values: Floats) -> Floats:
+        return np.asarray(np.minimum.reduceat(values.min(axis=0), self._starts))
 
     def _energy(self, inertia: Floats) -> Floats:
         """2 E0/ω_mean² by safeguarded Newton's steps for the square of the mean speed, (designs,)."""
-        designs = len(inertia)
-        share, excess, inertia = (each.reshape(designs, -1) for each in (self.share, self.excess, inertia))
-        least, scale = excess.min(axis=1), inertia.max(axis=1)
+        least, scale = self._least(self.excess), -self._least(-inertia)
         low, high = -least, scale - least
-        energy = np.einsum("dn,dn->d", share, inertia - excess)
+        energy = self.total(self.share * (inertia - self.excess))
         energy = np.where((low < energy) & (energy < high), energy, high)
         with np.errstate(invalid="ignore", divide="ignore"):
             for _ in range(STEPS):
-                kinetic = energy[:, None] + excess
-                slowness = np.sqrt(inertia / kinetic)
-                mean = np.einsum("dn,dn->d", share, slowness)
-                slope = np.einsum("dn,dn->d", share, slowness / kinetic)
+                kinetic = energy[self.design] + self.excess
+                slowness = self.share * np.sqrt(inertia / kinetic)
+                mean, slope = self.total(slowness), self.total(slowness / kinetic)
                 low, high = np.where(mean > 1.0, energy, low), np.where(mean > 1.0, high, energy)
                 newton = energy + mean * (mean * mean - 1.0) / slope
                 inside = (low < newton) & (newton < high)
@@ -136,7 +128,7 @@ class SteadyCycles:
                 enough = np.maximum(1e-15 * scale, np.where(inside, LAST * (energy + least), 0.0))
                 if not (np.abs(energy - before) > enough).any():
                     break
-        return np.asarray(np.where(inertia.min(axis=1) > 0.0, energy, np.nan))
+        return np.asarray(np.where(self._least(inertia) > 0.0, energy, np.nan))
 
     def flywheel(self, fluctuation: float, first: Floats) -> Floats:
         """Flywheels (designs,), kg·m², with which the speed fluctuates by just a share of the mean.
@@ -144,7 +136,7 @@ class SteadyCycles:
         Zero where none is needed, NaN where none is found; ``first``: flywheels to begin with.
         By Newton's steps for 1/δ, which is nearly a straight line over the flywheel.
         """
-        own = _sum(self.share * self.inertia)
+        own = self.total(self.share * self.inertia)
         with np.errstate(invalid="ignore", divide="ignore"):
             needed = ~(self.at(np.zeros(len(own))).fluctuation <= fluctuation)
             size = np.where(needed, np.maximum(first, 0.1 * own), 0.0)
@@ -170,17 +162,12 @@ class SteadyCycles:
         with np.errstate(invalid="ignore", divide="ignore"):
             own = 0.5 * found.weights(fastest, slowest) * speed
             late = 0.5 * self.share / speed
-            by_energy = _sum(own / kinetic) / _sum(late / kinetic)
-            late = late * by_energy[:, None, None]
+            by_energy = (self.total(own / kinetic) / self.total(late / kinetic))[self.design]
+            late = late * by_energy
             excess, weight = (own - late) / kinetic, (late - own) / inertia
-            return Slopes(excess, weight, by_energy[:, None, None] / speed, _sum(weight))
+            return Slopes(excess, weight, by_energy / speed, self.total(weight))
 
 
-def _sum(values: Floats) -> Floats:
-    """Sums over the Gauss points, (designs,)."""
-    return np.asarray(values.sum(axis=(1, 2)))
-
-
-def in_pieces(values: Floats) -> Floats:
-    """Values of one machine (pieces, POINTS) as those of the only design, (1, POINTS, pieces)."""
-    return np.ascontiguousarray(values.reshape(-1, POINTS).T)[None]
+def _starts(design: Indices) -> Indices:
+    """The first piece of every design."""
+    return np.flatnonzero(np.diff(design, prepend=-1))
