@@ -34,7 +34,7 @@ STEPS: Mapping[str, str] = {
     "sheets": "-m tests.course_mistakes",
     "starts": "-m tests.unit.synthesis.trace_starts",
     "large": "-m tests.large_inputs",
-    "alone": "-m tests.unit.cycle_programs.designs_alone",
+    "alone": "-m tests.designs_alone --count 100 --seed {day}",
     "cluster": "-m tests.cluster",
     "benchmarks": "-m benchmarks --no-page",
     "mutants": "-m tests.mutants --count 150 --seed {day} --workers 2",
