@@ -6,8 +6,8 @@ pieces of all designs behind each other, whatever pattern of events each has.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from functools import cached_property, partial
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from functools import cached_property
 from math import pi
 
 import numpy as np
@@ -26,10 +26,12 @@ from linkwright.events.limits import Limits
 from linkwright.events.pieces import Layout, Pieces, Wanted
 from linkwright.events.polynomials import best_of, climbed, largest
 from linkwright.events.stretches import Cuts, Span, Stretches
-from linkwright.events.strokes import between, of_limits
+from linkwright.events.strokes import Repeated, between, of_limits
 from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.loads.base import Load
 from linkwright.loads.phases import InputPhase, MovingPhase, SwingPhase
 from linkwright.loads.sizes import Table
+from linkwright.loads.strokes import NEAR
 
 #: Pieces of a lap of the input to begin with.
 PIECES = 12
@@ -130,36 +132,33 @@ class Cycle:
 
     def _follow(self) -> None:
         """The formulas of what turns round, and of the values of outputs at their limits."""
-        machine, traces = self.machine, self.machine.traces
+        machine = self.machine
         phases = {name: load.magnitude.phase for name, load in machine.mechanism.loads.items()}
-        by_phases = [phase.output for phase in phases.values() if isinstance(phase, SwingPhase | MovingPhase)]
+        by_phases = tuple(
+            dict.fromkeys(
+                each.output for each in phases.values() if isinstance(each, SwingPhase | MovingPhase)
+            )
+        )
+        self.turned = machine.turned if by_phases else None
         reversing = [load.reverses(machine.mechanism) for load in machine.mechanism.loads.values()]
         self.opposed = tuple(dict.fromkeys(each for each in reversing if isinstance(each, Output)))
         turning: list[Swing] = [each for each in reversing if isinstance(each, RelativeAngle)]
         self.turning = tuple(each for each in dict.fromkeys([*turning, *machine.terms])
                              if not isinstance(each, Output) and machine.swings(each))  # fmt: skip
         shown = [*self.limited.values(), *self.on_strokes.values()]
-        self.outputs = tuple(dict.fromkeys([*by_phases, *self.opposed, *shown, *self.never]))
+        moving = [each.output for each in phases.values() if isinstance(each, MovingPhase)]
+        own = by_phases if self.turned is None else moving
+        self.outputs = tuple(dict.fromkeys([*own, *self.opposed, *shown, *self.never]))
         self.swings: tuple[Swing, ...] = (*self.outputs, *self.turning)
-        self.rates: Formula | None = None
-        if self.swings:
-            every = machine.formula(
-                ("rates", self.swings),
-                lambda: {str(k): traces.rates(each) for k, each in enumerate(self.swings)},
-            )
-            varying = every.varying(NODE)
-            self.rates = machine.formula(
-                ("varying rates", self.swings), lambda: {k: traces.rates(self.swings[int(k)]) for k in varying}
-            ) if varying else None  # fmt: skip
+        self.rates = _rates(machine, self.swings)
         swung = [phase.output for phase in phases.values() if isinstance(phase, SwingPhase)]
-        self.values = {
-            output: machine.formula(("value", output), partial(self.value_of, output))
-            for output in dict.fromkeys([*self.limited.values(), *swung])
-        }
+        valued = [*self.limited.values(), *(() if self.turned else swung)]
+        self.values = {output: value_of(machine, output) for output in dict.fromkeys(valued)}
+        self.load_outputs = by_phases
+        self.load_machine = self.turned or machine
+        self.load_rates = _rates(self.turned, by_phases) if self.turned else None
+        self.load_values = {output: value_of(self.load_machine, output) for output in dict.fromkeys(swung)}
         self.signed = self._signed()
-
-    def value_of(self, output: Output) -> dict[str, Scalar]:
-        return {"value": self.machine.traces.value(output)}
 
     def _signed(self) -> Formula | None:
         """Forces, N, at whose zeros the signals bend: those that press guides with friction, and between teeth."""
@@ -181,6 +180,21 @@ class Cycle:
             ("varying signed", tuple(varying)), lambda: {name: bending[name] for name in varying}
         )
 
+    @cached_property
+    def columns(self) -> frozenset[str]:
+        """The dimensions that vary on which anything depends."""
+        bends, machine = self.machine.bends() or (), self.machine
+        formulas = [
+            self.formula,
+            *bends,
+            *self.values.values(),
+            *(each for each in (self.rates, self.signed) if each),
+        ]
+        taken = {name for formula in formulas for name in formula.columns}
+        first = machine.course.first.name
+        taken |= {f"loads.{name}.phase.input.{k}" for name in machine.phases for k in (0, 1)}
+        return frozenset(machine.varied) & (taken | {f"{first}.speed", f"{first}.start"})
+
     def solve(self, designs: Mapping[str, Floats]) -> Solved:
         """The cycles of designs with some columns (designs,); of the machine itself where there are none."""
         count = len(next(iter(designs.values()))) if designs else 1
@@ -188,6 +202,25 @@ class Cycle:
             self,
             {**{k: np.asarray(v, dtype=float) for k, v in designs.items()}, ROW: np.arange(float(count))},
         )
+
+
+def _rates(machine: Machine, swings: Sequence[Swing]) -> Formula | None:
+    """The rates of what goes to and fro as a formula, by their numbers; None where none varies."""
+    traces = machine.traces
+    every = machine.formula(
+        ("rates", tuple(swings)), lambda: {str(k): traces.rates(each) for k, each in enumerate(swings)}
+    )
+    varying = every.varying(NODE)
+    if not varying:
+        return None
+    return machine.formula(
+        ("varying rates", tuple(swings)), lambda: {k: traces.rates(swings[int(k)]) for k in varying}
+    )
+
+
+def value_of(machine: Machine, output: Output) -> Formula:
+    """The value of an output as a formula."""
+    return machine.formula(("value", output), lambda: {"value": machine.traces.value(output)})
 
 
 class Solved:
@@ -200,6 +233,7 @@ class Solved:
         self.bends = self._bends()
         self.base = Stretches(self.span, self.bends)
         rates = self._events(cycle.rates, self.base) if cycle.rates else []
+        self.whole = None if cycle.turned is None else _Turned(self, cycle.turned)
         found = {cycle.swings[int(each.name)]: each for each in rates}
         self.limits = {
             output: Limits(found[output], cycle.values.get(output), self.span)
@@ -208,6 +242,7 @@ class Solved:
         self.reversals = [found[each] for each in cycle.turning if each in found]
         self.reached: list[tuple[Events, InPart, int]] = []
         self.inputs: list[AtInput | Events] = []
+        self.repeated: list[Repeated] = []
         self.lacking = np.zeros(self.count, dtype=np.bool_)
         self.acting = [self._acting(name) for name in self.machine.phases]
         families = self._families()
@@ -227,7 +262,11 @@ class Solved:
         )
 
     def _periods(self) -> Floats:
-        course = self.machine.course
+        return self.periods(self.machine)
+
+    def periods(self, machine: Machine) -> Floats:
+        """How long the cycles of the designs are, (designs,) s."""
+        course = machine.course
         speed = self.designs.get(f"{course.first.name}.speed")
         if not course.turns or speed is None:
             return np.full(self.count, course.duration)
@@ -270,16 +309,20 @@ class Solved:
             found: Acting = self._between_inputs(name, phase)
         else:
             assert isinstance(phase, SwingPhase | MovingPhase)
-            limits = self.limits[phase.output]
+            limits = (self.whole or self).limits.get(phase.output)
+            if limits is None:
+                return _Never(load, self.span)
             events_ = limits.events.kept(limits.is_outermost()) if phase.outermost else limits.events
             self.kept_limits.append((limits, events_))
-            strokes = of_limits(events_, (phase.start == "min", phase.end == "min"), self.span)
+            strokes = of_limits(events_, (phase.start == "min", phase.end == "min"), limits.span)
             if not phase.in_part:
-                found = OnStrokes(load, strokes)
+                found = OnStrokes(load, strokes, by_time=bool(self.machine.course.turns))
             else:
                 assert isinstance(phase, SwingPhase)
-                value = self.cycle.values[phase.output]
-                found = InPart(load, phase, strokes, limits, value, self.machine.known, self.designs)
+                value = self.cycle.load_values[phase.output]
+                found = InPart(
+                    load, phase, strokes, limits, value, self.cycle.load_machine.known, self.designs
+                )
                 self._thresholds(found, phase)
         self.lacking |= found.missing
         return found
@@ -296,7 +339,7 @@ class Solved:
         def beyond(t: Trace, found: Mapping[str, Scalar]) -> dict[str, Scalar]:
             return {"g": found["value"] - t.position(REACH)}
 
-        formula = machine.formula(("reach", output), partial(self.cycle.value_of, output), beyond)
+        formula = machine.formula(("reach", output), lambda: {"value": machine.traces.value(output)}, beyond)
         for which in phase.part_edges:
             (found,) = self._events(formula, self.base, {REACH: np.nan_to_num(part.reach(which))})
             self.reached.append((found, part, which))
@@ -318,7 +361,15 @@ class Solved:
         )
         if backwards:
             start, finish = finish, start
-        return OnStrokes(load, between(start, finish, self.span), backwards=backwards)
+        gap = np.abs(self._dimension(name, phase, 1) - self._dimension(name, phase, 0))
+        fits = gap <= 2.0 * pi + NEAR if course.first.law.rotary else gap < np.inf
+        strokes, by_time = between(start, finish, self.span), bool(course.turns)
+        return OnStrokes(load, strokes, by_time=by_time, backwards=backwards, fits=fits)
+
+    def _dimension(self, name: str, phase: InputPhase, which: int) -> Floats:
+        """The value of the input at which a phase begins or ends, (designs,)."""
+        plain = np.full(self.count, (phase.start, phase.end)[which])
+        return self.designs.get(f"loads.{name}.phase.input.{which}", plain)
 
     def _at_input(self, address: str, value: float, every: int) -> AtInput | Events:
         """Where the input has a value."""
@@ -365,7 +416,16 @@ class Solved:
             if isinstance(size, Table) and size.known_at and machine.course.turns and size.over == "input":
                 every = max(1, round((size.x[-1] - size.x[0]) / (2.0 * pi)))
                 self.inputs += [self._at_input("", x, every) for x in size.x]
-        found += [each for acting in self.acting for each in acting.events]
+        ends = {id(each): each for acting in self.acting for each in acting.events}
+        if self.whole is not None:
+            limited = {id(kept) for _, kept in self.kept_limits}
+            period = self.whole.span.period
+            self.repeated = [
+                Repeated(each, period, self.span) for key, each in ends.items() if key in limited
+            ]
+            found += self.repeated
+            ends = {key: each for key, each in ends.items() if key not in limited}
+        found += ends.values()
         found += [*self.inputs, *self.reversals, *(each for each, _, _ in self.reached)]
         asked = {*self.cycle.opposed, *self.cycle.on_strokes.values()}
         asked |= {load.magnitude.phase.output for load in machine.mechanism.loads.values()
@@ -527,6 +587,40 @@ class Solved:
     @cached_property
     def _excess(self) -> dict[int, list[tuple[Indices, Floats, Floats]]]:
         return {}
+
+
+class _Turned:
+    """Limits of the outputs by which loads go over the whole cycle, of which the course is a part."""
+
+    def __init__(self, solved: Solved, machine: Machine) -> None:
+        cycle, designs = solved.cycle, solved.designs
+        self.span = Span(machine.course, solved.periods(machine), np.zeros(solved.count))
+        self.base = Stretches(self.span, [])
+        rates = events(cycle.load_rates, machine.known, designs, self.base) if cycle.load_rates else []
+        self.limits = {
+            output: Limits(each, cycle.load_values.get(output), self.span)
+            for each in rates
+            for output in [cycle.load_outputs[int(each.name)]]
+        }
+
+
+class _Never(Acting):
+    """A load whose phase no design has."""
+
+    def __init__(self, load: Load, span: Span) -> None:
+        super().__init__(load, span)
+        self.events = []
+
+    @property
+    def missing(self) -> Flags:
+        return np.ones(self.span.count, dtype=np.bool_)
+
+    def columns(self, design: Indices, middle: Floats) -> dict[str, Floats]:
+        nothing = np.zeros(len(design))
+        return self._named(nothing > 0.0, nothing, nothing + 1.0)
+
+    def pull(self, design: Indices, middle: Floats, by_columns: Mapping[str, Floats]) -> None:
+        """Nothing follows from it."""
 
 
 #: The column that is a value which is reached.

@@ -57,9 +57,12 @@ class Backward:
                 self._through_events(inputs)
             else:
                 self._gather(*inputs.pull(self.solved.machine.course.first.name))
-        for limits in self.solved.limits.values():
-            for whole, kept in self.solved.kept_limits:
-                if whole is limits and kept is not limits.events:
+        for repeated in self.solved.repeated:
+            repeated.push()
+        whole = () if self.solved.whole is None else self.solved.whole.limits.values()
+        for limits in (*self.solved.limits.values(), *whole):
+            for mine, kept in self.solved.kept_limits:
+                if mine is limits and kept is not limits.events:
                     limits.events.bar[np.flatnonzero(limits.is_outermost())] += kept.bar
             self._gather(*limits.pull())
             self._through_events(limits.events)
@@ -73,12 +76,12 @@ class Backward:
     def _forget(self) -> None:
         """Begins anew."""
         self.solved.span.bar[:] = 0.0
-        for each in (
-            *self.solved.stretches.families,
-            *(limits.events for limits in self.solved.limits.values()),
-        ):
+        solved = self.solved
+        every = [*solved.limits.values(), *(solved.whole.limits.values() if solved.whole else ())]
+        ends = [each for acting in solved.acting for each in acting.events]
+        for each in (*solved.stretches.families, *(limits.events for limits in every), *ends):
             each.bar[:] = 0.0
-        for limits in self.solved.limits.values():
+        for limits in every:
             limits.bar[:] = 0.0
         self.found = {name: np.zeros(self.solved.count) for name in self.solved.designs}
 

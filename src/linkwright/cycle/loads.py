@@ -62,16 +62,26 @@ class Acting(ABC):
 
 
 class OnStrokes(Acting):
-    """From events to other ones; ``backwards``: the share of the phase falls from 1 to 0 as time goes on."""
+    """From events to other ones; ``by_time``: its share goes by the time; ``backwards``: it falls from 1 to 0 as
+    time goes on; ``fits``: designs that can have such a phase."""
 
-    def __init__(self, load: Load, strokes: Strokes, *, backwards: bool = False) -> None:
+    def __init__(
+        self,
+        load: Load,
+        strokes: Strokes,
+        *,
+        by_time: bool,
+        backwards: bool = False,
+        fits: Flags | None = None,
+    ) -> None:
         super().__init__(load, strokes.span)
-        self.strokes, self.backwards = strokes, backwards
+        self.strokes, self.by_time, self.backwards, self._fits = strokes, by_time, backwards, fits
         self.events = [strokes.start, strokes.finish]
 
     @property
     def missing(self) -> Flags:
-        return np.asarray(np.bincount(self.strokes.design, minlength=self.span.count) == 0)
+        found = np.bincount(self.strokes.design, minlength=self.span.count) == 0
+        return np.asarray(found if self._fits is None else found | ~self._fits)
 
     def columns(self, design: Indices, middle: Floats) -> Columns:
         found, acts, since = self.strokes.at(design, middle)
@@ -85,7 +95,7 @@ class OnStrokes(Acting):
 
     def _along(self, design: Indices, time: Floats) -> Floats:
         """The time itself of an input that turns steadily, else the input, rad or m."""
-        return time if self.span.course.turns else self._input(time)[0]
+        return time if self.by_time else self._input(time)[0]
 
     def _input(self, time: Floats) -> tuple[Floats, Floats]:
         """The first driver's coordinate and rate at times, s, perhaps of cycles before and after."""
@@ -105,7 +115,7 @@ class OnStrokes(Acting):
         by_begin, by_end = bars[0] - bars[1], bars[1]
         if self.backwards:
             by_begin, by_end = bars[1], bars[0] - bars[1]
-        if not self.span.course.turns:
+        if not self.by_time:
             by_begin = by_begin * self._input(since)[1]
             by_end = by_end * self._input(since + self.strokes.length[found])[1]
         if not len(self.strokes.begin):
@@ -136,7 +146,7 @@ class InPart(Acting):
         super().__init__(load, strokes.span)
         self.strokes, self.limits, self.designs = strokes, limits, designs
         self._value, self._known = value, known
-        self._kinds = phase.start, phase.end
+        self._kinds, self._edges = (phase.start, phase.end), phase.part_edges
         first, last = limits.at(phase.start), limits.at(phase.end)
         self.shares, ways = part_of(phase)
         stroke = last - first
@@ -157,7 +167,11 @@ class InPart(Acting):
         _, acts, _ = self.strokes.at(design, middle)
         value = self._value.run(self._known, at_times(self.designs, design, middle), AT)[0, 0]
         share = (value - self.begin[design]) / self.length[design]
-        return self._named(acts & (share > 0.0) & (share < 1.0), self.begin[design], self.length[design])
+        if 0 in self._edges:
+            acts = acts & (share > 0.0)
+        if 1 in self._edges:
+            acts = acts & (share < 1.0)
+        return self._named(acts, self.begin[design], self.length[design])
 
     def pull(self, design: Indices, middle: Floats, by_columns: Mapping[str, Floats]) -> None:
         acts = self.columns(design, middle)[f"{ACTS}:{self.name}"] > 0.5

@@ -206,7 +206,6 @@ class Machine:
         varied: Iterable[str] = (),
         *,
         static: bool = False,
-        compiled: bool | None = None,
     ) -> None:
         self.mechanism, self.nominal, self.varied = mechanism, nominal, tuple(varied)
         if not nominal.whole or nominal.modes or nominal.steps < 3 or not mechanism.drivers:
@@ -230,7 +229,7 @@ class Machine:
         self.traces = _traces.get(programs, key, lambda: Traces(programs, columns, self.course))
         parameters = nominal.design.parameters if not self.varied else solver.nominal.parameters
         self._numbers = {**parameters, **self.loads.constants}
-        self._tables, self._compiled = self.loads.tables, compiled
+        self.compiled: bool | None = None
 
     def _traced_loads(self) -> AlongInput:
         """The loads that vary, and the numbers that they take."""
@@ -263,6 +262,17 @@ class Machine:
         )
 
     @cached_property
+    def turned(self) -> Machine | None:
+        """The machine over the whole cycle in which its loads find the limits of outputs; None where that is its
+        own."""
+        motion = MotionSignals(self.nominal).turned
+        found = Course.of(self.mechanism, motion.positions)
+        own = self.course
+        if found.closed == own.closed and (found.begin, found.duration) == (own.begin, own.duration):
+            return None
+        return Machine(self.mechanism, motion, self.varied)
+
+    @cached_property
     def phases(self) -> dict[str, Load]:
         """The loads with such phases, by name."""
         return {name: self.mechanism.loads[name] for name in sorted(self.loads.names) if self._phased(name)}
@@ -288,10 +298,10 @@ class Machine:
                 self._numbers[name] = self._number(name)
         return found
 
-    @cached_property
+    @property
     def known(self) -> Known:
         """The numbers that formulas take beside columns."""
-        return Known(self._numbers, self._tables, self._compiled)
+        return Known(self._numbers, self.loads.tables, self.compiled)
 
     def _number(self, name: str) -> float:
         """An angle near which one of the machine runs, or a line near which it does."""

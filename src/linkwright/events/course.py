@@ -13,6 +13,8 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import driven, turned
 from linkwright.drivers.base import Driver
 from linkwright.engine.trace import Scalar, Trace, cos, sin
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.positions import Positions
 from linkwright.mechanism.mechanism import Mechanism
 
@@ -23,6 +25,8 @@ BEGIN = 0.0038710
 WHOLE = 1e-9
 #: Times among which the way of a law is measured.
 LOOKS = 361
+#: Share by which a dimension is changed to see whether times and inputs follow from it.
+_NUDGE = 1e-3
 
 
 @dataclass(frozen=True)
@@ -109,3 +113,15 @@ class Course:
                 found |= driven(driver.name, driver.law.rotary, (q, rate, second), cos, sin)
             found.setdefault("input", q)
         return found
+
+
+def moves(mechanism: Mechanism, address: str, steps: int) -> bool:
+    """Whether times or inputs of the cycle follow from a dimension."""
+    value = mechanism.dimension(address)
+    for factor in (1.0 + _NUDGE, 1.0 - _NUDGE):
+        try:
+            changed = mechanism.with_dimensions({address: factor * value if value else factor - 1.0})
+            return over_cycle(changed, steps).key != over_cycle(mechanism, steps).key
+        except LinkwrightError:
+            continue
+    return True

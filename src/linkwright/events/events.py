@@ -18,7 +18,7 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.events.formula import HIGH, LOW, Formula, Known
 from linkwright.events.pieces import Layout, Pieces, Wanted
-from linkwright.events.polynomials import LOOKS, TO_LOOKS, turning_points
+from linkwright.events.polynomials import LOOKS, TO_LOOKS, product, turning_points
 from linkwright.events.stretches import Stretches
 
 #: Pieces of a lap to begin with, and to what share of its size they meet a signal.
@@ -192,7 +192,7 @@ class _Search:
             span = 0.5 * (curve.top - curve.bottom)
             near = (curve.top >= -span) & (curve.bottom <= span)
         signal, piece = np.nonzero(near)
-        looks = TO_LOOKS @ curve.values(signal, piece)
+        looks = product(TO_LOOKS, curve.values(signal, piece))
         brackets, edges = self._changes(near, signal, piece, looks)
         free = edges[0] < 0
         roots = brackets.taken(free) + self._hidden(signal, piece, looks)
@@ -223,46 +223,65 @@ class _Search:
         or the rest, that lies between them; -1 where none does."""
         curve = self.curve
         nothing = NOTHING * np.maximum(curve.size, 0.0)
-        count, looked = len(LOOKS), np.arange(len(LOOKS))
-        far_signal, far_piece = np.nonzero(~near)
-        sig = np.concatenate([np.repeat(signal, count), far_signal])
-        at = np.concatenate([np.repeat(piece, count), far_piece])
-        look = np.concatenate([np.tile(looked, len(signal)), np.full(len(far_signal), count // 2)])
-        value = np.concatenate([looks.T.ravel(), curve.whole[far_signal, far_piece]])
-        decided = np.abs(value) > nothing[sig, curve.design[at]]
-        sig, at, look, value = (each[decided] for each in (sig, at, look, value))
-        order = np.lexsort((look, at, sig))
-        sig, at, look, value = (each[order] for each in (sig, at, look, value))
-        owner = sig * curve.designs + curve.design[at]
-        following, lap = self._following(owner)
-        here = np.arange(len(owner)) if following is None else following[0]
-        there = here[:0] if following is None else following[1]
-        changed = (value[here] > 0.0) != (value[there] > 0.0)
-        here, there, lap = here[changed], there[changed], lap[changed]
-        time = self.low[at] + 0.5 * self.width[at] * (1.0 + LOOKS[look])
-        left = time[here]
-        right = time[there] + lap * curve.period[curve.design[at[there]]]
-        a, b = value[here], value[there]
-        guess = left + (right - left) * a / (a - b)
-        brackets = _Brackets(sig[here], at[here], left, right, guess, b > 0.0)
-        return brackets, self._edges_between(at[here], at[there], lap)
+        decided = np.where(np.abs(looks) > nothing[signal, curve.design[piece]], looks, 0.0)
+        last = _last_decided(decided)
+        columns = np.arange(len(piece))
+        values = np.where(last >= 0, decided[np.maximum(last, 0), columns], 0.0)
+        place, row = np.nonzero(values[1:] * values[:-1] < 0.0)
+        before = last[place, row]
+        inner = self._bracket(
+            signal[row],
+            (piece[row], before),
+            (piece[row], place + 1),
+            values[place, row],
+            values[place + 1, row],
+        )
+        first = (decided != 0.0).argmax(axis=0)
+        begins = np.where(np.abs(curve.whole) > nothing[:, curve.design], curve.whole, 0.0)
+        ends = begins.copy()
+        at_begin, at_end = (np.full(near.shape, len(LOOKS) // 2) for _ in range(2))
+        begins[signal, piece], ends[signal, piece] = decided[first, columns], values[-1]
+        at_begin[signal, piece], at_end[signal, piece] = first, np.maximum(last[-1], 0)
+        sig, at = np.nonzero(begins != 0.0)
+        here, there, lap = self._following(sig * curve.designs + curve.design[at])
+        a, b = ends[sig[here], at[here]], begins[sig[there], at[there]]
+        changed = a * b < 0.0
+        here, there, lap, a, b = here[changed], there[changed], lap[changed], a[changed], b[changed]
+        left = at[here], at_end[sig[here], at[here]]
+        right = at[there], at_begin[sig[there], at[there]]
+        outer = self._bracket(sig[here], left, right, a, b, lap * curve.period[curve.design[at[there]]])
+        edges = self._edges_between(at[here], at[there], lap)
+        return inner + outer, np.append(np.full((2, len(row)), -1), edges, axis=1)
 
-    def _following(self, owner: Indices) -> tuple[tuple[Indices, Indices] | None, Floats]:
-        """The next place of every one of the same signal and design, around cycles that close, and whether that is a
-        lap on."""
-        if not len(owner):
-            return None, np.empty(0)
+    def _bracket(
+        self,
+        signal: Indices,
+        before: tuple[Indices, Indices],
+        after: tuple[Indices, Indices],
+        a: Floats,
+        b: Floats,
+        later: Floats | float = 0.0,
+    ) -> _Brackets:
+        """Between two looks of pieces, each with its piece and number, with the values there; ``later``, s, the
+        second."""
+        left, right = (
+            self.low[at] + 0.5 * self.width[at] * (1.0 + LOOKS[look]) for at, look in (before, after)
+        )
+        right = right + later
+        return _Brackets(signal, before[0], left, right, left + (right - left) * a / (a - b), b > 0.0)
+
+    def _following(self, owner: Indices) -> tuple[Indices, Indices, Floats]:
+        """Neighbours (k,) of the same signal and design, around cycles that close, and whether the second is a lap
+        on."""
         here = np.arange(len(owner))
-        begins = np.flatnonzero(np.append(True, owner[1:] != owner[:-1]))
-        last = np.append(begins[1:], len(owner)) - 1
-        there = here + 1
-        lap = np.zeros(len(owner))
+        begins = np.flatnonzero(np.append(True, owner[1:] != owner[:-1])[: len(owner)])
+        last = np.append(begins[1:], len(owner))[: len(begins)] - 1
+        there, lap = here + 1, np.zeros(len(owner))
         there[last], lap[last] = begins, 1.0
-        if not self.stretches.span.course.closed:
-            kept = np.ones(len(owner), dtype=np.bool_)
-            kept[last] = False
-            here, there, lap = here[kept], there[kept], lap[kept]
-        return (here, there), lap
+        if self.stretches.span.course.closed:
+            return here, there, lap
+        kept = lap == 0.0
+        return here[kept], there[kept], lap[kept]
 
     def _edges_between(self, left: Indices, right: Indices, lap: Floats) -> Indices:
         """Stretches whose beginnings are the first and the last cut between two pieces, (2, k); -1 in one stretch."""
@@ -332,3 +351,9 @@ class _Search:
             if (moved <= NEAR * width).all():
                 break
         return time
+
+
+def _last_decided(values: Floats) -> Indices:
+    """The number of the last value at or before each that is not zero, in every column; -1 before the first one."""
+    rows = np.where(values != 0.0, np.arange(len(values))[:, None], -1)
+    return np.maximum.accumulate(rows, axis=0) if (rows < 0).any() else rows

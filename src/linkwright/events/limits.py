@@ -3,6 +3,8 @@ there."""
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
@@ -53,6 +55,16 @@ class Limits:
     def complete(self) -> Flags:
         """Designs that have limits of both kinds, (designs,)."""
         return (self.outermost["max"] >= 0) & (self.outermost["min"] >= 0)
+
+    @cached_property
+    def tied(self) -> Flags:
+        """Designs with other outermost limits than one of each kind, (designs,)."""
+        outer = self.is_outermost()
+        counts = [
+            np.bincount(self.events.design[outer & (self.events.rising == kind)], minlength=self.span.count)
+            for kind in (False, True)
+        ]
+        return np.asarray((counts[0] != 1) | (counts[1] != 1))
 
     def is_outermost(self) -> Flags:
         """Which limits have the largest or the smallest value, (k,); such as are alike to a share of the way

@@ -19,12 +19,14 @@ from numpy.typing import NDArray
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.events.formula import HIGH, LOW, Columns
-from linkwright.events.polynomials import HIDDEN, LAST, NODES, POINTS, SLACK, UP_TO, WEIGHTS
+from linkwright.events.polynomials import HIDDEN, LAST, NODES, POINTS, SLACK, UP_TO, WEIGHTS, product
 
 #: A piece is met where its last orders are below this share of the signal's size.
 MET = 1e-11
 #: Sizes of signals of one dimension differ by less than this share, or the small one is rounding of the large one.
 ALIKE = 1e-4
+#: From values at the nodes to the last three orders and the mean.
+LAST_AND_MEAN = np.vstack([LAST, WEIGHTS])
 #: Halvings of a piece, and the share of a cycle below which it is halved no more.
 HALVINGS, NARROW = 44, 1e-13
 #: More pieces of a design than these that are unmet at once are noise, which no halving smooths.
@@ -151,7 +153,8 @@ class Pieces:
         self._chunks.append(values)
         flat, shape, design = values.reshape(POINTS, -1), values.shape[1:], self._owner[stretch]
         top, bottom = values.max(axis=0), values.min(axis=0)
-        rough, whole = np.abs(LAST @ flat).max(axis=0).reshape(shape), (WEIGHTS @ flat).reshape(shape)
+        orders = product(LAST_AND_MEAN, flat)
+        rough, whole = np.abs(orders[:3]).max(axis=0).reshape(shape), orders[3].reshape(shape)
         sides = [top[k] if sign > 0.0 else -bottom[k] for k, sign in self.wanted.sides]
         highest = np.array(sides).reshape(-1, len(design))
         starts = np.flatnonzero(np.diff(design, prepend=-1))
@@ -237,7 +240,7 @@ class Pieces:
         lack = (self.each(mean) - self.values(k)) * self.width
         whole = np.where(self.each(self.passed), WEIGHTS @ lack, 0.0)
         before = np.cumsum(whole) - whole
-        return np.asarray(before - self.each(before[self.starts]) + UP_TO @ lack)
+        return np.asarray(before - self.each(before[self.starts]) + product(UP_TO, lack))
 
     def through_excess(self, k: int, mean: Floats, weight: Floats) -> tuple[Floats, Floats]:
         """From derivatives (POINTS, pieces) by the excess at the nodes those by the signal there, and by the widths

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
+from numpy.typing import NDArray
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.events import peak_kernel
@@ -32,7 +35,21 @@ UP_TO = chebyshev.chebvander(_X, POINTS) @ (0.5 * chebyshev.chebint(np.eye(POINT
 SLACK, HIDDEN = 0.03, 8.0
 #: So many polynomials, or more, are climbed by machine code.
 COMPILED = 1000
+#: Multiplications up to which BLAS keeps to one core.
+_ON_ONE_CORE = 1 << 18
 _STEPS = 4
+
+
+def product(matrix: NDArray[np.floating[Any]], rows: Floats) -> Floats:
+    """A small matrix times (POINTS, k) values: in parts that stay in the cache, and on one core, as designs go on
+    several."""
+    size = _ON_ONE_CORE // matrix.size
+    if rows.shape[1] <= size:
+        return np.asarray(matrix @ rows)
+    found = np.empty((len(matrix), rows.shape[1]))
+    for k in range(0, rows.shape[1], size):
+        found[:, k : k + size] = matrix @ rows[:, k : k + size]
+    return found
 
 
 def value_at(series: Floats, x: Floats) -> Floats:
@@ -53,13 +70,13 @@ def climbed(rows: Floats) -> tuple[Floats, Floats]:
     """
     if rows.shape[1] >= COMPILED and peak_kernel.possible():
         return peak_kernel.climbed(rows)
-    looks = TO_LOOKS @ rows
+    looks = product(TO_LOOKS, rows)
     best = looks.argmax(axis=0)
     top, x = looks[best, np.arange(rows.shape[1])], LOOKS[best]
     low, high = LOOKS[np.maximum(best - 1, 0)], LOOKS[np.minimum(best + 1, len(LOOKS) - 1)]
-    series = SERIES @ rows
-    slope = SLOPE @ series
-    both = np.stack([slope, SLOPE @ slope])
+    series = product(SERIES, rows)
+    slope = product(SLOPE, series)
+    both = np.stack([slope, product(SLOPE, slope)])
     for _ in range(_STEPS):
         first, second = value_at(both, x)
         low, high = np.where(first > 0.0, x, low), np.where(first > 0.0, high, x)
@@ -72,8 +89,8 @@ def climbed(rows: Floats) -> tuple[Floats, Floats]:
 
 def turning_points(rows: Floats, low: Floats, high: Floats, start: Floats) -> Floats:
     """Places (k,) in brackets at which polynomials through ``rows`` (POINTS, k) turn, by Newton's steps."""
-    slope = SLOPE @ (SERIES @ rows)
-    both, x = np.stack([slope, SLOPE @ slope]), start
+    slope = product(SLOPE, product(SERIES, rows))
+    both, x = np.stack([slope, product(SLOPE, slope)]), start
     for _ in range(_STEPS):
         first, second = value_at(both, x)
         with np.errstate(all="ignore"):

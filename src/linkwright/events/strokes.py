@@ -76,6 +76,30 @@ class Strokes:
         return found, acts, time - gone
 
 
+class Repeated:
+    """Events of a cycle that comes again and again, as far as they lie in the course of a ``span``: (k,) by
+    design."""
+
+    def __init__(self, events: Ends, period: Floats, span: Span) -> None:
+        self.events = events
+        lap, first = period[events.design], events.time
+        begin, end = span.begin, span.begin + span.period[events.design]
+        low = np.ceil((begin - first) / lap).astype(np.intp)
+        count = np.maximum(np.floor((end - first) / lap).astype(np.intp) - low + 1, 0)
+        which = np.repeat(np.arange(len(first)), count)
+        number = np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
+        time = first[which] + (low[which] + number) * lap[which]
+        order = np.lexsort((time, events.design[which]))
+        self._which: Indices = which[order]
+        self.design: Indices = events.design[self._which]
+        self.time: Floats = time[order]
+        self.bar: Floats = np.zeros(len(order))
+
+    def push(self) -> None:
+        """Hands derivatives by the times on to the events."""
+        np.add.at(self.events.bar, self._which, self.bar)
+
+
 def between(start: Ends, finish: Ends, span: Span) -> Strokes:
     """From every event of one family to the next one of another."""
     end, has = _next(start, finish, span)

@@ -78,7 +78,7 @@ class MotionSignals:
         return self._angles.cycle
 
     @cached_property
-    def _turned(self) -> Motion:
+    def turned(self) -> Motion:
         """The motion over a cycle that closes, if one can be passed, else over the model's own."""
         if self.cycle.positions.closed or self.mechanism.cycle is None:
             return self.cycle
@@ -88,7 +88,7 @@ class MotionSignals:
     @cached_property
     def whole(self) -> Whole:
         """The cycle over which limits are found."""
-        return Whole(*(self._lap(self._turned.positions) or (None,)))
+        return Whole(*(self._lap(self.turned.positions) or (None,)))
 
     def output(self, output: Output) -> tuple[Floats, Floats]:
         """Value and rate of an output, (n,) each."""
@@ -103,11 +103,11 @@ class MotionSignals:
 
     def limits(self, output: Output) -> Sequence[Limit]:
         """Where an output reverses within the cycle, by increasing time."""
-        return sorted(limit_positions(self._turned, output), key=lambda each: each.time)
+        return sorted(limit_positions(self.turned, output), key=lambda each: each.time)
 
     def limit_inputs(self, output: Output) -> list[tuple[float, str]]:
         """The inputs at which an output reverses, with the kinds of limits."""
-        return limit_inputs(self._turned, output)
+        return limit_inputs(self.turned, output)
 
     def angle_between(self, a: str, b: str, near: float) -> Floats:
         """Angle of link b against link a, (n,) rad, within half a turn of ``near`` where the cycle begins."""

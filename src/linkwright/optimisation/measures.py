@@ -13,7 +13,6 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse
 from linkwright.cycle.summary import one
-from linkwright.cycle_programs.terms import OWN, Asked, Term, metric_of
 from linkwright.engine.machine_code import available
 from linkwright.engine.stage import Backend
 from linkwright.engine.trace import Scalar
@@ -22,7 +21,9 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import Number
 from linkwright.metrics.evaluate import unloaded
+from linkwright.metrics.of_designs import NumbersOfDesigns
 from linkwright.metrics.outputs import mechanism_outputs, usual_output
+from linkwright.metrics.terms import OWN, Asked, Term, metric_of
 from linkwright.metrics.wanted import is_summary, wanted
 from linkwright.optimisation.paths import PathErrors
 from linkwright.optimisation.problem import Problem
@@ -159,11 +160,11 @@ class Measures:
         if name in self._dimensions:
             return dimension_of(self.mechanism, name) or units.NONE
         for cycle, term in ((each, term) for each in self.cycles for term in each.terms if term.name == name):
-            if term.dimension:
+            if term.dimension or not isinstance(cycle, NumbersOfDesigns):
                 return powers(term.dimension)
             summary = one(term.parts[0])
             angle = summary.kind in ("argmin", "argmax")
-            return powers("angle" if angle else cycle.traced.named.quantity(summary.output).dimension)
+            return powers("angle" if angle else cycle.dimension_of(summary.output))
         found = criterion(name).measure(self._alternative(self.mechanism))
         if found is None and not is_summary(name):
             metric = metric_of(name)

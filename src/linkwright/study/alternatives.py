@@ -15,7 +15,6 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.outputs import Output
-from linkwright.cycle_programs.terms import Asked, pivot
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.model_file import load
 from linkwright.kinematics.motion import Motion
@@ -27,6 +26,7 @@ from linkwright.machine.running import require_steady
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.outputs import mechanism_outputs
+from linkwright.metrics.terms import Asked, pivot
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
 

@@ -8,11 +8,11 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_or_more
-from linkwright.cycle_programs.terms import OWN, governing, may_have, metric_of, own, term
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
 from linkwright.metrics.base import Number
 from linkwright.metrics.flywheel import SIZED
+from linkwright.metrics.terms import OWN, governing, may_have, metric_of, own, term
 from linkwright.metrics.wanted import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative

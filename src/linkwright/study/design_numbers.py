@@ -9,10 +9,6 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.progress import Progress, paced, part_of
-from linkwright.cycle_programs.metric_cycle import MetricCycle, metric_cycle
-from linkwright.cycle_programs.range_designs import RangeDesigns, range_designs
-from linkwright.cycle_programs.swept_designs import SweptDesigns, swept_designs
-from linkwright.cycle_programs.terms import Asked, Term, measured
 from linkwright.engine.machine_code import available
 from linkwright.engine.stage import Backend
 from linkwright.errors import LinkwrightError, RequestError
@@ -21,11 +17,15 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.evaluate import unloaded
+from linkwright.metrics.hulls_of_designs import HullsOfDesigns, hulls_of_designs
+from linkwright.metrics.of_designs import NumbersOfDesigns, numbers_of_designs
+from linkwright.metrics.ranges_of_designs import RangesOfDesigns, ranges_of_designs
+from linkwright.metrics.terms import Asked, Term, measured
 
 #: Designs up to which what finds their numbers together may choose to do so without a compiler.
 FEW = 512
 #: What finds design numbers of all designs at once.
-Numbers: TypeAlias = MetricCycle | SweptDesigns | RangeDesigns
+Numbers: TypeAlias = NumbersOfDesigns | HullsOfDesigns | RangesOfDesigns
 
 
 def side_by_side(
@@ -37,12 +37,12 @@ def side_by_side(
     steps: int = 360,
 ) -> list[Numbers]:
     """What finds those design numbers that are found of all designs at once; ``asked``, ``steps``: see
-    ``metric_cycle``."""
+    ``numbers_of_designs``."""
     by, plain = tuple(varied), [name for name in names if isinstance(name, str)]
     found = (
-        metric_cycle(mechanism, by, names, steps=steps, asked=asked),
-        swept_designs(mechanism, by, plain),
-        range_designs(mechanism, by, plain),
+        numbers_of_designs(mechanism, by, names, steps=steps, asked=asked),
+        hulls_of_designs(mechanism, by, plain),
+        ranges_of_designs(mechanism, by, plain),
     )
     return [each for each in found if each is not None and each.terms]
 

@@ -24,10 +24,6 @@ from linkwright.cycle_programs.loaded_cycle import (
     friction_doubt,
     with_loads,
 )
-from linkwright.cycle_programs.metric_cycle import metric_cycle
-from linkwright.cycle_programs.range_designs import range_designs, ranged
-from linkwright.cycle_programs.swept_designs import swept, swept_designs
-from linkwright.cycle_programs.terms import refuse_obstacle
 from linkwright.cycle_programs.traced_outputs import CLEAR, VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
@@ -47,6 +43,10 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.hulls_of_designs import hulls_of_designs, swept
+from linkwright.metrics.of_designs import numbers_of_designs, refuse_unsteady
+from linkwright.metrics.ranges_of_designs import ranged, ranges_of_designs
+from linkwright.metrics.terms import refuse_obstacle
 from linkwright.metrics.wanted import is_metric, wanted
 from linkwright.study.design_numbers import Numbers
 from linkwright.study.objective_terms import PathError, Terms, number_of_points, weighted
@@ -245,14 +245,14 @@ def of_metrics(
 ) -> Part:
     """The weighted sum of registered metrics, all of them areas of hulls, or ranges of motion, or none; raises
     RequestError where it has no gradient."""
-    if (ranges := range_designs(mechanism, names, weights)) is not None:
+    if (ranges := ranges_of_designs(mechanism, names, weights)) is not None:
         return OverMetrics(ranges.dimensions, ranges, weights, backend)
     if any(swept(name, mechanism) for name in weights):
-        hulls = swept_designs(mechanism, names, weights)
+        hulls = hulls_of_designs(mechanism, names, weights)
         if hulls is None:
             raise RequestError("study.objective_swept", names=tuple(weights), name=mechanism.name)
         return OverMetrics(hulls.dimensions, hulls, weights, backend)
-    cycle = metric_cycle(mechanism, names, weights, steps=steps)
+    cycle = numbers_of_designs(mechanism, names, weights, steps=steps)
     if cycle is None:
         raise RequestError(_refusal(mechanism, steps))
     missing = [name for name in weights if name not in {term.name for term in cycle.terms}]
@@ -260,9 +260,7 @@ def of_metrics(
         raise RequestError("study.objective_metric", names=tuple(missing), name=mechanism.name)
     for name in weights:
         refuse_obstacle(name, cycle.analysis)
-    start = {name: np.array([mechanism.dimension(name)]) for name in names}
-    if cycle.running and not cycle.evaluate(start).certain.all():
-        raise RequestError("study.objective_speed", name=mechanism.name)
+    refuse_unsteady(cycle)
     own = tuple(name for name in names if name in cycle.dimensions)
     return OverMetrics(own, cycle, weights, backend)
 

@@ -17,7 +17,6 @@ from linkwright.core.given import require
 from linkwright.core.html import columns_html
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
-from linkwright.cycle_programs.terms import Asked
 from linkwright.engine.machine_code import available
 from linkwright.engine.threads import chunks
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
@@ -26,6 +25,7 @@ from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.outputs import usual_output
+from linkwright.metrics.terms import Asked
 from linkwright.metrics.wanted import is_summary
 from linkwright.registry import offered
 from linkwright.study.alternatives import Alternative, output_of_machine

@@ -1,0 +1,253 @@
+"""Design numbers of many designs at once, with gradients: the formulas that serve one machine, over the same
+cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.core.arrays import Flags, Floats
+from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
+from linkwright.cycle.cycle import Cycle, Signal, Solved
+from linkwright.cycle.gradient import Backward
+from linkwright.cycle.machine import Machine, NotTogether
+from linkwright.cycle.summary import TRUE_SPEED, one
+from linkwright.engine.derivative import forward
+from linkwright.engine.machine_code import available
+from linkwright.engine.numpy_backend import numpy_program
+from linkwright.engine.program import Program
+from linkwright.engine.recently_made import Recent
+from linkwright.engine.replay import inlined
+from linkwright.engine.stage import Backend
+from linkwright.engine.threads import cores, spread_over
+from linkwright.engine.trace import Scalar, Trace
+from linkwright.errors import RequestError
+from linkwright.events.course import moves
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.run import solve_forces
+from linkwright.machine.steady_designs import SteadyDesigns
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.terms import Asked, Term, all_parts, term
+from linkwright.metrics.true_speed import EFFORT, INERTIA, required
+
+#: Designs of one block: what is found of them stays in a core's cache.
+BLOCK = 512
+#: Fewer designs than this are found before code is compiled.
+FEW = 8
+_SUM = "weighted sum"
+
+
+@dataclass(frozen=True)
+class Found:
+    """Values (designs,) by name, and which designs are ``certain`` to have no others: they pass the whole cycle."""
+
+    values: Mapping[str, Floats]
+    certain: Flags
+
+
+def numbers_of_designs(
+    mechanism: Mechanism,
+    varied: Iterable[str],
+    names: Iterable[str | Term],
+    *,
+    steps: int = 360,
+    asked: Asked | None = None,
+) -> NumbersOfDesigns | None:
+    """Registered metrics (``peak_reaction``, ``peak_reaction O5``) of all designs of a mechanism with some dimensions
+    changed, those that apply to it and are formulas of summaries; terms are taken as they are.
+
+    ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.term``. None where the cycle
+    is no
+    formula of one position (see ``cycle.machine.Machine``), or the dimensions move its times. What is found for a
+    machine is kept.
+    """
+    given, addresses = tuple(names), tuple(varied)
+    key = (addresses, given, steps, asked)
+    return _kept.get(mechanism, key, lambda: _numbers(mechanism, addresses, given, steps, asked))
+
+
+_kept: Recent[Mechanism, NumbersOfDesigns | None] = Recent(16)
+
+
+def _numbers(
+    mechanism: Mechanism,
+    addresses: tuple[str, ...],
+    given: tuple[str | Term, ...],
+    steps: int,
+    asked: Asked | None,
+) -> NumbersOfDesigns | None:
+    nominal = solve_motion(mechanism, steps=steps, failures="mark")
+    try:
+        machine = Machine(mechanism, nominal, addresses)
+        if any(moves(mechanism, address, steps) for address in addresses):
+            return None
+        analysis = Analysis.of(solve_forces(nominal))
+        offered = (each if isinstance(each, Term) else term(each, analysis, asked) for each in given)
+        terms = [each for each in offered if each is not None and _fits(each, machine, analysis)]
+        return NumbersOfDesigns(machine, terms, analysis)
+    except NotTogether:
+        return None
+
+
+def _fits(each: Term, machine: Machine, analysis: Analysis) -> bool:
+    """Whether the cycle has the summaries of a term."""
+    running = any(one(text).kind in TRUE_SPEED for text in each.parts)
+    return not running or bool(machine.course.turns)
+
+
+class NumbersOfDesigns:
+    """Terms of one mechanism's designs; made by :func:`numbers_of_designs`."""
+
+    def __init__(self, machine: Machine, terms: Sequence[Term], analysis: Analysis) -> None:
+        self.machine, self.terms, self.analysis = machine, tuple(terms), analysis
+        texts = all_parts(terms)
+        self.running = {text: one(text) for text in texts if one(text).kind in TRUE_SPEED}
+        limited = [output for output in analysis.outputs if analysis.whole and analysis.limits(output)]
+        never: dict[Output, None] = dict.fromkeys(output for each in terms for output in each.passed_over)
+        even = (EFFORT, INERTIA) if self.running else ()
+        self.cycle = Cycle(machine, texts, limited, never, even)
+        self._slopes: dict[tuple[tuple[str, float], ...], tuple[Program, list[str]]] = {}
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """What the terms depend on."""
+        taken = self.cycle.columns
+        return tuple(address for address in self.machine.varied if address in taken)
+
+    def dimension_of(self, words: str) -> str:
+        """Name of the dimension of an output."""
+        return self.machine.traces.quantity(words).dimension
+
+    @cached_property
+    def _formulas(self) -> Program:
+        """All terms from the summaries, the designs side by side."""
+        t = Trace()
+        parts: dict[str, Scalar] = {text: t.position(text) for text in self.cycle.parts}
+        return Program.of(t, {each.name: each.value(parts) for each in self.terms})
+
+    # values ---------------------------------------------------------------------------------------------
+    def evaluate(
+        self, columns: Mapping[str, Floats], *, threads: int | None = None, backend: Backend = "auto"
+    ) -> Found:
+        """The terms of the designs with the given columns, (designs,) each."""
+        designs = len(next(iter(columns.values())))
+        values = {each.name: np.empty(designs) for each in self.terms}
+        certain = np.zeros(designs, dtype=np.bool_)
+        cycle = self._compiled(designs, backend)
+
+        def work(first: int, end: int) -> None:
+            solved = cycle.solve({address: column[first:end] for address, column in columns.items()})
+            parts, certain[first:end] = self._parts(solved)
+            found = _of(self._formulas, parts)
+            for name, row in found.items():
+                values[name][first:end] = row
+                certain[first:end] &= np.isfinite(row)
+
+        spread_over(designs, BLOCK, cores() if threads is None else threads, work)
+        return Found(values, certain)
+
+    def _compiled(self, designs: int, backend: Backend) -> Cycle:
+        """The cycle by code that is compiled where that pays."""
+        compiled = designs >= FEW and available() if backend == "auto" else backend == "llvm"
+        self.machine.compiled = compiled
+        return self.cycle
+
+    def _parts(self, solved: Solved) -> tuple[dict[str, Floats], Flags]:
+        """All summaries, (designs,) each, and of which designs these are certain."""
+        certain = solved.passed & ~solved.turned_round
+        found = dict(solved.values)
+        for text, output in self.cycle.limited.items():
+            if self.cycle.parts[text].kind.startswith("arg") and output in solved.limits:
+                found[text] = np.where(solved.limits[output].tied, np.nan, found[text])
+        if self.running:
+            steady = self._steady(solved)
+            for text, part in self.running.items():
+                kind, fluctuation = part.kind, required(part)
+                found[text] = np.where(solved.passed, steady.number(kind, fluctuation), np.nan)
+                certain &= steady.met(kind, fluctuation)
+        return found, certain
+
+    def _steady(self, solved: Solved) -> SteadyDesigns:
+        effort, inertia = (self.cycle.number[Signal(words)] for words in (EFFORT, INERTIA))
+        return SteadyDesigns(solved.pieces, effort, inertia, solved.speed)
+
+    # gradients ------------------------------------------------------------------------------------------
+    def gradients(
+        self,
+        sums: Sequence[Mapping[str, float]],
+        columns: Mapping[str, Floats],
+        by: Sequence[str],
+        *,
+        threads: int | None = 1,
+        backend: Backend = "auto",
+    ) -> tuple[Floats, Floats]:
+        """Weighted sums of terms (sums, designs) and their gradients (sums, designs, by), from one evaluation of the
+        cycle; NaN where it is not certain."""
+        designs = len(next(iter(columns.values())))
+        values, slopes = np.empty((len(sums), designs)), np.empty((len(sums), designs, len(by)))
+        cycle = self._compiled(designs, backend)
+
+        def work(first: int, end: int) -> None:
+            solved = cycle.solve({address: column[first:end] for address, column in columns.items()})
+            parts, sure = self._parts(solved)
+            for number, weights in enumerate(sums):
+                value, slope = self._gradient(solved, parts, weights)
+                values[number, first:end] = np.where(sure, value, np.nan)
+                for k, address in enumerate(by):
+                    slopes[number, first:end, k] = np.where(sure, slope[address], np.nan)
+
+        spread_over(designs, BLOCK, cores() if threads is None else threads, work)
+        return values, slopes
+
+    def _gradient(
+        self, solved: Solved, parts: Mapping[str, Floats], weights: Mapping[str, float]
+    ) -> tuple[Floats, dict[str, Floats]]:
+        """A weighted sum of terms, and its derivatives by the columns of the designs."""
+        program, taken = self._sum(tuple(weights.items()))
+        found = _of(program, parts)
+        bars = {text: np.nan_to_num(found[f"{_SUM}|{text}"]) for text in taken}
+        more = None
+        running = {text: bars.pop(text) for text in list(bars) if text in self.running}
+        if running:
+            steady, pieces = self._steady(solved), solved.pieces
+            signals = {Signal(words): np.zeros_like(pieces.values(0)) for words in (EFFORT, INERTIA)}
+            by_width = np.zeros(len(pieces.stretch))
+            for text, bar in running.items():
+                part = self.running[text]
+                *own, width = steady.weights(part.kind, required(part), bar)
+                for words, each in zip((EFFORT, INERTIA), own, strict=True):
+                    signals[Signal(words)] += each
+                by_width += width
+            more = signals, by_width
+        return found[_SUM], Backward(solved).gradient(bars, more)
+
+    def _sum(self, weights: tuple[tuple[str, float], ...]) -> tuple[Program, list[str]]:
+        """A weighted sum of terms with its derivatives by the summaries that it takes."""
+        if weights not in self._slopes:
+            found = inlined(self._formulas.only([name for name, _ in weights]), t := Trace(), {})
+            total: Scalar = 0.0
+            for name, weight in weights:
+                total = total + weight * found[name]
+            program = Program.of(t, {_SUM: total})
+            taken = list(program.positions)
+            self._slopes[weights] = forward(program, taken), taken
+        return self._slopes[weights]
+
+
+def _of(program: Program, parts: Mapping[str, Floats]) -> dict[str, Floats]:
+    """Outputs of a program over the designs."""
+    given = {name: parts[name] for name in program.positions}
+    found = numpy_program(program).run((), given, length=len(next(iter(parts.values()))))
+    return dict(zip(program.output_names, found, strict=True))
+
+
+def refuse_unsteady(numbers: NumbersOfDesigns) -> None:
+    """Raises RequestError where the machine itself has no true speed that is asked for."""
+    machine = numbers.machine
+    start = {name: np.array([machine.mechanism.dimension(name)]) for name in machine.varied}
+    if numbers.running and not numbers.evaluate(start).certain.all():
+        raise RequestError("study.objective_speed", name=machine.mechanism.name)
