@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import field
+from functools import cached_property
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -221,7 +222,7 @@ class Pieces:
         """The largest over the pieces of every design."""
         return np.maximum.reduceat(of_pieces, self.starts, axis=-1)
 
-    @property
+    @cached_property
     def passed(self) -> Flags:
         """Designs whose signals are numbers everywhere, (designs,)."""
         return np.asarray(np.isfinite(self.size).all(axis=0))
@@ -248,7 +249,7 @@ class Pieces:
         whole = np.where(self.each(self.passed), weight.sum(axis=0), 0.0)
         after = np.cumsum(whole[::-1])[::-1] - whole
         last = np.append(self.starts[1:], len(whole)) - 1
-        upto = UP_TO.T @ weight + WEIGHTS[:, None] * (after - self.each(after[last]))
+        upto = product(UP_TO.T, weight) + WEIGHTS[:, None] * (after - self.each(after[last]))
         lack = self.each(mean) - self.values(k)
         by_mean = self.total((upto * self.width).sum(axis=0))
         share = self.each(by_mean / self.period)
