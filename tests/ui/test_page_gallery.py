@@ -25,8 +25,8 @@ def test_a_page_has_the_solvers_numbers_and_hands_out_its_machine(
 ) -> None:
     mechanism = store.machine(name)
     opened.open(page(name))
-    # Between few positions of drivers by laws polynomials give a mean square.
-    numbers_agree(opened, store.forces(name) if mechanism.has_loads else store.motion(name), mean=2e-3)
+    # Polynomials through few positions give a mean square.
+    numbers_agree(opened, store.forces(name) if mechanism.has_loads else store.motion(name), mean=1e-6)
     dragged(opened, mechanism)
     handed_out_and_read(opened, store.text(name), tmp_path)
     assert opened.errors == []

@@ -63,7 +63,7 @@ def test_numbers_of_a_page_are_those_of_metrics(opened: Opened, tmp_path: Path, 
 def test_design_numbers_do_not_hang_on_the_positions_of_a_page(opened: Opened) -> None:
     """A page in 72 positions has the extremes that ``metrics`` finds between 360."""
     opened.open(page("jaw_crusher_fourbar"))
-    compared = numbers_agree(opened, store.forces("jaw_crusher_fourbar"), mean=1e-3)
+    compared = numbers_agree(opened, store.forces("jaw_crusher_fourbar"), mean=1e-6)
     assert {"least:m:coupler+jaw", "range:angle:jaw"} <= set(compared)
 
 

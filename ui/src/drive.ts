@@ -24,8 +24,8 @@ export class Drive {
 
   /** Inputs of programs at a place, by name; null where the piece of the laws has too few positions. */
   at(place: number): Record<string, number> | null {
-    const piece = Math.max(0, this.edges.findLastIndex((edge) => edge <= place)), last = this.turns[0][1].length - 1;
-    const ends = [this.edges[piece], this.edges[Math.min(piece + 1, this.edges.length - 1)]];
+    const piece = Math.max(0, this.edges.slice(0, -1).findLastIndex((edge) => edge <= place)), last = this.turns[0][1].length - 1;
+    const ends = [this.edges[piece], this.edges[piece + 1]];
     const first = Math.ceil(ends[0] + (ends[0] > 0 ? NEAR : 0)), end = Math.min(last, Math.floor(ends[1] - (ends[1] < last ? NEAR : 0)));
     const count = Math.min(MOST, end - first + 1);
     if (count < FEWEST) return null;

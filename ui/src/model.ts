@@ -20,7 +20,7 @@ const BEFORE = 1e-7;
 export class Model {
   readonly solver: Solver;
   /** What has been found of the machine with these values. */
-  private found: { values: Values; rounding: number; size: number; extremes: Record<string, Extreme> } | null = null;
+  private found: { values: Values; rounding: number; size: number; extremes: Record<string, Extreme>; jumps: Record<number, [number, number][]> } | null = null;
   original: Design;
   readonly signals: Record<string, Signal>;
   /** What curves run over: the input where it goes one way, else the time; with the end of a closed cycle. */
@@ -180,6 +180,11 @@ export class Model {
     return this.known.rounding;
   }
 
+  /** Places on both sides of jumps that have been found, by the position before them. */
+  get jumps(): Record<number, [number, number][]> {
+    return this.known.jumps;
+  }
+
   /** About how large the machine is, m. */
   get size(): number {
     return this.known.size;
@@ -187,7 +192,7 @@ export class Model {
 
   private get known(): NonNullable<Model["found"]> {
     if (this.found?.values === this.values) return this.found;
-    return (this.found = { values: this.values, rounding: roundingOf(this), size: this.spread(), extremes: {} });
+    return (this.found = { values: this.values, rounding: roundingOf(this), size: this.spread(), extremes: {}, jumps: {} });
   }
 
   private spread(): number {

@@ -55,7 +55,7 @@ export function extreme(model: Model, id: string, row: Float64Array, sign: 1 | -
   }
   for (const i of jumps(f, model.data.positions.closed, size)) {
     const value = (place: number) => sign * between(model, id, place, row[i]);
-    for (const place of around(value, i, f[i], f[(i + 1) % n])) better(place, value(place));
+    for (const place of sides(model, value, i, f[i], f[(i + 1) % n])) better(place, value(place));
   }
   return { at: found.at, value: sign * found.value };
 }
@@ -119,20 +119,24 @@ function jumps(f: Float64Array, closed: boolean, size: number): number[] {
   return found.sort(([x], [y]) => y - x).slice(0, MOST).map(([, i]) => i);
 }
 
-/** The last place before a jump between two positions, and the first one behind it: always the half that changes more. */
-function around(value: (place: number) => number, i: number, before: number, after: number): [number, number] {
+/** The last place before a jump between two positions, and the first one behind it: that of another signal, if most of the
+ *  change is there, else always the half that changes more. */
+function sides(model: Model, value: (place: number) => number, i: number, before: number, after: number): [number, number] {
+  const places = (model.jumps[i] ??= []), known = places.find(([a, b]) => Math.abs(value(b) - value(a)) > 0.5 * Math.abs(after - before));
+  if (known) return known;
   let [a, b, fa, fb] = [i, i + 1, before, after];
   for (let k = 0; k < HALVINGS; k++) {
     const m = 0.5 * (a + b), fm = value(m);
     if (Math.abs(fm - fa) > Math.abs(fb - fm)) [b, fb] = [m, fm];
     else [a, fa] = [m, fm];
   }
+  places.push([a, b]);
   return [a, b];
 }
 
 // Samples that a polynomial goes through; their last difference, as a share of the largest square, up to which it meets the
 // square; how near integrals of other stretches come, how often these are halved, and how many samples they take at most.
-const SAMPLES = 6, ROUGH = 1e-5, NEAR = 1e-9, FINEST = 26, FURTHER = 4000;
+const SAMPLES = 6, ROUGH = 1e-5, NEAR = 1e-8, FINEST = 26, FURTHER = 4000;
 const GAUSS = [-1, 0, 1].map((side) => ({ at: 0.5 + 0.5 * side * Math.sqrt(0.6), weight: side ? 5 / 18 : 8 / 18 }));
 /** By the number of a step among the samples: weights of its integral. */
 const STEPS = Array.from({ length: SAMPLES - 1 }, (_, step) =>
@@ -146,25 +150,27 @@ function rms(model: Model, id: string, row: Float64Array): number {
   if (last < SAMPLES) return Math.sqrt(mean);
   const at = (i: number) => f[(i + f.length) % f.length], dot = (weights: number[], from: number) => weights.reduce((sum, w, k) => sum + w * at(from + k), 0);
   let left = FURTHER, even = closed, total = 0;
-  const square = (place: number) => (left-- > 0 ? between(model, id, place, 0) ** 2 : NaN);
-  const free = searched(model, id) === null;
+  const value = (place: number) => (left-- > 0 ? between(model, id, place, 0) : NaN), square = (place: number) => value(place) ** 2;
+  const free = searched(model, id) === null, jumping = new Set(free ? jumps(row, closed, largest(row)) : []);
   for (let i = 0; i < n; i++) {
     const from = closed ? i - 2 : Math.min(Math.max(i - 2, 0), last - SAMPLES + 1);
     if (Math.abs(dot(DIFFERENCE, from)) <= ROUGH * size) total += dot(STEPS[i - from], from);
     else {
       even = false;
-      total += free ? integral(square, i, i + 1, at(i), square(i + 0.5), at(i + 1), NEAR * size, FINEST) : 0.5 * (at(i) + at(i + 1));
+      const parts = free && jumping.has(i) ? [i, ...sides(model, value, i, row[i], row[(i + 1) % n]), i + 1] : [i, i + 1];
+      for (let k = 0; k < parts.length; k += 2)
+        total += free ? integral(square, parts[k], parts[k + 1], NEAR * size) : 0.5 * (at(i) + at(i + 1));
     }
   }
   return Math.sqrt(even ? mean : total / n);
 }
 
 /** The integral by Simpson's rule, halved where halves say something else. */
-function integral(f: (x: number) => number, a: number, b: number, fa: number, fm: number, fb: number, near: number, depth: number): number {
+function integral(f: (x: number) => number, a: number, b: number, near: number, depth = FINEST, fa = f(a), fm = f(0.5 * (a + b)), fb = f(b)): number {
   const m = 0.5 * (a + b), left = f(0.5 * (a + m)), right = f(0.5 * (m + b)), h = (b - a) / 6;
   const whole = h * (fa + 4 * fm + fb), halves = 0.5 * h * (fa + 4 * left + 2 * fm + 4 * right + fb);
   if (!(Math.abs(halves - whole) > near * (b - a)) || !depth) return Number.isFinite(halves) ? halves + (halves - whole) / 15 : 0.5 * (b - a) * (fa + fb);
-  return integral(f, a, m, fa, left, fm, near, depth - 1) + integral(f, m, b, fm, right, fb, near, depth - 1);
+  return integral(f, a, m, near, depth - 1, fa, left, fm) + integral(f, m, b, near, depth - 1, fm, right, fb);
 }
 
 /** What of a signal's course between the positions is not known: all where drivers are known at the positions alone, forces

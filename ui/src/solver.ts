@@ -36,7 +36,7 @@ export class Solver {
   /** Friction for which no finite effort is found. */
   locking = false;
   /** The machine over its cycle. */
-  cycle: Cycle;
+  cycle!: Cycle;
   private readonly one: Call;
   /** What loads take between the positions; null where they take nothing, or not as the rows have it. */
   private between: Between | null = null;
@@ -64,7 +64,6 @@ export class Solver {
       if (typeof start === "number") this.states[name] = start;
     }
     this.drawn = this.states;
-    this.cycle = this.over(data.values);
   }
 
   get iterated(): boolean {
