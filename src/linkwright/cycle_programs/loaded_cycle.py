@@ -7,16 +7,18 @@ from dataclasses import field, replace
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Indices
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, kind_of, owners_of
+from linkwright.cycle.load_limits import LoadLimits
+from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.cycle_programs.limit_stages import constants, limit_stages, whole_turns
 from linkwright.cycle_programs.timed_limits import timed_limits
 from linkwright.cycle_programs.timed_search import TimedSearch
-from linkwright.cycle_programs.traced_outputs import VALID, Traced, design_table
-from linkwright.engine.cycle import CycleProgram
-from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
-from linkwright.engine.stage import Backend, Stage
+from linkwright.cycle_programs.traced_outputs import Traced, design_table
+from linkwright.engine.program import Program
+from linkwright.engine.reductions import VALID_COUNT, Results
+from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, select
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.friction import FrictionTerm, Swinging, moving_rate
@@ -34,31 +36,52 @@ SIZES, RUBBING = "sizes of loads", "doubt of friction"
 
 @dataclass(frozen=True)
 class LoadedCycle:
-    """The cycle program, and what its loads need: ``limits`` with their positions and numbers."""
+    """A mechanism whose loads and friction are traced, and the ``limits`` between which these act; None where they
+    need none; ``constants``: numbers that programs take beside dimensions."""
 
     traced: Traced
-    cycle: CycleProgram
     loads: AlongInput
-    limits: FoundLimits
+    limits: LoadLimits | None
+    constants: Mapping[str, float]
 
-    def evaluate(
-        self, part: Mapping[str, Floats], threads: int | None, backend: Backend
-    ) -> tuple[Results, Indices]:
-        """Results of designs with the given columns, and the numbers of those of which limits or friction are not
-        certain, or loads have no value somewhere."""
-        results = self.cycle.evaluate(
-            self.table(part),
-            {**self.traced.positions.arrays, **self.limits.positions},
-            tables=self.loads.tables,
-            threads=threads,
-            backend=backend,
-        )
-        return results, doubtful(results, self.loads, self.traced.positions.count, self.loads.outputs)
+    def table(self, program: Program, part: Mapping[str, Floats]) -> tuple[Floats, Flags]:
+        """What a program takes of the designs with the given columns, (designs, parameters), and of which designs the
+        limits are certain, (designs,)."""
+        known = {**self.traced.solver.nominal.parameters, **self.constants}
+        if self.limits is None:
+            count = len(next(iter(part.values())))
+            return design_table(program.parameters, known, part), np.ones(count, dtype=np.bool_)
+        found, certain = self.limits.columns(part)
+        return design_table(program.parameters, known, {**part, **found}), certain
 
-    def table(self, part: Mapping[str, Floats]) -> Floats:
-        """What the cycle program takes of the designs with the given columns, (designs, dimensions)."""
-        known = {**self.traced.solver.nominal.parameters, **self.limits.constants, **self.loads.constants}
-        return design_table(self.cycle.dimensions, known, part)
+    def doubtful(self, results: Results, certain: Flags) -> Indices:
+        """Numbers of the designs that pass all positions, but with limits or friction that are not certain, or loads
+        that have no value somewhere."""
+        count = self.traced.positions.count
+        found = doubtful(results, self.loads, count)
+        return np.union1d(found, np.flatnonzero(~certain & (results[VALID_COUNT] == count)))
+
+
+def loaded_cycle(traced: Traced, varied: Collection[str], fields: Iterable[str]) -> LoadedCycle | None:
+    """That of the loads and the friction behind a program's inputs per position; None where these cannot be
+    traced, or their limits not be found for many designs at once."""
+    known = along_input(traced, varied, fields, over_time=True)
+    return None if known is None else with_limits(traced, known)
+
+
+def with_limits(traced: Traced, known: AlongInput) -> LoadedCycle | None:
+    """The same with loads that are known; None where the limits cannot be found for many designs at once."""
+    limits = None
+    if known.outputs:
+        phases = [traced.mechanism.loads[name].magnitude.limits for name in sorted(known.names)]
+        try:
+            whole = MotionSignals(traced.nominal).turned
+            machine = Machine(traced.mechanism, whole, traced.solver.manner.free)
+            limits = LoadLimits(machine, [phase for phase in phases if phase is not None])
+        except (NotTogether, LinkwrightError):
+            return None
+    constants = {**known.constants, **({} if limits is None else limits.numbers)}
+    return LoadedCycle(with_loads(traced, known), known, limits, constants)
 
 
 @dataclass(frozen=True)
@@ -199,25 +222,3 @@ def doubtful(results: Results, loads: AlongInput, count: int, limits: Iterable[O
         doubt += results[RUBBING]
     doubt[results[VALID_COUNT] != count] = 0.0
     return np.flatnonzero(~(doubt == 0.0))
-
-
-def loaded_cycle(
-    traced: Traced, varied: Collection[str], names: Iterable[str], reductions: Iterable[Reduction]
-) -> LoadedCycle | None:
-    """The cycle program of all designs; None where the loads cannot be traced."""
-    fields = traced.program(traced.quantities(names)).fields
-    known = along_input(traced, varied, fields, over_time=True)
-    if known is None:
-        return None
-    over_input = with_loads(traced, known)
-    try:
-        limits = found_limits(over_input, known)
-    except LinkwrightError:
-        return None
-    if limits is None:
-        return None
-    made, more = {each.name: each for each in reductions}, doubts(over_input, known)
-    program = over_input.program(over_input.quantities(names), more=more)
-    made |= {name: Reduction(name, "sum") for name in more}
-    stages = (*limits.stages, Stage(program, made, valid=VALID, count=VALID_COUNT))
-    return LoadedCycle(over_input, CycleProgram(stages), known, limits)

@@ -15,7 +15,7 @@ from linkwright.core.progress import Progress, current_progress, paced
 from linkwright.cycle.summary import Summary, finished, reductions
 from linkwright.cycle_programs.change_points import ChangePoints, near_enough
 from linkwright.cycle_programs.iterated_groups import MARGIN, following
-from linkwright.cycle_programs.loaded_cycle import LoadedCycle, loaded_cycle
+from linkwright.cycle_programs.loaded_cycle import LoadedCycle, doubts, loaded_cycle
 from linkwright.cycle_programs.one_by_one import OneByOne, changes_of
 from linkwright.cycle_programs.traced_outputs import NEAREST, VALID, Traced
 from linkwright.engine.cycle import summaries
@@ -28,6 +28,7 @@ from linkwright.engine.reductions import Reduction, Results
 from linkwright.engine.stage import WORTH_COMPILING, Backend
 from linkwright.engine.states import inputs_as_fields
 from linkwright.engine.threads import chunks, cores
+from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError, SelfCheckError
 from linkwright.files.write import dump
 from linkwright.kinematics.positions import Positions
@@ -244,8 +245,7 @@ class SweepRun:
             return self._noted(self._one_by_one(self._flipping, part), numbers)
         if self._together:
             assert self._loaded is not None
-            found = self._loaded.evaluate(part, self.manner.threads, self.backend)
-            results = self._noted(self._again(*found, part), numbers)
+            results = self._noted(self._again(*self._with_loads(self._loaded, part), part), numbers)
         elif self.alone:
             results = self._noted(self._one_by_one(self._single, part), numbers)
         else:
@@ -268,10 +268,37 @@ class SweepRun:
 
     @cached_property
     def _loaded(self) -> LoadedCycle | None:
-        """The cycle program for loads that follow the input; None where some do not."""
+        """The loads and the friction where these are traced; None where some are not."""
         if self.manner.partial or self.traced.nominal.modes or self.program.states:
             return None
-        return loaded_cycle(self.traced, self.columns, tuple(self.quantities), self.reductions)
+        return loaded_cycle(self.traced, self.columns, self.program.fields)
+
+    @cached_property
+    def _doubts(self) -> dict[str, Scalar]:
+        return {} if self._loaded is None else doubts(self._loaded.traced, self._loaded.loads)
+
+    @cached_property
+    def _traced_loads(self) -> Program:
+        """The program in which the loads are traced."""
+        assert self._loaded is not None
+        traced = self._loaded.traced
+        return traced.program(traced.quantities(self.quantities), self._doubts)
+
+    def _with_loads(self, loaded: LoadedCycle, part: Mapping[str, Floats]) -> tuple[Results, Indices]:
+        """The results of a block whose loads are traced, and the numbers of the designs of which these are not
+        certain."""
+        program = self._traced_loads
+        wanted = [*self.reductions, *(Reduction(name, "sum") for name in self._doubts)]
+        table, certain = loaded.table(program, part)
+        results = summaries(program, wanted, VALID).evaluate(
+            table,
+            self.positions.arrays,
+            tables=loaded.loads.tables,
+            threads=self.manner.threads,
+            backend=self.backend,
+        )
+        results |= {name: results.pop(f"{name}.sum") for name in self._doubts}
+        return results, loaded.doubtful(results, certain)
 
     def _again(
         self, results: Results, doubtful: Indices, part: Mapping[str, Floats]

@@ -1,0 +1,212 @@
+"""Limit positions between which loads act, in many designs at once, as numbers that programs over positions take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import cached_property, partial
+from math import pi
+
+import numpy as np
+
+from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.outputs import Output
+from linkwright.cycle.machine import Machine
+from linkwright.engine.trace import Scalar
+from linkwright.events.events import events
+from linkwright.events.formula import NODE, ROW, Formula
+from linkwright.events.limits import Limits
+from linkwright.events.stretches import Span, Stretches
+from linkwright.kinetostatics.load_site import (
+    DRIFT,
+    LAP,
+    limit_input_name,
+    limit_name,
+    turns_steadily,
+    value_name,
+)
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.loads.signals import BetweenLimits
+
+#: Designs of which limits are sought together.
+BLOCK = 1024
+
+
+class LoadLimits:
+    """The limits of the outputs between which loads with these ``phases`` act; ``numbers``: of the cycle, the same
+    for all designs."""
+
+    def __init__(self, machine: Machine, phases: Iterable[BetweenLimits]) -> None:
+        self.machine = machine
+        self.phases = tuple(phases)
+        self.outputs = tuple(dict.fromkeys(phase.output for phase in self.phases))
+        traces = machine.traces
+        every = machine.formula(
+            ("rates", self.outputs),
+            lambda: {str(k): traces.rates(each) for k, each in enumerate(self.outputs)},
+        )
+        varying = tuple(every.varying(NODE))
+        self.rates: Formula | None = None
+        if varying:
+            self.rates = machine.formula(
+                ("varying rates", self.outputs),
+                lambda: {k: traces.rates(self.outputs[int(k)]) for k in varying},
+            )
+        self.values = {
+            output: machine.formula(("value", output), partial(self._value, output))
+            for output in self.outputs
+        }
+        self.steady = turns_steadily(machine.mechanism)
+
+    def _value(self, output: Output) -> dict[str, Scalar]:
+        return {"value": self.machine.traces.value(output)}
+
+    @cached_property
+    def numbers(self) -> dict[str, float]:
+        """How long the cycle is, and what the input gains in it."""
+        course = self.machine.course
+        lap = course.duration * (abs(course.first.law.constant_speed or 0.0) if self.steady else 1.0)
+        if course.turns:
+            lap = 2.0 * pi * course.turns
+        drift = MotionSignals(self.machine.nominal).whole.drift
+        return {LAP: lap * (1.0 if course.closed else 2.0), DRIFT: drift}
+
+    def of(self, columns: Mapping[str, Floats]) -> LimitsOfDesigns:
+        """Those of designs with some columns (designs,)."""
+        return LimitsOfDesigns(self, columns)
+
+    def columns(self, columns: Mapping[str, Floats]) -> tuple[dict[str, Floats], Flags]:
+        """Their numbers (designs,) by the names of parameters, and which designs have just those limits."""
+        count = len(next(iter(columns.values()))) if columns else 1
+        blocks = [
+            self.of({name: each[first : first + BLOCK] for name, each in columns.items()})
+            for first in range(0, count, BLOCK)
+        ]
+        names = blocks[0].found
+        found = {name: np.concatenate([each.found[name] for each in blocks]) for name in names}
+        return found, np.concatenate([each.certain for each in blocks])
+
+
+class LimitsOfDesigns:
+    """``found``: numbers (designs,) by the names of parameters; ``certain``: designs that have just one limit of
+    either kind between which each load acts, one after the other."""
+
+    def __init__(self, sought: LoadLimits, columns: Mapping[str, Floats]) -> None:
+        self.sought, self.machine = sought, sought.machine
+        given = {name: np.asarray(each, dtype=float) for name, each in columns.items()}
+        self.count = len(next(iter(given.values()))) if given else 1
+        self.designs = {**given, ROW: np.arange(float(self.count))}
+        self.span = Span(self.machine.course, self._periods(), np.zeros(self.count))
+        self.certain = np.ones(self.count, dtype=np.bool_)
+        self.limits: dict[Output, Limits] = {}
+        if sought.rates is not None:
+            stretches = Stretches(self.span, [])
+            for each in events(sought.rates, self.machine.known, self.designs, stretches):
+                output = sought.outputs[int(each.name)]
+                self.limits[output] = Limits(each, sought.values[output], self.span)
+        self.found = self._found()
+
+    def _periods(self) -> Floats:
+        course = self.machine.course
+        if not course.turns or f"{course.first.name}.speed" not in self.designs:
+            return np.full(self.count, course.duration)
+        return np.asarray(2.0 * pi * course.turns / np.abs(self.speed))
+
+    @property
+    def speed(self) -> Floats:
+        """Rate of the first driver where the cycle begins, (designs,) rad/s or m/s."""
+        course = self.machine.course
+        rate = float(course.first.law.coordinate(np.array([course.begin]))[1][0])
+        return self.designs.get(f"{course.first.name}.speed", np.full(self.count, rate))
+
+    def _found(self) -> dict[str, Floats]:
+        found = {}
+        for output in self.sought.outputs:
+            limits = self.limits.get(output)
+            for kind in ("max", "min"):
+                time = np.full(self.count, np.nan) if limits is None else self._time(limits, kind)
+                there = self._input(time)
+                found[limit_name(output, kind)] = there if self.sought.steady else time
+                found[limit_input_name(output, kind)] = there
+                found[value_name(output, kind)] = time if limits is None else limits.at(kind)
+        for phase in self.sought.phases:
+            self.certain &= self._fits(phase)
+        return found
+
+    def _fits(self, phase: BetweenLimits) -> Flags:
+        """Whether a load with the phase acts between two limits alone."""
+        limits = self.limits.get(phase.output)
+        if limits is None:
+            return np.zeros(self.count, dtype=np.bool_)
+        counted = limits.is_outermost() if phase.outermost else np.ones(len(limits.value), dtype=np.bool_)
+        sides = [
+            np.bincount(
+                limits.events.design[counted & (limits.events.rising == rising)], minlength=self.count
+            )
+            for rising in (True, False)
+        ]
+        found = (sides[0] == 1) & (sides[1] == 1)
+        if not self.span.course.closed:
+            with np.errstate(invalid="ignore"):
+                found &= self._time(limits, phase.end) > self._time(limits, phase.start)
+        return np.asarray(found)
+
+    def _time(self, limits: Limits, kind: str) -> Floats:
+        return np.append(limits.events.time, np.nan)[limits.outermost[kind]]
+
+    def _input(self, time: Floats) -> Floats:
+        """The first driver's coordinate at times, (designs,) rad or m."""
+        course = self.machine.course
+        if course.turns:
+            start = self.designs.get(f"{course.first.name}.start", course.first.law.at(0.0))
+            return np.asarray(start + self.speed * time)
+        return self._coordinate(time)[0]
+
+    def _coordinate(self, time: Floats) -> tuple[Floats, Floats]:
+        """The same and its rate along a law."""
+        known = np.isfinite(time)
+        value, rate, _ = self.machine.course.first.law.coordinate(
+            np.where(known, time, self.machine.course.begin)
+        )
+        return np.where(known, value, np.nan), np.where(known, rate, np.nan)
+
+    # the way back ---------------------------------------------------------------------------------------
+    def pull(self, bars: Mapping[str, Floats]) -> dict[str, Floats]:
+        """From derivatives (designs,) by the numbers those by the designs' columns."""
+        back = {name: np.zeros(self.count) for name in self.designs}
+        for output, limits in self.limits.items():
+            limits.bar[:] = limits.events.bar[:] = 0.0
+            for kind in ("max", "min"):
+                self._enter(back, limits, kind, bars, output)
+            self._gather(back, *limits.pull())
+            if limits.events.bar.any():
+                design, by_columns, _ = limits.events.pull()
+                self._gather(back, design, by_columns)
+        return back
+
+    def _enter(
+        self, back: dict[str, Floats], limits: Limits, kind: str, bars: Mapping[str, Floats], output: Output
+    ) -> None:
+        place, nothing = limits.outermost[kind], np.zeros(self.count)
+        has = place >= 0
+        given = [
+            np.where(has, bars.get(name(output, kind), nothing), 0.0)
+            for name in (limit_name, limit_input_name, value_name)
+        ]
+        by_limit, by_input, by_value = given
+        if self.sought.steady:
+            by_limit, by_input = nothing, by_limit + by_input
+        time = self._time(limits, kind)
+        if self.machine.course.turns:
+            name, rate = self.machine.course.first.name, self.speed
+            for address, slope in ((f"{name}.speed", time), (f"{name}.start", np.ones(self.count))):
+                if address in back:
+                    back[address] += np.where(has, by_input * slope, 0.0)
+        else:
+            rate = self._coordinate(time)[1]
+        np.add.at(limits.events.bar, place[has], (by_limit + by_input * rate)[has])
+        np.add.at(limits.bar, place[has], by_value[has])
+
+    def _gather(self, back: dict[str, Floats], design: Indices, by_columns: Mapping[str, Floats]) -> None:
+        for name, each in by_columns.items():
+            if name in back:
+                np.add.at(back[name], design, each)
