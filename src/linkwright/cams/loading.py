@@ -11,7 +11,7 @@ from linkwright.cams.curves import Contact
 from linkwright.cams.follower import Follower, LiftQuantity
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import Extreme, Piecewise
+from linkwright.events.curve import Curve, Extreme
 from linkwright.fields.base import Quantity, given
 from linkwright.laws.program import Program
 
@@ -110,9 +110,7 @@ class CamLoading:
     def least_effort(self, program: Program) -> Extreme:
         """The smallest effort over the turn, N or N·m, with its place, found between all places."""
         inner = program.breaks[(program.breaks > 0) & (program.breaks < program.period)]
-        effort = Piecewise.of(
-            lambda phi: self.effort(program, phi), 0.0, program.period, pieces=24, knots=inner
-        )
+        effort = Curve.of(lambda phi: self.effort(program, phi), 0.0, program.period, pieces=24, knots=inner)
         return effort.extreme("min")
 
 

@@ -16,9 +16,9 @@ from linkwright.cams.vibration import residual_amplitude, steady_deviation
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import Piecewise
 from linkwright.core.search import ends, first_largest
 from linkwright.errors import RequestError
+from linkwright.events.curve import Curve
 from linkwright.laws.program import MotionProgram
 from linkwright.parts.base import Block, Result
 from linkwright.words import Say
@@ -85,7 +85,7 @@ class CamDesign(Result):
     def _extreme(self, values: Any, kind: str) -> Extreme:
         program = self.cam.program
         inner = program.breaks[(program.breaks > 0) & (program.breaks < program.period)]
-        found = Piecewise.of(values, 0.0, program.period, pieces=24, knots=inner).extreme(kind)
+        found = Curve.of(values, 0.0, program.period, pieces=24, knots=inner).extreme(kind)
         return Extreme(found.value, found.place)
 
     @cached_property

@@ -12,9 +12,9 @@ import numpy as np
 from linkwright.cams.curves import CamCurve
 from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import Piecewise
 from linkwright.core.search import ends as last_places
 from linkwright.core.search import first_largest
+from linkwright.events.curve import Curve
 from linkwright.laws.program import Program
 
 #: Places on the way at which everything is looked at first.
@@ -90,9 +90,7 @@ class _Search:
         """Places around the smallest values of the growth, so that a narrow tail is not overlooked."""
         program = self.curve.program
         inner = program.breaks[(program.breaks > 0) & (program.breaks < program.period)]
-        growth = Piecewise.of(
-            lambda x: self.curve.contact(x).growth, 0.0, program.period, pieces=24, knots=inner
-        )
+        growth = Curve.of(lambda x: self.curve.contact(x).growth, 0.0, program.period, pieces=24, knots=inner)
         found = []
         for low, high in folds(growth):
             reach = 1.2 * (high - low)
@@ -132,7 +130,7 @@ class _Search:
         return most
 
 
-def folds(growth: Piecewise) -> list[tuple[float, float]]:
+def folds(growth: Curve) -> list[tuple[float, float]]:
     """The intervals in which the growth is negative, to rounding."""
     edges = growth.edges
     share = np.linspace(0.0, 1.0, 41)
@@ -158,5 +156,5 @@ def folds(growth: Piecewise) -> list[tuple[float, float]]:
 def cusps(program: Program, curve: CamCurve) -> tuple[float, ...]:
     """Angles (rad) at which the profile, followed as it is, has a cusp: its growth passes zero."""
     inner = program.breaks[(program.breaks > 0) & (program.breaks < program.period)]
-    growth = Piecewise.of(lambda x: curve.contact(x).growth, 0.0, program.period, pieces=24, knots=inner)
+    growth = Curve.of(lambda x: curve.contact(x).growth, 0.0, program.period, pieces=24, knots=inner)
     return tuple(place for pair in folds(growth) for place in pair if 0.0 < place < program.period)

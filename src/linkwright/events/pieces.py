@@ -20,7 +20,17 @@ from numpy.typing import NDArray
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.events.formula import HIGH, LOW, Columns
-from linkwright.events.polynomials import HIDDEN, LAST, NODES, POINTS, SLACK, UP_TO, WEIGHTS, product
+from linkwright.events.polynomials import (
+    HIDDEN,
+    LAST,
+    NODES,
+    POINTS,
+    SLACK,
+    TO_ENDS,
+    UP_TO,
+    WEIGHTS,
+    product,
+)
 
 #: A piece is met where its last orders are below this share of the signal's size.
 MET = 1e-11
@@ -30,8 +40,11 @@ ALIKE = 1e-4
 LAST_AND_MEAN = np.vstack([LAST, WEIGHTS])
 #: Halvings of a piece, and the share of a cycle below which it is halved no more.
 HALVINGS, NARROW = 44, 1e-13
-#: More pieces of a design than these that are unmet at once are noise, which no halving smooths.
+#: More pieces of a design than these, beside four for each of the first ones, that are unmet at once are noise, which
+#: no halving smooths.
 CROWD = 96
+#: Narrower than this share of a cycle, a piece counts by its width where a signal is wanted everywhere.
+WIDE = 1.0 / 12.0
 
 
 Number = TypeVar("Number", bound=np.generic)
@@ -46,12 +59,16 @@ class Signals(Protocol):
 @dataclass(frozen=True)
 class Wanted:
     """What pieces must be met for: signals ``even`` everywhere, sides (signal, sign) near their extremes; ``alike``:
-    the number of its dimension for every signal, of which sizes are compared."""
+    the number of its dimension for every signal, of which sizes are compared; ``joined``: neighbours meet each other
+    too, but at ends of stretches."""
 
     even: tuple[int, ...] = ()
     sides: tuple[tuple[int, float], ...] = ()
     met: float = MET
     alike: Sequence[int] = ()
+    crowd: int = CROWD
+    wide: float = WIDE
+    joined: bool = False
 
 
 @dataclass(frozen=True)
@@ -109,25 +126,19 @@ class Pieces:
         self._best = np.full((len(wanted.sides), self.designs), -np.inf)
         self._owner, self._length = layout.design, np.ones(self.designs)
         self.size: Floats = np.empty(0)
+        crowd = wanted.crowd + 4 * np.bincount(layout.design[stretch], minlength=self.designs)
         done: list[_Batch] = []
         for turn in range(HALVINGS):
             batch = self._evaluated(signals, layout.columns(stretch, first, last), stretch, first, last)
-            halved = batch.unmet if turn + 1 < HALVINGS else np.zeros_like(batch.unmet)
-            if not turn:
-                count = np.bincount(layout.design[batch.stretch[halved]], minlength=self.designs)
-                halved = (
-                    halved
-                    & (count <= CROWD + 4 * np.bincount(layout.design[stretch]))[layout.design[stretch]]
-                )
+            design = layout.design[stretch]
+            few = np.bincount(design[batch.unmet], minlength=self.designs) <= crowd
+            halved = batch.unmet & few[design] & (turn + 1 < HALVINGS)
             done.append(batch.taken(~halved) if halved.any() else batch)
             if not halved.any():
                 break
-            stretch, first, last = batch.stretch[halved], batch.first[halved], batch.last[halved]
+            stretch, first, last = np.repeat(stretch[halved], 2), first[halved], last[halved]
             middle = 0.5 * (first + last)
-            stretch = np.concatenate([stretch, stretch])
-            first, last = np.concatenate([first, middle]), np.concatenate([middle, last])
-            order = np.argsort(layout.design[stretch], kind="stable")
-            stretch, first, last = stretch[order], first[order], last[order]
+            first, last = np.stack([first, middle], axis=1).ravel(), np.stack([middle, last], axis=1).ravel()
         self._take(done[0] if len(done) == 1 else _joined(done))
 
     def _take(self, batch: _Batch) -> None:
@@ -156,6 +167,13 @@ class Pieces:
         top, bottom = values.max(axis=0), values.min(axis=0)
         orders = product(LAST_AND_MEAN, flat)
         rough, whole = np.abs(orders[:3]).max(axis=0).reshape(shape), orders[3].reshape(shape)
+        if self.wanted.joined:
+            left, right = product(TO_ENDS, flat).reshape(2, *shape)
+            same = (stretch[1:] == stretch[:-1]) & (first[1:] == last[:-1])
+            with np.errstate(invalid="ignore"):
+                gap = np.abs(left[:, 1:] - right[:, :-1]) * same
+            for side in (rough[:, 1:], rough[:, :-1]):
+                np.maximum(side, gap, out=side)
         sides = [top[k] if sign > 0.0 else -bottom[k] for k, sign in self.wanted.sides]
         highest = np.array(sides).reshape(-1, len(design))
         starts = np.flatnonzero(np.diff(design, prepend=-1))
@@ -177,13 +195,14 @@ class Pieces:
         limit = (self.wanted.met * self._sizes())[:, design]
         coarse = (rough > limit) & np.asarray(np.isfinite(self.size).all(axis=0))[design]
         matters = np.zeros_like(coarse)
+        share = width / self._length[design]
         if coarse.any():
             for k in self.wanted.even:
-                matters[k] = rough[k] * np.minimum(1.0, 12.0 * width / self._length[design]) > limit[k]
+                matters[k] = rough[k] * np.minimum(1.0, share / self.wanted.wide) > limit[k]
             for n, (k, _) in enumerate(self.wanted.sides):
                 reach = highest[n] + SLACK * (top[k] - bottom[k]) + HIDDEN * rough[k]
                 matters[k] |= reach >= self._best[n, design]
-        return np.asarray((coarse & matters).any(axis=0) & (width > NARROW * self._length[design]))
+        return np.asarray((coarse & matters).any(axis=0) & (share > NARROW))
 
     def _sizes(self) -> Floats:
         """Sizes of the signals, of such as are small beside others of their dimension a share of these."""

@@ -23,6 +23,7 @@ LAST = SERIES[-3:]
 #: Places, -1 to 1, at which a piece is looked at, both ends among them, and from values at the nodes to these.
 LOOKS = -np.cos(np.pi * np.arange(33) / 32)
 TO_LOOKS = chebyshev.chebvander(LOOKS, POINTS - 1) @ SERIES
+TO_ENDS = TO_LOOKS[[0, -1]]
 #: From coefficients to those of the slope; from values to the integral from the beginning up to every node, the
 #: piece 1 long.
 SLOPE = np.vstack([chebyshev.chebder(np.eye(POINTS)), np.zeros((1, POINTS))])
@@ -37,18 +38,21 @@ SLACK, HIDDEN = 0.03, 8.0
 COMPILED = 1000
 #: Multiplications up to which BLAS keeps to one core.
 _ON_ONE_CORE = 1 << 18
-_STEPS = 4
+#: A Newton step of this size towards an extreme is the last one, as what is left is its square; a halving's size.
+LAST_STEP, HALVED = 3e-7, 1e-9
+_STEPS, _MOST = 4, 60
 
 
 def product(matrix: NDArray[np.floating[Any]], rows: Floats) -> Floats:
     """A small matrix times (POINTS, k) values: in parts that stay in the cache, and on one core, as designs go on
-    several."""
+    several. NaN where values are infinite."""
     size = _ON_ONE_CORE // matrix.size
-    if rows.shape[1] <= size:
-        return np.asarray(matrix @ rows)
-    found = np.empty((len(matrix), rows.shape[1]))
-    for k in range(0, rows.shape[1], size):
-        found[:, k : k + size] = matrix @ rows[:, k : k + size]
+    with np.errstate(invalid="ignore"):
+        if rows.shape[1] <= size:
+            return np.asarray(matrix @ rows)
+        found = np.empty((len(matrix), rows.shape[1]))
+        for k in range(0, rows.shape[1], size):
+            found[:, k : k + size] = matrix @ rows[:, k : k + size]
     return found
 
 
@@ -77,12 +81,15 @@ def climbed(rows: Floats) -> tuple[Floats, Floats]:
     series = product(SERIES, rows)
     slope = product(SLOPE, series)
     both = np.stack([slope, product(SLOPE, slope)])
-    for _ in range(_STEPS):
+    for _ in range(_MOST):
         first, second = value_at(both, x)
         low, high = np.where(first > 0.0, x, low), np.where(first > 0.0, high, x)
         with np.errstate(all="ignore"):
             step = x - first / second
-        x = np.where((step >= low) & (step <= high), step, 0.5 * (low + high))
+        inside = (step >= low) & (step <= high)
+        before, x = x, np.where(inside, step, 0.5 * (low + high))
+        if not (np.abs(x - before) > np.where(inside, LAST_STEP, HALVED)).any():
+            break
     value = value_at(series[None], x)[0]
     return np.where(value > top, x, LOOKS[best]), np.maximum(value, top)
 

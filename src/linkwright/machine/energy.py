@@ -10,9 +10,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import Piecewise, increasing
 from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
+from linkwright.events.curve import Curve, increasing
 from linkwright.machine.torque_curve import TorqueCurve
 
 #: Driver and load must do equal work over a cycle to this share of the work done.
@@ -74,10 +74,10 @@ def energy_fluctuation(driver: TorqueCurve, load: TorqueCurve | None = None) -> 
             mean=driver.mean,
             load=load.mean,
         )
-    return of_energy(Piecewise(work.edges, work.at_nodes), balance=work.total)
+    return of_energy(work, balance=work.total)
 
 
-def of_energy(energy: Piecewise, *, balance: float) -> EnergyFluctuation:
+def of_energy(energy: Curve, *, balance: float) -> EnergyFluctuation:
     """The fluctuation of an excess energy E(θ) over one period."""
     low, high = energy.extremes()
     diagram = partial(_diagram, energy, low.place, high.place)
@@ -88,7 +88,7 @@ def _without_rounding(found: EnergyFluctuation, least: float) -> tuple[Floats, F
     return found.angle, np.where(np.abs(found.energy) < least, 0.0, found.energy)
 
 
-def _diagram(energy: Piecewise, low: float, high: float) -> tuple[Floats, Floats]:
+def _diagram(energy: Curve, low: float, high: float) -> tuple[Floats, Floats]:
     begin, end = energy.edges[[0, -1]]
     angle = increasing(np.append(np.linspace(begin, end, 361), [low, high]))
     return angle, energy(angle)

@@ -11,8 +11,9 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
-from linkwright.core.piecewise import POINTS, Extreme, Integral, Piecewise, at_nodes
 from linkwright.errors import LinkwrightError
+from linkwright.events.curve import Curve, Extreme, Integral, at_nodes
+from linkwright.events.polynomials import POINTS
 from linkwright.kinematics.cycle import not_back
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.whole_turns import MOST
@@ -95,7 +96,7 @@ class Equivalent:
     period: float
     start: float
     direction: float
-    inertia_at: Piecewise = field(repr=False)
+    inertia_at: Curve = field(repr=False)
     load: TorqueCurve = field(repr=False)
 
     @property
@@ -133,19 +134,19 @@ class Equivalent:
     @property
     def mean_inertia(self) -> float:
         """Mean of J_e over the angle, kg·m²."""
-        return self.inertia_at.total / self.period
+        return self.inertia_at.mean
 
     @cached_property
     def work(self) -> Integral:
         """Work of a constant torque, the mean one, less that of the loads, J, over the angle turned."""
         load = self.load.pieces
-        return Piecewise(load.edges, self.load.mean - load.values).integral()
+        return Curve(load.edges, self.load.mean - load.values).integral()
 
     @cached_property
     def energy(self) -> EnergyFluctuation:
         """Fluctuation of ∫ (mean - T) dφ, T the torque at constant speed: that of the loads, and ½ dJ_e/dφ ω²."""
         kinetic = 0.5 * self.speed**2 * at_nodes(self.inertia_at, self.work.edges)
-        found = of_energy(Piecewise(self.work.edges, self.work.at_nodes - kinetic), balance=self.work.total)
+        found = of_energy(Curve(self.work.edges, self.work.values - kinetic), balance=self.work.total)
         return found.without_rounding(abs(self.load.mean) * self.load.period)
 
     def input_at(self, angle: float) -> float:
@@ -172,18 +173,18 @@ def equivalent(forces: Forces) -> Equivalent:
     edges = abs(rate) * (grid.edges - begin)
     between, slope = _inertia_and_slope(grid.motion)
     torque = _torque(grid.forces, between, slope)
-    load = Piecewise(edges, direction * torque.reshape(-1, POINTS))
+    load = Curve(edges, direction * torque.reshape(-1, POINTS).T)
     size = np.abs(grid.forces.input_torque).max()
-    if not grid.met(load.values, size):
+    if not grid.met(load.values.T, size):
         halved = grid.curve(equivalent_torque, "forces", halve=True)
-        load = Piecewise(abs(rate) * (halved.edges - begin), direction * halved.values)
+        load = Curve(abs(rate) * (halved.edges - begin), direction * halved.values.T)
     return Equivalent(
         forces=forces,
         speed=abs(rate),
         period=period,
         start=float(motion.input[0]),
         direction=direction,
-        inertia_at=Piecewise(edges, between.reshape(-1, POINTS)),
+        inertia_at=Curve(edges, between.reshape(-1, POINTS).T),
         load=TorqueCurve.from_pieces(load),
     )
 

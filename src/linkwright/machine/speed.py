@@ -10,17 +10,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import (
-    Extreme,
-    Function,
-    Integral,
-    Piecewise,
-    at_nodes,
-    extremes_of,
-    nodes,
-)
 from linkwright.errors import LinkwrightError
-from linkwright.events.polynomials import POINTS, WEIGHTS
+from linkwright.events.curve import Curve, Extreme, Function, Integral, at_nodes
+from linkwright.events.polynomials import WEIGHTS
 from linkwright.machine.speeds import Speeds, SteadyCycles
 from linkwright.machine.torque_curve import TorqueCurve
 
@@ -108,11 +100,9 @@ class SteadyCycle:
     def __init__(self, work: Integral, own: Function, speed: float) -> None:
         self.work, self.own, self.speed = work, own, speed
         inertia = at_nodes(own, work.edges)
-        curves = (Piecewise(work.edges, values) for values in (work.at_nodes, inertia))
-        self._least, self._lightest = (
-            each.value for each in extremes_of([(curve, "min") for curve in curves])
-        )
-        self._first = self._cycles(work.edges, work.at_nodes, inertia)
+        curves = (work, Curve(work.edges, inertia))
+        self._least, self._lightest = (each.extreme("min").value for each in curves)
+        self._first = self._cycles(work.edges, work.values, inertia)
         self._known: dict[float, _Solved] = {}
 
     def curve(self, flywheel: float = 0.0, *, motor_torque: float, steps: int = 360) -> SpeedCurve:
@@ -156,11 +146,11 @@ class SteadyCycle:
         for _ in range(ROUNDS):
             found = cycles.at(np.array([flywheel]))
             energy = self._energy(found, flywheel)
-            speed = self.speed * found.values.T
-            curve = Piecewise(edges, speed)
+            curve = Curve(edges, self.speed * found.values)
             if curve.smooth.all():
                 break
-            curve = Piecewise(edges, speed, partial(self._at, flywheel, energy), edges)
+            start, end = edges[[0, -1]].tolist()
+            curve = Curve.of(partial(self._at, flywheel, energy), start, end, pieces=1, knots=edges)
             if len(curve.edges) == len(edges):
                 break
             edges = curve.edges
@@ -178,12 +168,10 @@ class SteadyCycle:
         return energy
 
     def _at_edges(self, edges: Floats) -> SteadyCycles:
-        at = nodes(edges).ravel()
-        return self._cycles(edges, self.work(at), self.own(at))
+        return self._cycles(edges, at_nodes(self.work, edges), at_nodes(self.own, edges))
 
     def _cycles(self, edges: Floats, work: Floats, inertia: Floats) -> SteadyCycles:
         share = WEIGHTS[:, None] * (np.diff(edges) / (edges[-1] - edges[0]))
-        work, inertia = (each.reshape(-1, POINTS).T for each in (work, inertia))
         return SteadyCycles(
             np.zeros(len(edges) - 1, dtype=np.intp), share, work / (0.5 * self.speed * self.speed), inertia
         )

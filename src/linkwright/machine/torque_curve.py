@@ -13,8 +13,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
-from linkwright.core.piecewise import Integral, Piecewise, sought
 from linkwright.errors import LinkwrightError
+from linkwright.events.curve import Curve, Integral
 
 TURN = 2 * np.pi
 
@@ -31,10 +31,10 @@ class TorqueCurve(Plotted):
     period: float = TURN
     start: float = 0.0
     knots: tuple[float, ...] = field(default=(), repr=False)
-    known: Piecewise | None = field(default=None, repr=False)
+    known: Curve | None = field(default=None, repr=False)
 
     @classmethod
-    def from_pieces(cls, pieces: Piecewise) -> TorqueCurve:
+    def from_pieces(cls, pieces: Curve) -> TorqueCurve:
         """From polynomials over one period."""
         start, end = float(pieces.edges[0]), float(pieces.edges[-1])
         return cls(pieces, end - start, start, tuple(pieces.edges.tolist()), pieces)
@@ -85,11 +85,11 @@ class TorqueCurve(Plotted):
         return np.asarray(self.function(self.start + (x - self.start) % self.period), dtype=float)
 
     @cached_property
-    def pieces(self) -> Piecewise:
+    def pieces(self) -> Curve:
         """The torque over one period as polynomials between its kinks and jumps."""
         if self.known is not None:
             return self.known
-        return Piecewise.of(self.function, self.start, self.start + self.period, knots=np.array(self.knots))
+        return Curve.of(self.function, self.start, self.start + self.period, knots=np.array(self.knots))
 
     @cached_property
     def work(self) -> Integral:
@@ -99,7 +99,7 @@ class TorqueCurve(Plotted):
     @property
     def mean(self) -> float:
         """Mean torque over the angle, N·m."""
-        return self.work.total / self.period
+        return self.pieces.mean
 
     def minus(self, other: TorqueCurve) -> TorqueCurve:
         """This torque minus another one over their common period, from this one's start.
@@ -116,7 +116,7 @@ class TorqueCurve(Plotted):
 
     def extremes(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """(angle, torque) of the smallest and of the largest torque; at a jump one of its sides."""
-        low, high = (sought(self.pieces, kind, self) for kind in ("min", "max"))
+        low, high = self.pieces.extremes()
         return (low.place, low.value), (high.place, high.value)
 
 
