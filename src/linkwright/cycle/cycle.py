@@ -230,6 +230,7 @@ class Solved:
         self.cycle, self.machine, self.designs = cycle, cycle.machine, designs
         self.count = len(designs[ROW])
         self.span = Span(self.machine.course, self._periods(), np.zeros(self.count))
+        self.known = self.machine.tracked(designs, self.span.period)
         self.bends = self._bends()
         self.base = Stretches(self.span, self.bends)
         rates = self._events(cycle.rates, self.base) if cycle.rates else []
@@ -249,9 +250,9 @@ class Solved:
         self.stretches = Stretches(self.span, families, self._knots)
         self.corners: list[Events] = []
         if cycle.signed is not None:
-            self.corners = events(cycle.signed, self.machine.known, designs, self.stretches, self._loaded)
+            self.corners = events(cycle.signed, self.known, designs, self.stretches, self._loaded)
             self.stretches = Stretches(self.span, [*families, *self.corners], self._knots)
-        formula, known = cycle.formula, self.machine.known
+        formula, known = cycle.formula, self.known
         wanted = Wanted(cycle.even, tuple((k, sign) for k, sign, _ in cycle.sides), alike=cycle.alike)
         layout = Layout(self.stretches.design, self.count, self._columns)
         self.pieces = Pieces(
@@ -284,7 +285,7 @@ class Solved:
     def _events(
         self, formula: Formula, stretches: Stretches, more: Mapping[str, Floats] | None = None
     ) -> list[Events]:
-        return events(formula, self.machine.known, {**self.designs, **(more or {})}, stretches)
+        return events(formula, self.known, {**self.designs, **(more or {})}, stretches)
 
     def _bends(self) -> list[Events]:
         """Where joints go over from one formula to the next."""
@@ -292,7 +293,7 @@ class Solved:
         if formulas is None:
             return []
         sines, cosines = formulas
-        plain, known = Stretches(self.span, []), self.machine.known
+        plain, known = Stretches(self.span, []), self.known
         found = []
         for k, each in enumerate(self._events(sines, plain)):
             found.append(
@@ -320,9 +321,7 @@ class Solved:
             else:
                 assert isinstance(phase, SwingPhase)
                 value = self.cycle.load_values[phase.output]
-                found = InPart(
-                    load, phase, strokes, limits, value, self.cycle.load_machine.known, self.designs
-                )
+                found = InPart(load, phase, strokes, limits, value, (self.whole or self).known, self.designs)
                 self._thresholds(found, phase)
         self.lacking |= found.missing
         return found
@@ -448,7 +447,8 @@ class Solved:
         """Designs that pass the whole cycle, with friction that is certain, and loads that have values,
         (designs,)."""
         valid = self.pieces.most(-self.pieces.bottom[-1]) == -1.0
-        return np.asarray(self.pieces.passed & valid & ~self.lacking)
+        tracked = self.known.paths is None or self.known.paths.passed
+        return np.asarray(self.pieces.passed & valid & tracked & ~self.lacking)
 
     @cached_property
     def turned_round(self) -> Flags:
@@ -596,7 +596,8 @@ class _Turned:
         cycle, designs = solved.cycle, solved.designs
         self.span = Span(machine.course, solved.periods(machine), np.zeros(solved.count))
         self.base = Stretches(self.span, [])
-        rates = events(cycle.load_rates, machine.known, designs, self.base) if cycle.load_rates else []
+        self.known = machine.tracked(designs, self.span.period)
+        rates = events(cycle.load_rates, self.known, designs, self.base) if cycle.load_rates else []
         self.limits = {
             output: Limits(each, cycle.load_values.get(output), self.span)
             for each in rates

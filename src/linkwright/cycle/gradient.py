@@ -106,9 +106,9 @@ class Backward:
                 acting.pull(events.design[roots], events.within[roots], by_columns)
 
     def _through_pieces(self, weights: Mapping[Signal, Floats], by_width: Floats) -> None:
-        pieces, machine = self.pieces, self.solved.machine
+        pieces = self.pieces
         named = {str(signal): each for signal, each in weights.items()}
-        by_columns = self.cycle.formula.vjp(machine.known, pieces.columns, NODES, named)
+        by_columns = self.cycle.formula.vjp(self.solved.known, pieces.columns, NODES, named)
         self._gather(pieces.design, by_columns)
         low = by_columns.get(LOW, 0.0) - by_width
         high = by_columns.get(HIGH, 0.0) + by_width

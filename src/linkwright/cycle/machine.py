@@ -4,6 +4,7 @@ take."""
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping
+from dataclasses import replace
 from functools import cached_property, partial
 from typing import NoReturn
 
@@ -17,7 +18,17 @@ from linkwright.engine.replay import inlined
 from linkwright.engine.trace import Mask, Scalar, Trace, Value, absolute, cos, nearest_turn, select, sin
 from linkwright.engine.trace import angle as angle_of
 from linkwright.events.course import Course
+from linkwright.events.following import (
+    ITERATIONS,
+    ChainCoordinate,
+    chain_coordinates,
+    path_states,
+    stays_on_path,
+)
 from linkwright.events.formula import HIGH, LOW, NODE, Formula, Known
+from linkwright.events.path_step import PathStep
+from linkwright.events.path_tracker import PathTracker
+from linkwright.kinematics.groups import iterated
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant, program_names
 from linkwright.kinematics.programs import Manner
@@ -39,6 +50,8 @@ from linkwright.mechanism.mechanism import Mechanism
 CLEAR = 0.75 * np.pi
 #: The output that is 1 where a position is reached, its rotations counted and its friction certain.
 VALID = "valid"
+#: Parameters that are the signs of the determinants of groups, by name.
+SIGN = "sign:"
 #: What goes to and fro: an output, the angle between two links, the parts of a joint with friction.
 Swing = Output | RelativeAngle | FrictionTerm
 
@@ -86,8 +99,17 @@ class Traces:
     def __init__(self, programs: ForcePrograms, varied: frozenset[str], course: Course) -> None:
         self.programs, self.varied, self.course = programs, varied, course
         self.motion, self.named = programs.motion.motion, _Named(programs)
+        self.tracked: tuple[ChainCoordinate, ...] = ()
+        if iterated(self.motion.structure):
+            self.tracked = chain_coordinates(self.motion)
         self._kept: dict[Hashable, Formula] = {}
         self._quantities: dict[str, Quantity] = {}
+
+    @cached_property
+    def path_step(self) -> PathStep:
+        """The formula by which groups without closed form are tracked."""
+        with self.programs.motion.lock:
+            return PathStep(self.motion, self.course, self.varied)
 
     def quantity(self, words: str) -> Quantity:
         """An output in the user's words."""
@@ -127,6 +149,9 @@ class Traces:
         for name, rotation in motion.angles.carried.items():
             near = absolute(rotation - motion.trace.state(name)) < CLEAR
             found = motion.trace.logic("and", found, near)
+        if self.tracked:
+            signs = {name: motion.trace.parameter(f"{SIGN}{name}") for name in self.path_step.groups}
+            found = motion.trace.logic("and", found, stays_on_path(motion, signs))
         if friction is not None:
             found = motion.trace.logic("and", found, friction.certain)
         return select(found, 1.0, 0.0)
@@ -155,7 +180,8 @@ class Traces:
         more: dict[str, Scalar] = {
             name: t.position(name) for name in source.parameters if name in self.varied
         }
-        for name in source.states:
+        more |= path_states(self.tracked, t)
+        for name in source.states if not self.tracked else ():
             first, turns = (t.parameter(_line_name(name, which)) for which in ("first", "turns"))
             more[name] = first + turns * given["input"]
         for name in source.fields:
@@ -173,9 +199,8 @@ class Traces:
         along = given["time" if self.course.turns else "input"]
         if phase.in_part:
             source = Program.of(self.motion.trace, {"along": self.value(phase.outputs[0])})
-            along = inlined(
-                source, t, {**given, **{n: t.position(n) for n in source.parameters if n in self.varied}}
-            )["along"]
+            columns = {n: t.position(n) for n in source.parameters if n in self.varied}
+            along = inlined(source, t, {**given, **more, **columns})["along"]
         return (along - t.position(since_name(load))) / t.position(length_name(load))
 
 
@@ -213,7 +238,8 @@ class Machine:
         self.loads = self._traced_loads()
         self.course = Course.of(mechanism, nominal.positions, seam=self._seamed())
         self.terms: tuple[FrictionTerm, ...] = ()
-        solver = MotionSolver(mechanism, Manner(frozenset(self.varied)), nominal.solver.assembly)
+        manner = Manner(frozenset(self.varied), iterations=ITERATIONS if iterated(nominal.structure) else 1)
+        solver = MotionSolver(mechanism, manner, nominal.solver.assembly)
         rubbing = any(joint.friction_arm for joint in mechanism.joints.values())
         names = frozenset(f"{ACTS}:{name}" if self._phased(name) else name for name in self.loads.names)
         programs = force_programs(solver.programs, inertia=not static, along_input=names, rubbing=rubbing)
@@ -222,8 +248,6 @@ class Machine:
             if not can_be_traced(terms):
                 raise NotTogether("more friction in one group than is traced")
             self.terms = terms.terms
-        if solver.programs.motion.next_states.keys() - solver.programs.motion.angles.carried.keys():
-            raise NotTogether("a group without closed form")
         columns = frozenset(self.varied)
         key = (columns, self.course.key)
         self.traces = _traces.get(programs, key, lambda: Traces(programs, columns, self.course))
@@ -303,13 +327,33 @@ class Machine:
         """The numbers that formulas take beside columns."""
         return Known(self._numbers, self.loads.tables, self.compiled)
 
+    @cached_property
+    def tracker(self) -> PathTracker | None:
+        """What tracks groups without closed form; None where there are none."""
+        if not self.traces.tracked:
+            return None
+        first = int(np.argmin(self.nominal.time))
+        start = {name: float(row[first]) for name, row in self.nominal.states.items()}
+        return PathTracker(self.traces.path_step, self.course, self.known, start)
+
+    def tracked(self, designs: Mapping[str, Floats], period: Floats) -> Known:
+        """The numbers that formulas take, with the paths of groups without closed form of designs over their cycles,
+        (designs,) s long."""
+        if self.tracker is None:
+            return self.known
+        begin = np.full(len(period), self.course.begin)
+        return replace(self.known, paths=self.tracker.track(designs, begin, period))
+
     def _number(self, name: str) -> float:
-        """An angle near which one of the machine runs, or a line near which it does."""
+        """An angle near which one of the machine runs, or a line near which it does; the sign of a determinant."""
         if name.startswith("middle:"):
             link = name.removeprefix(middle_name("frame", ""))
             angle = self.nominal.link(link).angle
             low, high = float(np.nanmin(angle)), float(np.nanmax(angle))
             return 0.5 * (low + high)
+        if name.startswith(SIGN):
+            assert self.tracker is not None
+            return self.tracker.signs_by_group[name.removeprefix(SIGN)]
         if not name.startswith("line "):
             return float("nan")
         which, _, owner = name.removeprefix("line ").partition(":")

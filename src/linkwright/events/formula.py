@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.adjoint import Adjoints
 from linkwright.engine.derivative import forward
@@ -22,23 +23,43 @@ from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.replay import Replay, depending
+from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.table import Tables
 
 #: Place in a piece, 0 to 1; times, s, of a piece's ends; the number of its design.
 NODE, LOW, HIGH, ROW = "node", "low", "high", "row"
 #: Below this number of places NumPy has answered before a program is compiled.
 WORTH_COMPILING = 20_000
+#: So many places at most are evaluated one by one on plain numbers.
+FEW = 3
+#: The field of all formulas that take others of paths: the place in a path's step.
+PLACE = "place in the step"
 Columns = Mapping[str, Floats]
+
+
+class Along(Protocol):
+    """Paths of some designs."""
+
+    @property
+    def passed(self) -> Flags:
+        """The designs whose paths go to the end, (designs,)."""
+        ...
+
+    def fields(self, columns: Columns, nodes: Floats) -> Columns:
+        """What formulas take of them at nodes of pieces, (nodes, pieces) by name."""
+        ...
 
 
 @dataclass(frozen=True)
 class Known:
-    """What all pieces share: ``numbers`` by the names of parameters, ``tables`` that are looked up, and whether the
-    code is ``compiled``: None where that depends on how much there is to do."""
+    """What all pieces share: ``numbers`` by the names of parameters, ``tables`` that are looked up, the ``paths`` of
+    groups without closed form, and whether the code is ``compiled``: None where that depends on how much there is
+    to do."""
 
     numbers: Mapping[str, float]
     tables: Tables | None = None
     compiled: bool | None = None
+    paths: Along | None = None
 
     def compiles(self, places: int) -> bool:
         """Whether so many places at a time are worth machine code."""
@@ -66,11 +87,29 @@ class Formula:
             table[:, self.program.parameters.index(NODE)] = nodes
         count = len(columns[LOW])
         given = {name: columns[name] for name in self.columns}
+        if PLACE in self.fields and known.paths is not None:
+            fields = {**known.paths.fields(columns, nodes), **(fields or {})}
         own = {name: fields[name] for name in self.fields} if fields else {}
         if known.compiles(count * len(nodes)) and (code := self._code) is not None:
             return np.ascontiguousarray(code.store(table, given, own, length=count, tables=known.tables))
+        if 0 < count * len(nodes) <= FEW and not known.tables:
+            return self._one_by_one(table, given, own, count)
         program = numpy_program(self.program)
         return program.run_designs(table, given, own, length=count, tables=known.tables)
+
+    def _one_by_one(self, table: Floats, given: Columns, own: Columns, count: int) -> Floats:
+        """The outputs at a few places, on plain numbers."""
+        found = np.empty((len(table), len(self.outputs), count))
+        for node, numbers in enumerate(table.tolist()):
+            for piece in range(count):
+                at = [float(each[piece]) for each in given.values()]
+                there = [float(each[node, piece]) for each in own.values()]
+                found[node, :, piece] = self._scalar.step(numbers, at, (), there)[0]
+        return found
+
+    @cached_property
+    def _scalar(self) -> ScalarProgram:
+        return ScalarProgram(self.program)
 
     @cached_property
     def _code(self) -> CompiledProgram | None:

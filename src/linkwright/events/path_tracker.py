@@ -1,0 +1,212 @@
+"""Paths of groups without closed form tracked over a course, of many designs at once.
+
+Every design goes its own way in equal steps (:mod:`linkwright.events.path_step`); doubt halves those of it alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.events.course import Course
+from linkwright.events.following import DEGREE, FIT, Paths
+from linkwright.events.formula import Columns, Known
+from linkwright.events.path_step import PathStep, Place
+from linkwright.kinematics.groups import CONVERGED
+from linkwright.kinematics.step_rule import ROOM, ROUNDING
+
+#: Steps of a path in a turn; how many parts those are cut into whose quintics do not fit, one number after the other.
+STEPS, FINER = 24, (4, 16, 64)
+#: Places of a cycle's pieces for each of its steps: what is worth machine code there is worth it here.
+PLACES = 8
+#: The smallest share of a step that is tried; a small one, up to which the rule of steps leaves room, as where a
+#: cam's rise begins behind a dwell; the doubt below which steps grow.
+SMALLEST, SMALL, GROWS = 2.0**-22, 2.0**-10, 0.1
+#: How near a group comes back to its first assembly in a closed cycle, rad or share of the size.
+SAME = 1e-6
+#: On the way from the machine as it is to another design: largest change of a coordinate in one step, one that is
+#: small enough by itself, largest distance from what is expected as share of others, smallest share of the way.
+LARGEST_CHANGE, SMALL_CHANGE, EXPECTED, SMALLEST_SHARE = 0.15, 0.02, 0.1, 1.0 / 4096
+
+
+class PathTracker:
+    """Tracks the designs of one machine: ``known``: its numbers, also of the dimensions that vary; ``start``: its
+    states at the beginning of the ``course``."""
+
+    def __init__(self, step: PathStep, course: Course, known: Known, start: Mapping[str, float]) -> None:
+        self.step, self.course, self.known, self.scale = step, course, known, step.scale
+        self.varied = {name: known.numbers[name] for name in step.varied}
+        values = [[start[name] for name in each.states] for each in step.coordinates]
+        first = np.array([np.arctan2(v[1], v[0]) if len(v) > 1 else v[0] for v in values])
+        numbers = {name: np.array([number]) for name, number in self.varied.items()}
+        there = step.place(known, numbers, np.array([course.begin]), _at_rest(first[:, None]))
+        self._first, self.signs = there.values[0], there.signs
+
+    @property
+    def signs_by_group(self) -> dict[str, float]:
+        """Signs of the determinants of the groups, the same ones along all paths."""
+        return dict(zip(self.step.groups, self.signs[:, 0].tolist(), strict=True))
+
+    def kept(self, there: Place) -> Flags:
+        """Whether no determinant has another sign than in the machine as it is, (designs,)."""
+        return np.asarray((there.signs == self.signs).all(axis=0))
+
+    # the way to a design -------------------------------------------------------------------------------
+    def _approached(self, known: Known, designs: Columns, begin: Floats) -> Floats:
+        """Coordinates with three derivatives, (4, n, designs), at the beginning: on a straight way in the dimensions
+        from the machine as it is; NaN where the assembly is doubtful."""
+        count = len(begin)
+        x, slope = np.repeat(self._first, count, axis=1), np.zeros((len(self.scale), count))
+        done, share, lanes = np.zeros(count), np.ones(count), np.arange(count)
+        while len(lanes):
+            ahead = np.minimum(done[lanes] + share[lanes], 1.0)
+            now = {
+                name: first + ahead * (designs[name][lanes] - first) for name, first in self.varied.items()
+            }
+            here, gone = x[:, lanes], ahead - done[lanes]
+            near = here + slope[:, lanes] * gone
+            there = self.step.place(known, now, begin[lanes], _at_rest(near))
+            found = there.values[0]
+            with np.errstate(invalid="ignore"):
+                change, off = ((np.abs(found - each) / self.scale).max(axis=0) for each in (here, near))
+                sure = (change <= SMALL_CHANGE) | ((done[lanes] > 0.0) & (off <= EXPECTED * change))
+                sure &= (there.residual < CONVERGED) & (change <= LARGEST_CHANGE) & self.kept(there)
+            went = lanes[sure]
+            slope[:, went] = ((found - here) / gone)[:, sure]
+            x[:, went], done[went] = found[:, sure], ahead[sure]
+            share[went] *= 2.0
+            share[lanes[~sure]] *= 0.5
+            lanes = lanes[(done[lanes] < 1.0) & (share[lanes] >= SMALLEST_SHARE)]
+        x[:, done < 1.0] = np.nan
+        return np.concatenate(
+            [self.step.place(known, designs, begin, _at_rest(x)).values, np.zeros((1, *x.shape))]
+        )
+
+    # the way over the course ---------------------------------------------------------------------------
+    def track(self, designs: Columns, begin: Floats, duration: Floats) -> Paths:
+        """The paths of designs, columns (designs,) by name, from ``begin``, s, for a ``duration``, s."""
+        steps = STEPS * max(1, int(np.ceil(self.course.laps - 1e-9)))
+        designs = {name: designs[name] for name in self.varied}
+        known = self.known
+        if known.compiles(PLACES * steps * len(begin)):
+            known = replace(known, compiled=True)
+        first = self._approached(known, designs, begin)
+        march = _March(self, known, designs, begin, duration, first, steps)
+        series, misfit = march.series()
+        reached = march.reached
+        parts, rough = [series.reshape(*series.shape[:2], -1)], np.flatnonzero(misfit.ravel() > FIT)
+        offset, count, behind = np.arange(misfit.size), np.ones(misfit.size, dtype=np.intp), misfit.size
+        for finer in FINER if len(rough) else ():
+            row, place = np.divmod(rough, steps)
+            length = duration[row] / steps
+            start = np.concatenate([march.knots[:, :, row, place], np.zeros((1, len(first[0]), len(row)))])
+            part = _March(self, known, _some(designs, row), begin[row] + place * length, length, start, finer)
+            series, misfit = part.series()
+            parts.append(series.reshape(*series.shape[:2], -1))
+            ended = np.flatnonzero(part.at < finer)
+            fits = misfit[ended, part.at[ended]] <= FIT  # else it ends at the quintic before
+            reach = np.where(fits, part.reached[ended], part.at[ended] / finer)
+            reached[row[ended]] = (place[ended] + reach) / steps
+            offset[rough], count[rough] = behind + np.arange(len(rough)) * finer, finer
+            behind, rough = behind + misfit.size, rough[(misfit > FIT).any(axis=1)]
+        rows = np.concatenate(parts, axis=2) if len(parts) > 1 else parts[0]
+        apart, turning = march.now[0] - first[0], np.array([[each.turns] for each in self.step.coordinates])
+        gained = np.where(turning, 2.0 * np.pi * np.round(apart / (2.0 * np.pi)), 0.0)
+        returns = (np.abs(apart - gained) <= SAME * self.scale).all(axis=0) | (not self.course.closed)
+        quintics: dict[str, Floats] = {}
+        laps: dict[str, Floats] = {}
+        for k, each in enumerate(self.step.coordinates):
+            quintics |= {each.field(order): rows[order, k] for order in range(DEGREE + 1)}
+            if each.turns and len(each.states) == 1:
+                laps[each.field(0)] = gained[k]
+        ends = self.course.closed, reached, returns, 1.0 - march.most
+        return Paths(begin, duration, steps, offset, count, quintics, laps, *ends)
+
+
+class _March:
+    """Designs on their way in equal ``steps``, or parts of these: coordinates with three derivatives ``now``, (4, n,
+    designs), shares of the way that are ``reached``, and doubts of the ``most`` doubtful steps, (designs,)."""
+
+    def __init__(
+        self,
+        tracker: PathTracker,
+        known: Known,
+        designs: Columns,
+        begin: Floats,
+        duration: Floats,
+        first: Floats,
+        steps: int,
+    ) -> None:
+        self.tracker, self.steps, self.now = tracker, steps, first.copy()
+        self.step = step = duration / steps
+        count, now = len(begin), self.now
+        self.knots = np.full((3, *first.shape[1:], steps + 1), np.nan)
+        self.knots[..., 0] = first[:3]
+        self.at, self.done, self.most = np.zeros(count, dtype=np.intp), np.zeros(count), np.zeros(count)
+        at, done, share = self.at, self.done, np.ones(count)
+        lanes = np.flatnonzero(np.isfinite(first).all(axis=(0, 1)))
+        while len(lanes):
+            every = len(lanes) == count
+            before, of = (now.copy(), designs) if every else (now[:, :, lanes], _some(designs, lanes))
+            part = np.minimum(share[lanes], 1.0 - done[lanes])
+            h, room = part * step[lanes], np.where(part > SMALL, ROUNDING, ROOM)
+            time = begin[lanes] + (at[lanes] + done[lanes]) * step[lanes] + h
+            there = tracker.step.place(known, of, time, before, h, room)
+            sure = np.asarray((there.doubt < 1.0) & tracker.kept(there))
+            if sure.all():
+                went, gone, values, rates, off = lanes, h, there.values, before[2], there.doubt
+            else:
+                went, gone, off = lanes[sure], h[sure], there.doubt[sure]
+                values, rates = there.values[:, :, sure], before[2][:, sure]
+                share[lanes[~sure]] = 0.5 * part[~sure]
+            now[:3, :, went] = values
+            now[3][:, went] = (values[2] - rates) / gone
+            self.most[went] = np.maximum(self.most[went], off)
+            done[went] += part[sure]
+            share[went] = np.where(off < GROWS, np.minimum(2.0 * share[went], 1.0), share[went])
+            here = went[done[went] == 1.0]
+            done[here], at[here] = 0.0, at[here] + 1
+            self.knots[:, :, here, at[here]] = now[:3, :, here]
+            lanes = lanes[(at[lanes] < steps) & (share[lanes] >= SMALLEST)]
+
+    @property
+    def reached(self) -> Floats:
+        """Share of the way."""
+        return np.asarray((self.at + self.done) / self.steps)
+
+    def series(self) -> tuple[Floats, Floats]:
+        """Coefficients of the quintics on all steps, (6, n, designs, steps), and their misfits (designs, steps)."""
+        knots, h = self.knots, np.repeat(self.step[:, None], self.steps, axis=1)
+        short = np.flatnonzero(self.done > 0.0)  # designs that end within a step
+        knots[:, :, short, self.at[short] + 1] = self.now[:3, :, short]
+        h[short, self.at[short]] *= self.done[short]
+        p, v, a = knots[0], h * knots[1, ..., :-1], 0.5 * h * h * knots[2, ..., :-1]
+        v1, a1 = h * knots[1, ..., 1:], 0.5 * h * h * knots[2, ..., 1:]
+        rise = p[..., 1:] - p[..., :-1]
+        d, dv, da = rise - v - a, v1 - v - 2.0 * a, a1 - a
+        misfit = np.abs(rise - 0.5 * (v + v1) - (a - a1) / 6.0) / self.tracker.scale[:, :, None]
+        series = np.stack(
+            [
+                p[..., :-1],
+                v,
+                a,
+                10.0 * d - 4.0 * dv + da,
+                7.0 * dv - 15.0 * d - 2.0 * da,
+                6.0 * d - 3.0 * dv + da,
+            ]
+        )
+        for k in range(1, DEGREE + 1):
+            series[k][:, short, self.at[short]] /= self.done[short] ** k
+        return series, np.asarray(np.fmax.reduce(misfit, axis=0, initial=0.0))
+
+
+def _at_rest(x: Floats) -> Floats:
+    """Coordinates (n, designs) without derivatives, (4, n, designs)."""
+    return np.concatenate([x[None], np.zeros((3, *x.shape))])
+
+
+def _some(columns: Mapping[str, Floats], chosen: Indices) -> dict[str, Floats]:
+    return {name: each[chosen] for name, each in columns.items()}
