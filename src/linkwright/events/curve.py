@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -108,25 +108,53 @@ class Curve:
 
     def extremes(self) -> tuple[Extreme, Extreme]:
         """The smallest and the largest value."""
-        return self.extreme("min"), self.extreme("max")
+        least, most = extremes_of([(self, "min"), (self, "max")])
+        return least, most
 
     def extreme(self, kind: str) -> Extreme:
         """The ``max`` or ``min``, of equal ones the first; at a jump the larger (smaller) of both sides counts."""
+        return extremes_of([(self, kind)])[0]
+
+    def _seen(self, kind: str) -> _Seen:
+        """What is seen of the ``max`` or ``min`` at the nodes."""
         sign = 1.0 if kind == "max" else -1.0
         values = sign * self.values
         top, bottom, best = values.max(axis=0), values.min(axis=0), values.argmax(axis=0)
-        value, place = np.where(np.isnan(top), -np.inf, top), 2.0 * NODES[best] - 1.0
-        equal = EQUAL * largest(values)
+        value, equal = np.where(np.isnan(top), -np.inf, top), EQUAL * largest(values)
         jumps = ~self.smooth & (self.width <= 2.0 * NARROW * (self.edges[-1] - self.edges[0]))
         with np.errstate(invalid="ignore"):
             may = value + SLACK * (top - bottom) >= value.max() - equal
-            flat = top - bottom <= equal
-        may &= np.isfinite(bottom) & np.isfinite(top) & ~jumps
-        place[may], value[may] = climbed(values[:, may])
-        place[flat] = -1.0
-        at = int((value >= value.max() - equal).argmax())
-        x = self.edges[at] + 0.5 * (1.0 + place[at]) * self.width[at]
-        return Extreme(float(x), sign * float(value[at]), bool(self.smooth[at]))
+            place = np.where(top - bottom <= equal, -1.0, 2.0 * NODES[best] - 1.0)
+            may &= (top - bottom > equal) & np.isfinite(top - bottom) & ~jumps
+        return _Seen(sign, equal, place, value, np.flatnonzero(may), values[:, may])
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """The largest value, times ``sign``, at the nodes of every piece, with its place, -1 to 1; the numbers of those
+    that are climbed, and their ``rows``; below ``equal`` two values are the same."""
+
+    sign: float
+    equal: float
+    place: Floats
+    value: Floats
+    climbed: Indices
+    rows: Floats
+
+
+def extremes_of(wanted: Sequence[tuple[Curve, str]]) -> list[Extreme]:
+    """The ``max`` or ``min`` of some functions, climbed together."""
+    seen = [curve._seen(kind) for curve, kind in wanted]
+    places, values = climbed(np.concatenate([each.rows for each in seen], axis=1))
+    found, first = [], 0
+    for (curve, _), each in zip(wanted, seen, strict=True):
+        end = first + len(each.climbed)
+        each.place[each.climbed], each.value[each.climbed] = places[first:end], values[first:end]
+        first = end
+        at = int((each.value >= each.value.max() - each.equal).argmax())
+        x = curve.edges[at] + 0.5 * (1.0 + each.place[at]) * curve.width[at]
+        found.append(Extreme(float(x), each.sign * float(each.value[at]), bool(curve.smooth[at])))
+    return found
 
 
 class Integral(Curve):

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
-from linkwright.events.curve import Curve, Extreme, Function, Integral, at_nodes
+from linkwright.events.curve import Curve, Extreme, Function, Integral, at_nodes, extremes_of
 from linkwright.events.polynomials import WEIGHTS
 from linkwright.machine.speeds import Speeds, SteadyCycles
 from linkwright.machine.torque_curve import TorqueCurve
@@ -101,7 +101,9 @@ class SteadyCycle:
         self.work, self.own, self.speed = work, own, speed
         inertia = at_nodes(own, work.edges)
         curves = (work, Curve(work.edges, inertia))
-        self._least, self._lightest = (each.extreme("min").value for each in curves)
+        self._least, self._lightest = (
+            each.value for each in extremes_of([(curve, "min") for curve in curves])
+        )
         self._first = self._cycles(work.edges, work.values, inertia)
         self._known: dict[float, _Solved] = {}
 

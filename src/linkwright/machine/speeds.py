@@ -38,16 +38,24 @@ class Speeds:
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.sqrt(self.kinetic / self.inertia)
 
-    @cached_property
+    @property
     def fastest(self) -> Peak:
         """The largest speed over the mean: piece, place in it, value."""
-        return largest(self.values, self.design)
+        return self._extremes[0]
 
-    @cached_property
+    @property
     def slowest(self) -> Peak:
         """The same of the smallest one."""
-        piece, place, value = largest(-self.values, self.design)
-        return piece, place, -value
+        return self._extremes[1]
+
+    @cached_property
+    def _extremes(self) -> tuple[Peak, Peak]:
+        pieces, designs = len(self.design), len(self.energy)
+        both = np.concatenate([self.values, -self.values], axis=1)
+        owner = np.concatenate([self.design, self.design + designs])
+        piece, place, value = largest(both, owner)
+        high, low = slice(designs), slice(designs, None)
+        return (piece[high], place[high], value[high]), (piece[low] - pieces, place[low], -value[low])
 
     @property
     def fluctuation(self) -> Floats:
