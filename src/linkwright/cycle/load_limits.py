@@ -99,8 +99,8 @@ class LimitsOfDesigns:
         self.certain = np.ones(self.count, dtype=np.bool_)
         self.limits: dict[Output, Limits] = {}
         if sought.rates is not None:
-            stretches = Stretches(self.span, [])
-            for each in events(sought.rates, self.machine.known, self.designs, stretches):
+            stretches, known = Stretches(self.span, []), self.machine.tracked(self.designs, self.span.period)
+            for each in events(sought.rates, known, self.designs, stretches):
                 output = sought.outputs[int(each.name)]
                 self.limits[output] = Limits(each, sought.values[output], self.span)
         self.found = self._found()
