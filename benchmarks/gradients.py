@@ -8,12 +8,11 @@ import numpy as np
 
 from benchmarks.cases import Floats, Work, fourbar_designs, sixbar_designs
 from benchmarks.timing import Candidate
-from linkwright.engine.cycle import CycleProgram, summaries
-from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
+from linkwright.engine.gradient import Gradient
 from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
-from linkwright.engine.stage import Stage
+from linkwright.engine.summaries import summaries
 from linkwright.engine.vector import Vec
 
 VALUE, BOTH = "value", "value and gradient"
@@ -30,9 +29,7 @@ class GradientWork:
         self.wrt = tuple(
             each for each in self.program.parameters if not each.startswith(("mode:", "driver."))
         )
-        stage = Stage(self.program, {"mean": Reduction("objective", "mean")})
-        cycle = CycleProgram((stage,), self.program.parameters)
-        self.gradient: CycleGradient = cycle_gradient(cycle, "mean", self.wrt)
+        self.gradient = Gradient(self.program, Reduction("objective", "mean"), self.wrt)
         self.table = work.table(self.program, designs)
         own = [self.program.parameters.index(each) for each in self.gradient.parameters]
         self.own_table = np.ascontiguousarray(self.table[:, own])

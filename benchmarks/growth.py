@@ -11,13 +11,13 @@ import numpy as np
 import linkwright as lw
 from benchmarks.timing import Candidate, Rounds, in_turns
 from linkwright.engine import machine_code
-from linkwright.engine.cycle import summaries
 from linkwright.engine.ir_kernel import kernel
 from linkwright.engine.ir_module import ENTRY
 from linkwright.engine.lines import Lines
 from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Accumulation, Reduction
+from linkwright.engine.summaries import summaries
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace, trace_motion

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property, partial
 from math import pi
 
@@ -70,25 +70,47 @@ class LoadLimits:
         drift = MotionSignals(self.machine.nominal).whole.drift
         return {LAP: lap * (1.0 if course.closed else 2.0), DRIFT: drift}
 
-    def of(self, columns: Mapping[str, Floats]) -> LimitsOfDesigns:
+    @property
+    def dimensions(self) -> frozenset[str]:
+        """Dimensions that vary on which they depend."""
+        formulas = [*self.values.values(), *([] if self.rates is None else [self.rates])]
+        first = self.machine.course.first.name
+        taken = {name for formula in formulas for name in formula.columns}
+        return frozenset(self.machine.varied) & (taken | {f"{first}.speed", f"{first}.start"})
+
+    def solve(self, columns: Mapping[str, Floats]) -> FoundLimits:
         """Those of designs with some columns (designs,)."""
-        return LimitsOfDesigns(self, columns)
-
-    def columns(self, columns: Mapping[str, Floats]) -> tuple[dict[str, Floats], Flags]:
-        """Their numbers (designs,) by the names of parameters, and which designs have just those limits."""
         count = len(next(iter(columns.values()))) if columns else 1
-        blocks = [
-            self.of({name: each[first : first + BLOCK] for name, each in columns.items()})
-            for first in range(0, count, BLOCK)
-        ]
-        names = blocks[0].found
-        found = {name: np.concatenate([each.found[name] for each in blocks]) for name in names}
-        return found, np.concatenate([each.certain for each in blocks])
+        return FoundLimits(
+            [
+                _Block(self, {name: each[first : first + BLOCK] for name, each in columns.items()})
+                for first in range(0, count, BLOCK)
+            ]
+        )
 
 
-class LimitsOfDesigns:
-    """``found``: numbers (designs,) by the names of parameters; ``certain``: designs that have just one limit of
-    either kind between which each load acts, one after the other."""
+class FoundLimits:
+    """``numbers`` (designs,) by the names of parameters; ``certain``: designs that have just one limit of either kind
+    between which each load acts, one after the other."""
+
+    def __init__(self, blocks: Sequence[_Block]) -> None:
+        self._blocks = blocks
+        self.numbers: dict[str, Floats] = {
+            name: np.concatenate([each.numbers[name] for each in blocks]) for name in blocks[0].numbers
+        }
+        self.certain: Flags = np.concatenate([each.certain for each in blocks])
+
+    def pull(self, bars: Mapping[str, Floats]) -> dict[str, Floats]:
+        """From derivatives (designs,) by the numbers those by the designs' columns."""
+        found, first = [], 0
+        for each in self._blocks:
+            part = slice(first, first := first + each.count)
+            found.append(each.pull({name: bar[part] for name, bar in bars.items()}))
+        return {name: np.concatenate([each[name] for each in found]) for name in found[0]}
+
+
+class _Block:
+    """The limits of some designs."""
 
     def __init__(self, sought: LoadLimits, columns: Mapping[str, Floats]) -> None:
         self.sought, self.machine = sought, sought.machine
@@ -103,7 +125,7 @@ class LimitsOfDesigns:
             for each in events(sought.rates, known, self.designs, stretches):
                 output = sought.outputs[int(each.name)]
                 self.limits[output] = Limits(each, sought.values[output], self.span)
-        self.found = self._found()
+        self.numbers = self._numbers()
 
     def _periods(self) -> Floats:
         course = self.machine.course
@@ -118,7 +140,7 @@ class LimitsOfDesigns:
         rate = float(course.first.law.coordinate(np.array([course.begin]))[1][0])
         return self.designs.get(f"{course.first.name}.speed", np.full(self.count, rate))
 
-    def _found(self) -> dict[str, Floats]:
+    def _numbers(self) -> dict[str, Floats]:
         found = {}
         for output in self.sought.outputs:
             limits = self.limits.get(output)

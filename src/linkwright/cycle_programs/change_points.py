@@ -17,7 +17,7 @@ from linkwright.core.search import lowest
 from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
-from linkwright.engine.stage import Backend, Run, code_for
+from linkwright.engine.summaries import Backend, Run, code_for
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.change_points import MEETING, TOUCH
 from linkwright.kinematics.passing_proof import NEAR

@@ -13,11 +13,13 @@ from linkwright.cycle_programs.limit_stages import Way, constants, limit_stages
 from linkwright.cycle_programs.loaded_cycle import along_input, doubtful, doubts, with_loads
 from linkwright.cycle_programs.traced_outputs import NEAREST, VALID, Traced, design_table
 from linkwright.engine.cycle import CycleProgram
+from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
-from linkwright.engine.stage import Backend, Stage
+from linkwright.engine.stage import Stage
+from linkwright.engine.summaries import Backend
 from linkwright.engine.trace import Scalar, select
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.positions import Positions
@@ -326,3 +328,49 @@ class Approach:
         found = self.evaluator.run_designs(table, self.inputs, {}, states, length=1)[:, :, 0]
         n = len(self.names)
         return found[:, :n], found[:, n], found[:, n + 1 :]
+
+
+class LimitsBeside:
+    """Limits between which loads act, where what is carried from position to position is given."""
+
+    def __init__(self, traced: Traced, loads: AlongInput) -> None:
+        self.traced = traced
+        self.cycle = CycleProgram(tuple(limits_beside(traced, loads.outputs, loads.valued)))
+        self.numbers = constants(traced)
+        self.known = {**traced.solver.nominal.parameters, **self.numbers, **loads.constants}
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """Dimensions on which they depend."""
+        return self.cycle.dimensions
+
+    def solve(self, columns: Mapping[str, Floats], states: Mapping[str, Floats]) -> FoundBeside:
+        """Those of designs with some columns (designs,), and states (designs, n)."""
+        return FoundBeside(
+            self, design_table(self.cycle.dimensions, self.known, columns), states, tuple(columns)
+        )
+
+
+class FoundBeside:
+    """As :class:`linkwright.cycle.load_limits.FoundLimits`."""
+
+    def __init__(
+        self, sought: LimitsBeside, table: Floats, states: Mapping[str, Floats], by: tuple[str, ...]
+    ) -> None:
+        self._sought, self._inputs = sought, (table, sought.traced.positions.arrays, states)
+        self._by = [name for name in by if name in sought.cycle.dimensions]
+        found = sought.cycle.evaluate(*self._inputs, threads=1)
+        self.numbers: dict[str, Floats] = {
+            n: np.asarray(v, dtype=float) for n, v in found.items() if n.startswith(("limit:", "value:"))
+        }
+        self.certain: Flags = np.all([v == 0.0 for n, v in found.items() if n.startswith("doubt:")], axis=0)
+
+    def pull(self, bars: Mapping[str, Floats]) -> dict[str, Floats]:
+        """From derivatives (designs,) by the numbers those by the designs' columns."""
+        names = [name for name in self.numbers if name in bars]
+        if not names or not self._by:
+            return {}
+        gradient = cycle_gradient(self._sought.cycle, names, self._by)
+        slopes = gradient.evaluate_all(*self._inputs, threads=1)[1]
+        found = np.einsum("kd,kdw->wd", np.array([bars[name] for name in names]), slopes)
+        return dict(zip(self._by, found, strict=True))

@@ -15,12 +15,11 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import kind_of, owners_of
-from linkwright.cycle_programs.iterated_groups import limits_beside
-from linkwright.cycle_programs.limit_stages import constants, whole_turns
-from linkwright.cycle_programs.loaded_cycle import FoundLimits, found_limits
+from linkwright.cycle.load_limits import FoundLimits
+from linkwright.cycle_programs.iterated_groups import FoundBeside, LimitsBeside
+from linkwright.cycle_programs.limit_stages import whole_turns
+from linkwright.cycle_programs.loaded_cycle import with_limits
 from linkwright.cycle_programs.traced_outputs import Traced
-from linkwright.engine.cycle import CycleProgram
-from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.table import Tables
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.friction_stage import MOST, can_be_traced
@@ -98,32 +97,25 @@ def _moving(
     if over_time and (states or not along.outputs or any(each.through_end for each in sizes)):
         return None
     along = replace(along, constants={**along.constants, **_middle_numbers(plain, along)})
+    columns = {name: np.array([plain.mechanism.dimension(name)]) for name in by}
+    if not along.outputs:
+        return {}, {}
     if states:
-        stages = limits_beside(plain, along.outputs, valued=along.valued)
-        limits: FoundLimits | None = FoundLimits(tuple(stages), constants(plain))
+        beside = LimitsBeside(plain, along)
+        numbers = dict(beside.numbers)
+        limits: FoundLimits | FoundBeside = beside.solve(columns, states)
     else:
-        limits = found_limits(plain, along)
-    if limits is None:
-        return None
-    cycle, numbers = CycleProgram(limits.stages), dict(limits.constants)
-    known = {**plain.solver.nominal.parameters, **numbers, **along.constants}
-    table = np.array([[known[name] for name in cycle.dimensions]])
-    arrays = {**plain.positions.arrays, **limits.positions}
-    found = (
-        cycle.evaluate(table, arrays, states, tables=along.tables, backend="numpy") if along.outputs else {}
-    )
-    if any(found[f"doubt:{output}"][0] != 0.0 for output in along.outputs):
+        loaded = with_limits(plain, along)
+        if loaded is None or loaded.limits is None:
+            return None
+        numbers, limits = dict(loaded.limits.numbers), loaded.limits.solve(columns)
+    if not limits.certain.all():
         return None
     slopes = {}
-    own = [name for name in by if name in cycle.dimensions]
-    for name in found:
-        if name.startswith(("limit:", "limit input:", "value:")):
-            numbers[name] = float(found[name][0])
-            slopes[name] = np.zeros(len(by))
-            if own:
-                gradient = cycle_gradient(cycle, name, own)
-                row = gradient.evaluate(table, arrays, states, tables=along.tables, backend="numpy")[1][0]
-                slopes[name][[by.index(each) for each in own]] = row
+    for name, value in limits.numbers.items():
+        numbers[name] = float(value[0])
+        found = limits.pull({name: np.ones(1)})
+        slopes[name] = np.array([found[each][0] if each in found else 0.0 for each in by])
     return numbers, slopes
 
 

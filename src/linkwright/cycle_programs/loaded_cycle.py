@@ -1,24 +1,20 @@
-"""The cycle program of a mechanism with traced loads: limit positions first, then forces and summaries."""
+"""Machines whose loads and friction are traced over positions, and what these take of the cycles of designs."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from dataclasses import field, replace
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, kind_of, owners_of
-from linkwright.cycle.load_limits import LoadLimits
+from linkwright.cycle.load_limits import FoundLimits, LoadLimits
 from linkwright.cycle.machine import Machine, NotTogether
-from linkwright.cycle_programs.limit_stages import constants, limit_stages, whole_turns
-from linkwright.cycle_programs.timed_limits import timed_limits
-from linkwright.cycle_programs.timed_search import TimedSearch
+from linkwright.cycle_programs.limit_stages import whole_turns
 from linkwright.cycle_programs.traced_outputs import Traced, design_table
-from linkwright.engine.program import Program
 from linkwright.engine.reductions import VALID_COUNT, Results
-from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Scalar, select
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.friction import FrictionTerm, Swinging, moving_rate
@@ -44,22 +40,23 @@ class LoadedCycle:
     limits: LoadLimits | None
     constants: Mapping[str, float]
 
-    def table(self, program: Program, part: Mapping[str, Floats]) -> tuple[Floats, Flags]:
-        """What a program takes of the designs with the given columns, (designs, parameters), and of which designs the
-        limits are certain, (designs,)."""
-        known = {**self.traced.solver.nominal.parameters, **self.constants}
-        if self.limits is None:
-            count = len(next(iter(part.values())))
-            return design_table(program.parameters, known, part), np.ones(count, dtype=np.bool_)
-        found, certain = self.limits.columns(part)
-        return design_table(program.parameters, known, {**part, **found}), certain
+    def solve(self, part: Mapping[str, Floats]) -> FoundLimits | None:
+        """The limits of the designs with the given columns."""
+        return None if self.limits is None else self.limits.solve(part)
 
-    def doubtful(self, results: Results, certain: Flags) -> Indices:
+    def table(self, names: Sequence[str], part: Mapping[str, Floats], limits: Mapping[str, Floats]) -> Floats:
+        """What a program takes of the designs with the given columns and limits, (designs, names)."""
+        known = {**self.traced.solver.nominal.parameters, **self.constants}
+        return design_table(names, known, {**part, **limits})
+
+    def doubtful(self, results: Results, limits: FoundLimits | None) -> Indices:
         """Numbers of the designs that pass all positions, but with limits or friction that are not certain, or loads
         that have no value somewhere."""
         count = self.traced.positions.count
         found = doubtful(results, self.loads, count)
-        return np.union1d(found, np.flatnonzero(~certain & (results[VALID_COUNT] == count)))
+        if limits is None:
+            return found
+        return np.union1d(found, np.flatnonzero(~limits.certain & (results[VALID_COUNT] == count)))
 
 
 def loaded_cycle(traced: Traced, varied: Collection[str], fields: Iterable[str]) -> LoadedCycle | None:
@@ -82,36 +79,6 @@ def with_limits(traced: Traced, known: AlongInput) -> LoadedCycle | None:
             return None
     constants = {**known.constants, **({} if limits is None else limits.numbers)}
     return LoadedCycle(with_loads(traced, known), known, limits, constants)
-
-
-@dataclass(frozen=True)
-class FoundLimits:
-    """The ``stages`` that find the limits that loads take; numbers of the cycle, and inputs per position (n,), that
-    these take beside those of the motion."""
-
-    stages: tuple[Stage, ...]
-    constants: Mapping[str, float]
-    positions: Mapping[str, Floats] = field(default_factory=dict)
-
-
-def found_limits(traced: Traced, loads: AlongInput, *, judged: bool = True) -> FoundLimits | None:
-    """What finds the limits between the positions; None where these are sought over the time and are not found;
-    ``judged``: see ``limit_stages``.
-
-    Raises:
-        LinkwrightError: angles that turn through.
-    """
-    numbers = constants(traced)
-    if not loads.outputs or whole_turns(traced):
-        return FoundLimits(
-            tuple(limit_stages(traced, loads.outputs, valued=loads.valued, judged=judged)), numbers
-        )
-    limits = timed_limits(traced, loads, traced.positions.count)
-    if limits is None:
-        return None
-    start, count = float(traced.positions.around.min()), traced.positions.count
-    search = TimedSearch(traced, start, limits.lap, limits.closes, count)
-    return FoundLimits(tuple(limits.stages(search)), {**numbers, **limits.constants}, search.positions)
 
 
 def with_loads(plain: Traced, known: AlongInput) -> Traced:

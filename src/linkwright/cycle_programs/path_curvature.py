@@ -17,7 +17,8 @@ from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import Replay
-from linkwright.engine.stage import Arrays, Backend, Stage
+from linkwright.engine.stage import Stage
+from linkwright.engine.summaries import Arrays, Backend
 from linkwright.engine.trace import Scalar
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.names import point_key

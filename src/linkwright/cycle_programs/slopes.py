@@ -14,8 +14,8 @@ from linkwright.cycle_programs.traced_outputs import VALID, Traced
 from linkwright.engine.derivative import forward, reverse
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
-from linkwright.engine.stage import Backend
 from linkwright.engine.states import inputs_as_fields
+from linkwright.engine.summaries import Backend
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.load_site import middle_name
 from linkwright.kinetostatics.named_outputs import Quantity

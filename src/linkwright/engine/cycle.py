@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import field
 from functools import cached_property
 
@@ -11,10 +11,9 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.program import Program
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.reductions import VALID_COUNT, Reduction, Results
-from linkwright.engine.stage import BACKENDS, Arrays, Backend, Run, Stage, blank
+from linkwright.engine.reductions import Results
+from linkwright.engine.stage import Stage, blank
+from linkwright.engine.summaries import BACKENDS, Arrays, Backend, Run
 from linkwright.engine.table import Tables
 from linkwright.engine.threads import chunks, cores
 
@@ -172,18 +171,3 @@ class Known:
             source = stage.starts[name]
             start[:, column] = self.column(source) if isinstance(source, str) else source
         return start
-
-
-def summaries(program: Program, reductions: Sequence[Reduction], valid: str | None = "valid") -> CycleProgram:
-    """Reductions of a program's outputs over the positions, by their own names, and the number of valid positions as
-    ``valid.count``; kept for the program."""
-    key = (*reductions, valid)
-    return _summaries.get(program, key, lambda: _of_one_stage(program, reductions, valid))
-
-
-_summaries: Recent[Program, CycleProgram] = Recent(64)
-
-
-def _of_one_stage(program: Program, reductions: Sequence[Reduction], valid: str | None) -> CycleProgram:
-    named = {each.name: each for each in reductions}
-    return CycleProgram((Stage(program, named, valid=valid, count=VALID_COUNT),), program.parameters)

@@ -27,7 +27,8 @@ from linkwright.engine.reverse_programs import (
     bar,
     with_slopes,
 )
-from linkwright.engine.stage import Arrays, Backend, Run, Stage, over_designs, reduced
+from linkwright.engine.stage import Stage
+from linkwright.engine.summaries import Arrays, Backend, Run, over_designs, reduced
 from linkwright.engine.table import Tables
 
 Bars = dict[str, Floats]

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from linkwright.engine.cycle import CycleProgram
-from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
+from linkwright.engine.gradient import Gradient
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import Replay
-from linkwright.engine.stage import Stage
 from linkwright.engine.tangent import numeric_outputs, tangents
 from linkwright.engine.trace import Scalar
 
@@ -37,7 +35,7 @@ def forward(program: Program, wrt: Sequence[str]) -> Program:
 
 def reverse(
     program: Program, seeds: Sequence[str], wrt: Sequence[str] | None = None, valid: str | None = "valid"
-) -> CycleGradient:
+) -> Gradient:
     """The gradient of sum over positions of seed times output, for seeds given at evaluation.
 
     ``seeds``: names of outputs; each one's weights are a field ``seed:output`` (designs, n). ``wrt``: names of
@@ -56,8 +54,7 @@ def reverse(
     for name in seeds:
         total = total + replay.trace.field_input(f"seed:{name}") * replay.outputs[name]
     outputs = {_VALUE: total} | ({valid: replay.outputs[valid]} if valid in program.output_names else {})
-    stage = Stage(Program.of(replay.trace, outputs), {_VALUE: Reduction(_VALUE, "sum")}, valid=valid)
-    return cycle_gradient(CycleProgram((stage,), program.parameters), _VALUE, wrt)
+    return Gradient(Program.of(replay.trace, outputs), Reduction(_VALUE, "sum"), wrt, valid=valid)
 
 
 def _check_inputs(names: Sequence[str], known: Sequence[str]) -> None:

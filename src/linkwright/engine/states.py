@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from typing import Literal
 
 from linkwright.engine.node import Node
 from linkwright.engine.program import Program
 
 
-def inputs_as_fields(program: Program, names: Collection[str]) -> Program:
-    """The same program with parameters, positions and states of some ``names`` taken as fields of the same names."""
+def inputs_as_fields(
+    program: Program, names: Collection[str], op: Literal["field", "position"] = "field"
+) -> Program:
+    """The same program with parameters, positions and states of some ``names`` taken as fields, or positions, of the
+    same names."""
     nodes: list[Node] = []
     for node in program.nodes:
         if not node.args and node.name in names:
-            nodes.append(node._replace(op="field", varies=True))
+            nodes.append(node._replace(op=op, varies=True))
         else:
             nodes.append(node._replace(varies=node.varies or any(nodes[each].varies for each in node.args)))
     following = tuple((name, index) for name, index in program.next_states if name not in names)

@@ -12,7 +12,7 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.cycle.cycle import Cycle, Signal, Solved
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine, NotTogether
-from linkwright.engine.stage import Backend
+from linkwright.engine.summaries import Backend
 from linkwright.engine.threads import cores, spread_over
 from linkwright.events.course import moves
 from linkwright.events.formula import HIGH, LOW

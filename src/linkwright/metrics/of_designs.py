@@ -21,7 +21,7 @@ from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.replay import inlined
-from linkwright.engine.stage import Backend
+from linkwright.engine.summaries import Backend
 from linkwright.engine.threads import cores, spread_over
 from linkwright.engine.trace import Scalar, Trace
 from linkwright.errors import RequestError

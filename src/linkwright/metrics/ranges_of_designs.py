@@ -15,7 +15,7 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.cycle.machine import Traces
-from linkwright.engine.stage import Backend
+from linkwright.engine.summaries import Backend
 from linkwright.engine.trace import select
 from linkwright.events.course import Course, moves
 from linkwright.events.events import AT, at_times

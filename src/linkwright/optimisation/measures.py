@@ -14,7 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse
 from linkwright.cycle.summary import one
 from linkwright.engine.machine_code import available
-from linkwright.engine.stage import Backend
+from linkwright.engine.summaries import Backend
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.expressions import amount
 from linkwright.cycle_programs.path_curvature import path_curvature
-from linkwright.engine.stage import Backend
+from linkwright.engine.summaries import Backend
 from linkwright.errors import QuantityError
 from linkwright.files.write import flow
 from linkwright.mechanism.mechanism import Mechanism

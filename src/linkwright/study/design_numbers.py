@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.progress import Progress, paced, part_of
 from linkwright.engine.machine_code import available
-from linkwright.engine.stage import Backend
+from linkwright.engine.summaries import Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces

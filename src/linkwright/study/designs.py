@@ -19,7 +19,7 @@ from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.cycle.summary import Summary
 from linkwright.engine.machine_code import available
-from linkwright.engine.stage import BACKENDS, Backend
+from linkwright.engine.summaries import BACKENDS, Backend
 from linkwright.engine.threads import chunks
 from linkwright.errors import RequestError
 from linkwright.kinematics.cycle import over_cycle

@@ -11,9 +11,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.cycle_programs.one_by_one import changes_of, sentence_of
 from linkwright.cycle_programs.traced_outputs import Traced
-from linkwright.engine.cycle import summaries
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
+from linkwright.engine.summaries import summaries
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence

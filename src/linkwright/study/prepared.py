@@ -23,7 +23,7 @@ from linkwright.engine.llvm_backend import CompiledProgram, compile_program
 from linkwright.engine.machine_code import OF_ONE_ADDRESS, available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
-from linkwright.engine.stage import BACKENDS, Backend
+from linkwright.engine.summaries import BACKENDS, Backend
 from linkwright.engine.trace import Mask, Scalar, absolute, select
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import nearness, parts

@@ -18,7 +18,7 @@ from linkwright.cycle.summary import Summary
 from linkwright.cycle_programs.known_loads import known_loads
 from linkwright.cycle_programs.slopes import Slopes
 from linkwright.cycle_programs.traced_outputs import Traced
-from linkwright.engine.stage import BACKENDS, Backend
+from linkwright.engine.summaries import BACKENDS, Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.friction_stage import MOST

@@ -44,7 +44,7 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.engine.stage import Backend
+    from linkwright.engine.summaries import Backend
     from linkwright.study.design_numbers import Numbers
 
 Sampling = Literal["grid", "sobol"]

@@ -18,15 +18,14 @@ from linkwright.cycle_programs.iterated_groups import MARGIN, following
 from linkwright.cycle_programs.loaded_cycle import LoadedCycle, doubts, loaded_cycle
 from linkwright.cycle_programs.one_by_one import OneByOne, changes_of
 from linkwright.cycle_programs.traced_outputs import NEAREST, VALID, Traced
-from linkwright.engine.cycle import summaries
 from linkwright.engine.llvm_backend import compile_program
 from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.reductions import Reduction, Results
-from linkwright.engine.stage import WORTH_COMPILING, Backend
 from linkwright.engine.states import inputs_as_fields
+from linkwright.engine.summaries import WORTH_COMPILING, Backend, summaries
 from linkwright.engine.threads import chunks, cores
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError, SelfCheckError
@@ -289,16 +288,16 @@ class SweepRun:
         certain."""
         program = self._traced_loads
         wanted = [*self.reductions, *(Reduction(name, "sum") for name in self._doubts)]
-        table, certain = loaded.table(program, part)
+        limits = loaded.solve(part)
         results = summaries(program, wanted, VALID).evaluate(
-            table,
+            loaded.table(program.parameters, part, {} if limits is None else limits.numbers),
             self.positions.arrays,
             tables=loaded.loads.tables,
             threads=self.manner.threads,
             backend=self.backend,
         )
         results |= {name: results.pop(f"{name}.sum") for name in self._doubts}
-        return results, loaded.doubtful(results, certain)
+        return results, loaded.doubtful(results, limits)
 
     def _again(
         self, results: Results, doubtful: Indices, part: Mapping[str, Floats]

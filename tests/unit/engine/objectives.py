@@ -7,11 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
-from linkwright.engine.cycle import CycleProgram
-from linkwright.engine.cycle_gradient import CycleGradient, cycle_gradient
+from linkwright.engine.gradient import Gradient
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Kind, Reduction
-from linkwright.engine.stage import Stage
 from linkwright.engine.trace import Trace
 
 
@@ -25,19 +23,17 @@ class Term(NamedTuple):
 
 def gradient_of(
     program: Program, terms: Sequence[Term], wrt: Sequence[str] | None = None, valid: str | None = "valid"
-) -> CycleGradient:
+) -> Gradient:
     """The sum of the terms with its gradient by parameters, all of them by default."""
     if len(terms) == 1 and terms[0].weight == 1.0:
-        stage = Stage(program, {"total": Reduction(*terms[0][:2])}, valid=valid)
-    else:
-        t, total = Trace(), 0.0  # type: Trace, Scalar
-        for term in terms:
-            total = total + term.weight * t.parameter(Reduction(*term[:2]).name)
-        stage = Stage(program, after=Program.of(t, {"total": total}), valid=valid)
-    return cycle_gradient(CycleProgram((stage,), program.parameters), "total", wrt)
+        return Gradient(program, Reduction(*terms[0][:2]), wrt, valid=valid)
+    t, total = Trace(), 0.0  # type: Trace, Scalar
+    for term in terms:
+        total = total + term.weight * t.parameter(Reduction(*term[:2]).name)
+    return Gradient(program, Program.of(t, {"total": total}), wrt, valid=valid)
 
 
-def table_of(gradient: CycleGradient, numbers: Mapping[str, ArrayLike]) -> Floats:
+def table_of(gradient: Gradient, numbers: Mapping[str, ArrayLike]) -> Floats:
     """Designs (designs, parameters) from numbers (designs,) of each, or one for all."""
     columns = np.broadcast_arrays(*(np.atleast_1d(numbers[name]) for name in gradient.parameters))
     return np.array(columns, dtype=float).T

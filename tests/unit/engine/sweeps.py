@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike
 from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import VALID_COUNT, Kind, Reduction, Results
-from linkwright.engine.stage import Arrays, Backend, Stage
+from linkwright.engine.stage import Stage
+from linkwright.engine.summaries import Arrays, Backend
 from linkwright.engine.table import Tables
 
 

@@ -16,7 +16,8 @@ from linkwright.engine.llvm_backend import available
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.replay import inlined
-from linkwright.engine.stage import Backend, Run, Stage, code_for
+from linkwright.engine.stage import Stage
+from linkwright.engine.summaries import Backend, Run, code_for
 from linkwright.engine.tangent import slope
 from linkwright.engine.trace import Scalar, Trace, Value, cos, select, sin, sqrt
 

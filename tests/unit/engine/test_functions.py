@@ -15,15 +15,13 @@ from tests.unit.engine.objectives import Term, gradient_of, table_of
 from tests.unit.engine.sweeps import sweep
 
 from linkwright.engine import trace as tr
-from linkwright.engine.cycle import CycleProgram
-from linkwright.engine.cycle_gradient import cycle_gradient
 from linkwright.engine.derivative import forward
+from linkwright.engine.gradient import Gradient
 from linkwright.engine.llvm_backend import available, compile_program
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.scalar_backend import ScalarProgram
-from linkwright.engine.stage import Stage
 from linkwright.engine.table import Table
 from linkwright.engine.tangent import slope
 
@@ -273,9 +271,9 @@ def test_gradients_through_look_ups_are_those_of_the_spline(backend: str) -> Non
     spline, tables = CubicSpline(xs, ys), {"law": Table.spline(xs, ys), "other": Table.spline(xs, ys)}
     t = tr.Trace()
     y = t.lookup("law", t.parameter("a") + t.position("x")) * t.parameter("b")
-    cycle = CycleProgram((Stage(Program.of(t, {"y": y}), {"sum": Reduction("y", "sum")}),), ("a", "b"))
+    gradient = Gradient(Program.of(t, {"y": y}), Reduction("y", "sum"))
     at, table = np.linspace(0.0, 1.0, 9), np.array([[xs[2], 2.0], [xs[4], -1.0], [xs[5], 0.5]])
-    values, slopes = cycle_gradient(cycle, "sum").evaluate(table, {"x": at}, tables=tables, backend=backend)  # type: ignore[arg-type]
+    values, slopes = gradient.evaluate(table, {"x": at}, tables=tables, backend=backend)  # type: ignore[arg-type]
     places = table[:, :1] + at
     np.testing.assert_allclose(values, spline(places).sum(axis=1) * table[:, 1], rtol=1e-11)
     np.testing.assert_allclose(slopes[:, 0], spline(places, 1).sum(axis=1) * table[:, 1], rtol=1e-11)

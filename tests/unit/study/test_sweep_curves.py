@@ -12,7 +12,7 @@ from tests.every import every
 
 import linkwright as lw
 from linkwright.cycle_programs.one_by_one import OneByOne
-from linkwright.engine.stage import Backend
+from linkwright.engine.summaries import Backend
 from linkwright.study import sweep
 from linkwright.study.designs import sweep_curves
 

@@ -130,9 +130,6 @@ metrics of every design. Designs that cannot move are counted and explained.""",
     "for outputs use sensitivity, for design numbers study",
     "objective_turns": "{name!r}: {links} turns so far between two positions that its turns cannot be counted; "
     "give more steps, or more inputs",
-    "objective_turned_loads": "{name!r}: loads go by limits of what a wheel, rack, belt or cam on {links} moves, "
-    "whose turns are counted from position to position, so no gradient of many designs is found; for outputs use "
-    "sensitivity, for design numbers study",
     "sweep_metric": "{names} of {name!r} does not apply to it; choose another one",
     "objective_metric": "{names} of {name!r} is no number over the cycle that has a gradient, or does not apply to "
     "it; choose another one",

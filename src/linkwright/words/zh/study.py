@@ -110,8 +110,6 @@ WORDS = {
     "或有载荷取决于极限多于两个的输出，因此不能成批求梯度；输出的梯度请用 sensitivity，"
     "设计指标请用 study",
     "objective_turns": "“{name}”：{links} 在相邻两个位置之间转得太多，不能确定整圈数；请增加步数或输入位置",
-    "objective_turned_loads": "“{name}”：载荷取决于 {links} 上的齿轮、齿条、带或凸轮所带动构件的极限，"
-    "而其整圈数逐位置累计，不能成批求梯度；输出的梯度请用 sensitivity，设计指标请用 study",
     "sweep_metric": "“{name}”没有 {names} 这个指标；请另选指标",
     "objective_metric": "“{name}”的 {names} 不是可求梯度的循环指标，或不适用于该机构；请另选指标",
     "objective_swept": "“{name}”的 {names} 在不经过变点时有梯度；循环并非匀速转过整圈时，"
