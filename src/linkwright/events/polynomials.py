@@ -8,7 +8,7 @@ import numpy as np
 from numpy.polynomial import chebyshev, legendre
 from numpy.typing import NDArray
 
-from linkwright.core.arrays import Floats, Indices
+from linkwright.core.arrays import EQUAL, Floats, Indices
 from linkwright.events import peak_kernel
 
 #: Of every design: the piece of an extreme, its place in it (-1 to 1), and its value, (designs,) each.
@@ -106,10 +106,12 @@ def turning_points(rows: Floats, low: Floats, high: Floats, start: Floats) -> Fl
 
 
 def best_of(value: Floats, owner: Indices) -> Indices:
-    """Of values (k,) in the order of their owners the number of the first largest one of every owner."""
+    """Of values (k,) in the order of their owners the number of the first largest one of every owner; which of equal
+    ones is larger is rounding."""
     starts = np.flatnonzero(np.append(True, owner[1:] != owner[:-1]))
     best = np.maximum.reduceat(value, starts)
-    first = np.flatnonzero(~(value < np.repeat(best, np.diff(np.append(starts, len(owner))))))
+    least = np.repeat(best - EQUAL * np.abs(best), np.diff(np.append(starts, len(owner))))
+    first = np.flatnonzero(~(value < least))
     return np.asarray(first[np.append(True, owner[first][1:] != owner[first][:-1])])
 
 
