@@ -24,6 +24,7 @@ STAGES = (
         "engine",
         "pictures",
     ),
+    ("curves",),
     ("fields", "elements"),
     ("laws",),
     ("joints", "drivers", "loads"),

@@ -11,7 +11,7 @@ from linkwright.cams.curves import Contact
 from linkwright.cams.follower import Follower, LiftQuantity
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.events.curve import Curve, Extreme
+from linkwright.curves.curve import Curve, Extreme
 from linkwright.fields.base import Quantity, given
 from linkwright.laws.program import Program
 

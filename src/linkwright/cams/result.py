@@ -17,8 +17,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.search import ends, first_largest
+from linkwright.curves.curve import Curve
 from linkwright.errors import RequestError
-from linkwright.events.curve import Curve
 from linkwright.laws.program import MotionProgram
 from linkwright.parts.base import Block, Result
 from linkwright.words import Say

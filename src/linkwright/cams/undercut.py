@@ -14,7 +14,7 @@ from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.search import ends as last_places
 from linkwright.core.search import first_largest
-from linkwright.events.curve import Curve
+from linkwright.curves.curve import Curve
 from linkwright.laws.program import Program
 
 #: Places on the way at which everything is looked at first.

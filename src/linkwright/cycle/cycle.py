@@ -15,16 +15,16 @@ import numpy as np
 from linkwright.core.arrays import EQUAL, Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, RelativeAngle
+from linkwright.curves.pieces import HIGH, LOW, Layout, Pieces, Wanted
+from linkwright.curves.polynomials import best_of, climbed, largest
 from linkwright.cycle.loads import Acting, InPart, OnStrokes
 from linkwright.cycle.machine import VALID, Machine, Swing
 from linkwright.cycle.summary import STROKES, TRUE_SPEED, Summary, one, output_of, signal_of
 from linkwright.engine.trace import Scalar, Trace, absolute, sin
 from linkwright.events.events import AT, Events, events
-from linkwright.events.formula import HIGH, LOW, NODE, ROW, Formula
+from linkwright.events.formula import NODE, ROW, Formula
 from linkwright.events.inputs import AtInput
 from linkwright.events.limits import Limits
-from linkwright.events.pieces import Layout, Pieces, Wanted
-from linkwright.events.polynomials import best_of, climbed, largest
 from linkwright.events.stretches import Cuts, Span, Stretches
 from linkwright.events.strokes import Repeated, between, of_limits
 from linkwright.kinetostatics.signals import MotionSignals

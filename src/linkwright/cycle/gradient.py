@@ -13,10 +13,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
+from linkwright.curves.pieces import HIGH, LOW
+from linkwright.curves.polynomials import NODES, WEIGHTS, weights_at
 from linkwright.cycle.cycle import REACH, Signal, Solved
 from linkwright.events.events import Events
-from linkwright.events.formula import HIGH, LOW
-from linkwright.events.polynomials import NODES, WEIGHTS, weights_at
 
 #: Derivatives by the values of signals at the nodes, (POINTS, pieces), and by the widths of the pieces.
 Weights = tuple[dict[Signal, Floats], Floats]

@@ -12,6 +12,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, RelativeAngle
+from linkwright.curves.pieces import HIGH, LOW
 from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
 from linkwright.engine.replay import inlined
@@ -25,7 +26,7 @@ from linkwright.events.following import (
     path_states,
     stays_on_path,
 )
-from linkwright.events.formula import HIGH, LOW, NODE, Formula, Known
+from linkwright.events.formula import NODE, Formula, Known
 from linkwright.events.path_step import PathStep
 from linkwright.events.path_tracker import PathTracker
 from linkwright.kinematics.groups import iterated

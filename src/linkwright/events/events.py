@@ -16,9 +16,9 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.events.formula import HIGH, LOW, Formula, Known
-from linkwright.events.pieces import Layout, Pieces, Wanted
-from linkwright.events.polynomials import LOOKS, TO_LOOKS, product, turning_points
+from linkwright.curves.pieces import HIGH, LOW, Layout, Pieces, Wanted
+from linkwright.curves.polynomials import LOOKS, TO_LOOKS, product, turning_points
+from linkwright.events.formula import Formula, Known
 from linkwright.events.stretches import Stretches
 
 #: Pieces of a lap to begin with, and to what share of its size they meet a signal.

@@ -16,6 +16,7 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.curves.pieces import LOW, Columns
 from linkwright.engine.adjoint import Adjoints
 from linkwright.engine.derivative import forward
 from linkwright.engine.llvm_backend import CompiledProgram, compile_program
@@ -26,15 +27,14 @@ from linkwright.engine.replay import Replay, depending
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.table import Tables
 
-#: Place in a piece, 0 to 1; times, s, of a piece's ends; the number of its design.
-NODE, LOW, HIGH, ROW = "node", "low", "high", "row"
+#: Place in a piece, 0 to 1; the number of its design.
+NODE, ROW = "node", "row"
 #: Below this number of places NumPy has answered before a program is compiled.
 WORTH_COMPILING = 20_000
 #: So many places at most are evaluated one by one on plain numbers.
 FEW = 3
 #: The field of all formulas that take others of paths: the place in a path's step.
 PLACE = "place in the step"
-Columns = Mapping[str, Floats]
 
 
 class Along(Protocol):

@@ -8,8 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.curves.pieces import LOW
 from linkwright.events.events import AT, Events
-from linkwright.events.formula import LOW, Formula
+from linkwright.events.formula import Formula
 from linkwright.events.stretches import Span
 
 #: Limits nearer to the outermost ones than this share of the way are outermost, too.

@@ -11,9 +11,10 @@ from dataclasses import replace
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.curves.pieces import Columns
 from linkwright.events.course import Course
 from linkwright.events.following import DEGREE, FIT, Paths
-from linkwright.events.formula import Columns, Known
+from linkwright.events.formula import Known
 from linkwright.events.path_step import PathStep, Place
 from linkwright.kinematics.groups import CONVERGED
 from linkwright.kinematics.step_rule import ROOM, ROUNDING

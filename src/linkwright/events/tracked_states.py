@@ -8,11 +8,12 @@ from math import pi
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.curves.pieces import HIGH, LOW
 from linkwright.engine.program import Program
 from linkwright.engine.trace import Mask, Trace
 from linkwright.events.course import Course
 from linkwright.events.following import ITERATIONS, Paths, path_states, stays_on_path
-from linkwright.events.formula import HIGH, LOW, ROW, Formula, Known
+from linkwright.events.formula import ROW, Formula, Known
 from linkwright.events.path_step import PathStep
 from linkwright.events.path_tracker import PathTracker
 from linkwright.kinematics.motion import Motion

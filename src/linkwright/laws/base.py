@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import Piecewise
+from linkwright.curves.curve import Curve
 from linkwright.fields.base import GivenByFile
 from linkwright.registry import Registry
 
@@ -108,9 +108,7 @@ class MotionLaw(ABC):
 
     def _peak(self, order: int) -> float:
         """Largest size of a derivative between its jumps."""
-        curve = Piecewise.of(
-            lambda u: self.curves(u)[order], 0.0, 1.0, pieces=24, knots=np.array(self.breaks)
-        )
+        curve = Curve.of(lambda u: self.curves(u)[order], 0.0, 1.0, pieces=24, knots=np.array(self.breaks))
         return max(curve.extreme("max").value, -curve.extreme("min").value, 0.0)
 
 

@@ -5,26 +5,24 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
+from numpy.polynomial import chebyshev
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import NODES, POINTS, TO_LEGENDRE
+from linkwright.curves.polynomials import NODES, POINTS, SERIES
 from linkwright.engine.recently_made import Recent
 from linkwright.laws.traced import horner, row_at
 
 if TYPE_CHECKING:
     from linkwright.engine.trace import Scalar
 
-_legendre = np.polynomial.legendre
-#: From coefficients of Legendre polynomials to those of powers of u, -1 to 1; from values at the nodes of a piece to
+_U = 2.0 * NODES - 1.0
+#: From coefficients of Chebyshev polynomials to those of powers of u, -1 to 1; from values at the nodes of a piece to
 #: integrals from its middle, at the nodes.
 _TO_POWERS = np.stack(
-    [np.pad(_legendre.leg2poly([0.0] * k + [1.0]), (0, POINTS - 1 - k)) for k in range(POINTS)], axis=1
+    [np.pad(chebyshev.cheb2poly([0.0] * k + [1.0]), (0, POINTS - 1 - k)) for k in range(POINTS)], axis=1
 )
-_ONCE, _TWICE = (
-    np.stack([_legendre.legval(NODES, _legendre.legint(row, k)) for row in TO_LEGENDRE], axis=1)
-    for k in (1, 2)
-)
+_ONCE, _TWICE = (chebyshev.chebvander(_U, POINTS - 1 + k) @ chebyshev.chebint(SERIES, k) for k in (1, 2))
 #: How near polynomials come to the law and its rates, as shares of the largest; what is rounding in a coefficient;
 #: the most halvings of a piece.
 _FINE, _NOTHING, _HALVINGS = 2e-14, 2e-15, 10
@@ -88,15 +86,15 @@ _kept: Recent[Law, LawPieces] = Recent(16)
 def _row(law: Law, a: float, b: float, sizes: list[float]) -> tuple[list[float], float]:
     """The row of one piece, and how far it is from the law, as share of the ``sizes``."""
     half = 0.5 * (b - a)
-    q, rate, second = law.coordinate(0.5 * (a + b) + half * NODES)
-    orders = TO_LEGENDRE.T @ second
+    q, rate, second = law.coordinate(a + (b - a) * NODES)
+    orders = SERIES @ second
     orders[np.abs(orders) <= _NOTHING * sizes[2]] = 0.0
     once, twice = half * (_ONCE @ second), half * half * (_TWICE @ second)
     middle_rate = float(np.mean(rate - once))
-    middle = float(np.mean(q - twice - middle_rate * half * NODES))
+    middle = float(np.mean(q - twice - middle_rate * half * _U))
     misses = (
         np.abs(rate - once - middle_rate).max() / sizes[1],
-        np.abs(q - twice - middle_rate * half * NODES - middle).max() / sizes[0],
+        np.abs(q - twice - middle_rate * half * _U - middle).max() / sizes[0],
     )
     powers, last = _TO_POWERS @ orders, np.abs(orders[-3:]).max() / sizes[2]
     return [1.0 / half, -(a + b) / (b - a), middle, middle_rate, *powers.tolist()], float(max(last, *misses))

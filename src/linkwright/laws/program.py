@@ -13,7 +13,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import Extreme, Piecewise
+from linkwright.curves.curve import Curve, Extreme
 from linkwright.errors import Finding, ModelError
 from linkwright.laws.base import MOTION_LAWS, Ends, MotionLaw
 from linkwright.words.sentence import Sentence
@@ -49,11 +49,11 @@ class Program(ABC):
 
     def extreme(self, order: int, kind: str) -> Extreme:
         """The largest (``max``) or smallest (``min``) value of a derivative, with its place."""
-        return self._piecewise(order).extreme(kind)
+        return self._curve(order).extreme(kind)
 
-    def _piecewise(self, order: int) -> Piecewise:
+    def _curve(self, order: int) -> Curve:
         inner = self.breaks[(self.breaks > 0) & (self.breaks < self.period)]
-        return Piecewise.of(lambda x: self.curves(x)[order], 0.0, self.period, pieces=12, knots=inner)
+        return Curve.of(lambda x: self.curves(x)[order], 0.0, self.period, pieces=12, knots=inner)
 
     @cached_property
     def lifts(self) -> tuple[float, float]:

@@ -11,8 +11,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.search import first_largest
+from linkwright.curves.curve import Curve, increasing
 from linkwright.errors import LinkwrightError
-from linkwright.events.curve import Curve, increasing
 from linkwright.machine.torque_curve import TorqueCurve
 
 #: Driver and load must do equal work over a cycle to this share of the work done.

@@ -11,9 +11,9 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
+from linkwright.curves.curve import Curve, Extreme, Integral, at_nodes
+from linkwright.curves.polynomials import POINTS
 from linkwright.errors import LinkwrightError
-from linkwright.events.curve import Curve, Extreme, Integral, at_nodes
-from linkwright.events.polynomials import POINTS
 from linkwright.kinematics.cycle import not_back
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.whole_turns import MOST

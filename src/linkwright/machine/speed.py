@@ -10,9 +10,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.curves.curve import Curve, Extreme, Function, Integral, at_nodes, extremes_of
+from linkwright.curves.polynomials import WEIGHTS
 from linkwright.errors import LinkwrightError
-from linkwright.events.curve import Curve, Extreme, Function, Integral, at_nodes, extremes_of
-from linkwright.events.polynomials import WEIGHTS
 from linkwright.machine.speeds import Speeds, SteadyCycles
 from linkwright.machine.torque_curve import TorqueCurve
 

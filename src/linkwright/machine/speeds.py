@@ -8,8 +8,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.events.polynomials import LAST as LAST_ORDERS
-from linkwright.events.polynomials import Peak, largest, weights_at
+from linkwright.curves.polynomials import LAST as LAST_ORDERS
+from linkwright.curves.polynomials import Peak, largest, weights_at
 
 #: Share of the smallest kinetic energy in which a Newton step is the last one: what is left is its square.
 LAST = 1e-9

@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
-from linkwright.events.pieces import MET, Pieces
-from linkwright.events.polynomials import WEIGHTS, Peak, largest, weights_at
+from linkwright.curves.pieces import MET, Pieces
+from linkwright.curves.polynomials import WEIGHTS, Peak, largest, weights_at
 from linkwright.machine.flywheel import NOTHING
 from linkwright.machine.speeds import Speeds, SteadyCycles
 

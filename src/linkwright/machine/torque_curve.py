@@ -13,8 +13,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
+from linkwright.curves.curve import Curve, Integral
 from linkwright.errors import LinkwrightError
-from linkwright.events.curve import Curve, Integral
 
 TURN = 2 * np.pi
 

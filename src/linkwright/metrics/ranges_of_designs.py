@@ -14,12 +14,13 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
+from linkwright.curves.pieces import HIGH, LOW
 from linkwright.cycle.machine import Traces
 from linkwright.engine.summaries import Backend
 from linkwright.engine.trace import select
 from linkwright.events.course import Course, moves
 from linkwright.events.events import AT, at_times
-from linkwright.events.formula import HIGH, LOW, Formula, Known
+from linkwright.events.formula import Formula, Known
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.programs import Manner

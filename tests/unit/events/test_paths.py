@@ -14,11 +14,12 @@ from tests.store import machine as stored
 from tests.unit.kinematics.slotted_triad import SLOTTED
 
 import linkwright as lw
+from linkwright.curves.pieces import HIGH, LOW
 from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine
 from linkwright.events.following import Paths
-from linkwright.events.formula import HIGH, LOW, ROW
+from linkwright.events.formula import ROW
 from linkwright.events.tracked_states import TrackedStates
 
 Floats = NDArray[np.float64]

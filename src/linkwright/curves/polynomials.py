@@ -9,7 +9,7 @@ from numpy.polynomial import chebyshev, legendre
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import EQUAL, Floats, Indices
-from linkwright.events import peak_kernel
+from linkwright.curves import peak_kernel
 
 #: Of every design: the piece of an extreme, its place in it (-1 to 1), and its value, (designs,) each.
 Peak = tuple[Indices, Floats, Floats]

@@ -9,9 +9,8 @@ import numpy as np
 
 from linkwright.core.arrays import EQUAL, Flags, Floats, Indices, largest
 from linkwright.core.dataclass import dataclass
-from linkwright.events.formula import HIGH, LOW, Columns
-from linkwright.events.pieces import NARROW, Layout, Pieces, Wanted
-from linkwright.events.polynomials import (
+from linkwright.curves.pieces import HIGH, LOW, NARROW, Columns, Layout, Pieces, Wanted
+from linkwright.curves.polynomials import (
     LAST,
     NODES,
     POINTS,

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from linkwright.events.curve import Curve, nodes
-from linkwright.events.polynomials import POINTS
+from linkwright.curves.curve import Curve, nodes
+from linkwright.curves.polynomials import POINTS
 
 TURN = 2 * math.pi
 

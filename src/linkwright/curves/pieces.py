@@ -9,7 +9,7 @@ over its pieces. Arrays are (POINTS, signals, pieces).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field
 from functools import cached_property
 from typing import Any, Protocol, TypeVar
@@ -19,8 +19,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.events.formula import HIGH, LOW, Columns
-from linkwright.events.polynomials import (
+from linkwright.curves.polynomials import (
     HIDDEN,
     LAST,
     NODES,
@@ -32,6 +31,8 @@ from linkwright.events.polynomials import (
     product,
 )
 
+#: Columns that are the times, s, of a piece's ends.
+LOW, HIGH = "low", "high"
 #: A piece is met where its last orders are below this share of the signal's size.
 MET = 1e-11
 #: Sizes of signals of one dimension differ by less than this share, or the small one is rounding of the large one.
@@ -47,6 +48,7 @@ CROWD = 96
 WIDE = 1.0 / 12.0
 
 
+Columns = Mapping[str, Floats]
 Number = TypeVar("Number", bound=np.generic)
 
 

@@ -5,9 +5,8 @@ import pytest
 from scipy.special import i0e
 
 from linkwright.core.arrays import Floats, Indices
-from linkwright.events.formula import HIGH, LOW, Columns
-from linkwright.events.pieces import Layout, Pieces, Wanted
-from linkwright.events.polynomials import COMPILED, NODES, climbed, product
+from linkwright.curves.pieces import HIGH, LOW, Columns, Layout, Pieces, Wanted
+from linkwright.curves.polynomials import COMPILED, NODES, climbed, product
 
 TURN = 2.0 * np.pi
 

@@ -1,0 +1,1 @@
+"""Functions as polynomials on pieces of their way: integrals, means and extremes."""
