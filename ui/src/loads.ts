@@ -11,9 +11,10 @@ interface Limit {
   max: boolean;
 }
 
-// Share of a cycle within which places belong to a phase; of an output's way within which limits are equal and parts fit, as
-// in the core.
-const NEAR = 1e-11, ALIKE = 1e-9;
+// Share of a cycle, a turn or a stroke within which positions belong to a phase, limits are equal and parts fit, as in the
+// core; between positions phases end at their ends.
+const NEAR = 1e-9;
+const slack = (place: number) => (Number.isInteger(place) ? NEAR : 0);
 
 /** What loads take at a place between positions, by the names of fields, of a call that has run there. */
 export type Between = (one: Call, place: number, near: number) => Record<string, number>;
@@ -91,21 +92,21 @@ function interval({ between: ends }: Interval, values: Record<string, number>, {
   const [start, end] = ends.map((name) => values[name]), gap = end - start, heading = (input(1) - input(0)) * pace;
   if (!turns)
     return (_call, _i, place) => {
-      const q = input(place);
-      return q >= Math.min(start, end) - NEAR && q <= Math.max(start, end) + NEAR ? clipped((q - start) / gap) : null;
+      const q = input(place), near = slack(place);
+      return q >= Math.min(start, end) - near && q <= Math.max(start, end) + near ? clipped((q - start) / gap) : null;
     };
   if (Math.abs(gap) > TURN + NEAR) return null;
   const length = gap < 0 && heading > 0 ? modulo(gap, TURN) || TURN : gap, size = Math.abs(length), low = Math.min(start, start + length);
   return (_call, _i, place) => {
-    const gone = within(input(place) - low, size, TURN), share = gone === null ? 0 : clipped(gone / size);
+    const gone = within(place, input(place) - low, size, TURN), share = gone === null ? 0 : clipped(gone / size);
     return gone === null ? null : length > 0 ? share : 1 - share;
   };
 }
 
-/** What is gone of a length in a lap, both ends included; null beyond. */
-function within(gone: number, length: number, lap: number): number | null {
-  const way = modulo(gone, lap), slack = NEAR * lap, passed = way > lap - slack ? way - lap : way;
-  return passed <= length + slack ? passed : null;
+/** What is gone of a length in a lap at a place, both ends included; null beyond. */
+function within(place: number, gone: number, length: number, lap: number): number | null {
+  const way = modulo(gone, lap), near = slack(place) * lap, passed = way > lap - near ? way - lap : way;
+  return passed <= length + near ? passed : null;
 }
 
 const clipped = (share: number) => Math.min(1, Math.max(0, share));
@@ -124,7 +125,7 @@ function byOutput(phase: PhaseOfOutput, cycle: Cycle): Passed | null {
   return (one, i, place, near) => {
     if (moving && !moves(one, i)) return null;
     for (const { begin, end, share } of ways) {
-      const gone = within(sense * place - begin.way, end.way - begin.way, lap);
+      const gone = within(place, sense * place - begin.way, end.way - begin.way, lap);
       const there = gone === null ? null : share!(gone, one, i, place, near);
       if (there !== null) return clipped(there);
     }
@@ -152,9 +153,9 @@ function reversals({ rate, second, moving }: PhaseOfOutput, cycle: Cycle, output
 
 /** Of all reversals those with the largest and the smallest value. */
 function outermost(limits: Limit[]): Limit[] {
-  const values = limits.map(({ value }) => value), slack = ALIKE * (Math.max(...values) - Math.min(...values));
-  const top = Math.max(...limits.filter(({ max }) => max).map(({ value }) => value)) - slack;
-  const bottom = Math.min(...limits.filter(({ max }) => !max).map(({ value }) => value)) + slack;
+  const values = limits.map(({ value }) => value), alike = NEAR * (Math.max(...values) - Math.min(...values));
+  const top = Math.max(...limits.filter(({ max }) => max).map(({ value }) => value)) - alike;
+  const bottom = Math.min(...limits.filter(({ max }) => !max).map(({ value }) => value)) + alike;
   return limits.filter(({ max, value }) => (max ? value >= top : value <= bottom));
 }
 
@@ -174,18 +175,19 @@ type Share = (gone: number, ...where: Parameters<Reading>) => number | null;
 function shareOf(begin: Limit, end: Limit, { pace, drift, input, main: { n } }: Cycle): Share | null {
   const at = (way: number, place = Math.sign(pace) * way) => input(modulo(place, n)) + Math.floor(place / n) * drift;
   const first = at(begin.way), rise = at(end.way) - first;
-  return Math.abs(rise) < ALIKE * (1 + Math.abs(first + rise)) ? null : (gone) => (at(begin.way + gone) - first) / rise;
+  return Math.abs(rise) < NEAR * (1 + Math.abs(first + rise)) ? null : (gone) => (at(begin.way + gone) - first) / rise;
 }
 
 /** The share of a part of a stroke, by the way of the output itself; null where the stroke is too short for it. */
 function partOf(begin: Limit, end: Limit, { part, rows }: PhaseOfOutput, output: Reading): Share | null {
-  const size = Math.abs(end.value - begin.value), [fits, slack] = [ALIKE * size, NEAR * size];
+  const size = Math.abs(end.value - begin.value), fits = NEAR * size;
   const ways = part!.amounts.map(([value, share]) => value * (share ? size : 1)), last = ways[ways.length - 1];
   const [from, to] = part!.word === "first" ? [0, ways[0]] : part!.word === "last" ? [size - ways[0], size] : [ways[0], size - last];
   if (!(from >= -fits && from < to && to <= size + fits)) return null;
   return (_gone, ...where) => {
+    const near = slack(where[2]) * size;
     let way = (output(...where) - begin.value) * Math.sign(end.value - begin.value);
     if (rows.length > 1 && size < TURN) way -= TURN * Math.floor((way + (TURN - size) / 2) / TURN);
-    return way >= from - slack && way <= to + slack ? (way - from) / (to - from) : null;
+    return way >= from - near && way <= to + near ? (way - from) / (to - from) : null;
   };
 }

@@ -158,8 +158,9 @@ function rms(model: Model, id: string, row: Float64Array): number {
     else {
       even = false;
       const parts = free && jumping.has(i) ? [i, ...sides(model, value, i, row[i], row[(i + 1) % n]), i + 1] : [i, i + 1];
-      for (let k = 0; k < parts.length; k += 2)
-        total += free ? integral(square, parts[k], parts[k + 1], NEAR * size) : 0.5 * (at(i) + at(i + 1));
+      let sum = free ? 0 : NaN;
+      for (let k = 0; k < parts.length; k += 2) sum += integral(square, parts[k], parts[k + 1], NEAR * size);
+      total += Number.isFinite(sum) ? sum : 0.5 * (at(i) + at(i + 1));
     }
   }
   return Math.sqrt(even ? mean : total / n);

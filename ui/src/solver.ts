@@ -112,7 +112,7 @@ export class Solver {
     this.main.run();
     [this.between, this.locking, this.cycle] = [null, false, this.over(values)];
     const wall = this.reached(values), { friction, phases, angles } = this.data;
-    if (wall) return wall;
+    if (wall && !this.unchanged(values)) return wall;
     if (phases.length + angles.length) {
       this.between = follow(this.cycle, phases, angles, values);
       this.doubtful ||= !this.between;
@@ -120,7 +120,12 @@ export class Solver {
     }
     this.locking = friction.length > 0 && !settle(this.main, friction);
     if (this.main.has(this.data.sizes)) this.doubtful ||= !this.main.row(this.data.sizes).every(Number.isFinite);
-    return null;
+    return wall;
+  }
+
+  /** Whether the machine is the original, which passes its cycle even where the page could not follow it so far. */
+  private unchanged(values: Values): boolean {
+    return this.data.dimensions.every(({ address, value }) => values[address] === value);
   }
 
   /** Rates beside which others are rest, with the speed of a steady driver. */
@@ -208,7 +213,7 @@ export class Solver {
 
   /** Chain coordinates at the first position for other dimensions, in steps small enough to keep the assembly. */
   private approach(values: Values): boolean {
-    const same = this.data.dimensions.every(({ address }) => values[address] === this.data.values[address]);
+    const same = this.unchanged(values);
     // The original's assembly is known, whatever came between.
     const from = same ? values : (this.reachedAt ?? values);
     let states = same ? this.drawn : this.states, done = 0, share = 1;

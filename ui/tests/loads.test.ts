@@ -50,6 +50,9 @@ test("a load acts from one limit of a cosine to the other, and its ramp goes on 
     });
     const q = Math.sign(speed) * 1.234, since = speed > 0 ? q - 0.1 : 0.1 - q;
     near(between!(1.234 / (TURN / 24))["share:push"], since / Math.PI, 1e-12);
+    // At once beyond its end it does not act.
+    const end = (speed > 0 ? 0.1 + Math.PI : Math.PI - 0.1) / (TURN / 24);
+    for (const off of [-1e-9, 1e-9]) assert.equal(between!(end + off)["acts:push"], Number(off < 0));
   }
 });
 

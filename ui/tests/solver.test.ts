@@ -62,6 +62,22 @@ test("a drag with all dimensions free takes the point there by a change that is 
   near(l / r, ROD / Math.sqrt(ROD ** 2 - OFFSET ** 2), 1e-2);
 });
 
+test("loads of the original are found even where the page cannot follow it, those of no other machine are", () => {
+  const { data, code } = sliderCrank(36), { run } = code as { run: (...given: unknown[]) => void };
+  data.program = { ...data.program, fields: ["acts:push", "share:push"] };
+  data.phases = [{ load: "push", kind: "stroke", ramp: false, rows: ["s:guide"], rate: "sv:guide", second: "sa:guide", moving: "sv:guide", ends: ["max", "min"], part: null }];
+  const lost = (...given: unknown[]) => {
+    run(...given);
+    const [out, n] = given.slice(5) as [Float64Array, number];
+    if (n > 4) out[5] = 0;
+  };
+  const solver = new Solver(data, { run: lost }), acting = () => solver.main.fields["acts:push"].reduce((sum, x) => sum + x);
+  assert.equal(solver.evaluate({ ...data.values, "rod.length": 0.21 })?.kind, "lost");
+  assert.equal(acting(), 0);
+  assert.equal(solver.evaluate({ ...data.values })?.kind, "lost");
+  assert.ok(Math.abs(acting() - 18) <= 1);
+});
+
 test("what is locked or moves nothing is said", () => {
   const model = machine(12);
   model.locked.add("crank.length");
