@@ -110,7 +110,8 @@ def best_of(value: Floats, owner: Indices) -> Indices:
     ones is larger is rounding."""
     starts = np.flatnonzero(np.append(True, owner[1:] != owner[:-1]))
     best = np.maximum.reduceat(value, starts)
-    least = np.repeat(best - EQUAL * np.abs(best), np.diff(np.append(starts, len(owner))))
+    size = np.where(np.isfinite(best), np.abs(best), 0.0)
+    least = np.repeat(best - EQUAL * size, np.diff(np.append(starts, len(owner))))
     first = np.flatnonzero(~(value < least))
     return np.asarray(first[np.append(True, owner[first][1:] != owner[first][:-1])])
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from linkwright.core.piecewise import Piecewise, sought
 from linkwright.core.search import first_largest
+from linkwright.curves.curve import Curve
 
 
 def test_values_that_are_equal_but_for_rounding_are_met_at_the_first() -> None:
@@ -23,11 +23,10 @@ def test_polynomials_have_their_extremes_at_the_first_place(seed: int, pieces: i
     def function(x: np.ndarray) -> np.ndarray:
         return np.asarray(np.cos(2.0 * x) * (1.0 + 2e-16 * noise.integers(-2, 3, x.shape)))
 
-    curve = Piecewise.of(function, 0.0, 2.0 * np.pi, pieces=pieces)
+    curve = Curve.of(function, 0.0, 2.0 * np.pi, pieces=pieces)
     for kind, place in (("max", 0.0), ("min", 0.5 * np.pi)):
         assert curve.extreme(kind).place == pytest.approx(place, abs=1e-7)
-        assert sought(curve, kind, function).place == pytest.approx(place, abs=1e-7)
-    constant = Piecewise(
+    constant = Curve(
         curve.edges, np.ones_like(curve.values) * (1.0 + 2e-16 * noise.integers(-2, 3, curve.values.shape))
     )
     assert constant.extreme("max").place == 0.0
