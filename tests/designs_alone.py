@@ -33,6 +33,8 @@ TOLERANCE = 1e-9
 LOOSER = {"swept_area": 1e-6, "swept_area_of_link": 1e-6}
 #: Values smaller than this share of the largest of their unit are judged beside it.
 SMALL = 1e-3
+#: The same in SI, of units that ``LEAST`` has not.
+OTHERS = 1e-3
 #: Factors of two dimensions in three designs.
 FACTORS = np.array([[1.0, 1.002, 0.998], [1.0, 0.9985, 1.0015]])
 VARIED = (".length", ".x", ".y", "radius", "offset", "mass")
@@ -86,7 +88,7 @@ def compared(mechanism: lw.Mechanism, refused: Counter[str]) -> Iterator[Compare
     for name, values in swept.items():
         unit = each_alone[0][name][1]
         singles = np.array([each.get(name, (np.nan, ""))[0] for each in each_alone])
-        scale = np.maximum(np.abs(singles), max(SMALL * largest[unit], LEAST.get(unit, 1e-9)))
+        scale = np.maximum(np.abs(singles), max(SMALL * largest[unit], LEAST.get(unit, OTHERS)))
         with np.errstate(invalid="ignore"):
             gaps = np.where(values == singles, 0.0, np.abs(values - singles) / scale)
         gaps[np.isnan(values) & np.isnan(singles)] = 0.0
