@@ -4,6 +4,9 @@ import numpy as np
 import pytest
 from tests.brute_force import verdict_of
 from tests.reference import sampled_cycle as cycle
+from tests.reference.loaded_machines import loaded_machine
+
+import linkwright as lw
 
 TURN = np.linspace(0.0, 2.0 * np.pi, 2000, endpoint=False)
 
@@ -43,3 +46,13 @@ def test_excess_of_a_harmonic() -> None:
 def test_hull_of_points_given_twice() -> None:
     square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0], [1.0, 0.5]])
     assert cycle.hull_area(np.concatenate([square, square + 1e-15])) == pytest.approx(2.0)
+
+
+def test_extremes_beside_means_are_those_alone() -> None:
+    """A load that sets in just beside the end of a cam's law: of a piece with that jump only values count."""
+    found = loaded_machine(1000043)
+    assert found is not None
+    columns = {"l1.mass": found.mechanism.dimension("l1.mass") * np.array([1.0, 1.0001])}
+    swept = lw.sweep(found.mechanism, columns, outputs=["peak_power", "mean_power"], threads=1)
+    alone = lw.metrics(lw.solve_forces(found.mechanism), "peak_power").value("peak_power")
+    assert swept["peak_power"][0] == pytest.approx(alone, rel=1e-8)

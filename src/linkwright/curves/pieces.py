@@ -293,6 +293,12 @@ class Pieces:
         side, piece = np.nonzero(~(reach < self.each(self.most(highest))))
         return self.values(signals[side], piece) * signs[side], side, piece
 
+    def unresolved(self, signals: Indices, pieces: Indices) -> Flags:
+        """Whether the polynomial of a signal does not meet it in a piece, so that its values between nodes are
+        none of the signal's."""
+        limit = self.wanted.met * self._sizes()
+        return np.asarray(self.rough[signals, pieces] > limit[signals, self.design[pieces]])
+
 
 def _joined(batches: Sequence[_Batch]) -> _Batch:
     """All pieces by stretch and share."""

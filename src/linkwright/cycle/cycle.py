@@ -16,7 +16,7 @@ from linkwright.core.arrays import EQUAL, Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.curves.pieces import HIGH, LOW, Layout, Pieces, Wanted
-from linkwright.curves.polynomials import best_of, climbed, largest
+from linkwright.curves.polynomials import NODES, best_of, climbed, largest
 from linkwright.cycle.loads import Acting, InPart, OnStrokes
 from linkwright.cycle.machine import VALID, Machine, Swing
 from linkwright.cycle.summary import STROKES, TRUE_SPEED, Summary, one, output_of, signal_of
@@ -474,6 +474,10 @@ class Solved:
             [(k, sign) for k, sign, _ in sides], [self._on_stroke(stroke) for *_, stroke in sides]
         )
         place, value = climbed(rows)
+        jumps = self.pieces.unresolved(np.array([k for k, *_ in sides])[side], piece)
+        if jumps.any():
+            node = rows[:, jumps].argmax(axis=0)
+            place[jumps], value[jumps] = 2.0 * NODES[node] - 1.0, rows[:, jumps].max(axis=0)
         best = best_of(value, side * self.count + self.pieces.design[piece])
         shape = (len(sides), -1)
         signs = np.array([sign for _, sign, _ in sides])[:, None]
