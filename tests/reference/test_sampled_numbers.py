@@ -56,3 +56,17 @@ def test_extremes_beside_means_are_those_alone() -> None:
     swept = lw.sweep(found.mechanism, columns, outputs=["peak_power", "mean_power"], threads=1)
     alone = lw.metrics(lw.solve_forces(found.mechanism), "peak_power").value("peak_power")
     assert swept["peak_power"][0] == pytest.approx(alone, rel=1e-8)
+
+
+@pytest.mark.parametrize("number", [1000029, 1000053])
+def test_swept_areas_of_designs_are_those_alone(number: int) -> None:
+    """A driver by a periodic table, and a wheel on a belt: hulls of curves whose nodes must lie close."""
+    found = loaded_machine(number)
+    assert found is not None
+    columns = {"gravity.y": np.array([-9.81])}
+    links = [f"swept_area_of_link {link}" for link in found.mechanism.links]
+    swept = lw.sweep(found.mechanism, columns, outputs=["swept_area", *links], threads=1)
+    alone = lw.metrics(lw.solve_motion(found.mechanism), ["swept_area", "swept_area_of_link"])
+    assert swept["swept_area"][0] == pytest.approx(alone.value("swept_area"), rel=1e-6)
+    for name in links:
+        assert swept[name][0] == pytest.approx(alone[tuple(name.split(" "))].value, rel=1e-6)

@@ -33,8 +33,9 @@ from linkwright.loads.phases import InputPhase, MovingPhase, SwingPhase
 from linkwright.loads.sizes import Table
 from linkwright.loads.strokes import NEAR
 
-#: Pieces of a lap of the input to begin with.
-PIECES = 12
+#: Pieces of a lap of the input to begin with, and where the whole course of signals is asked for, as of curves whose
+#: hull is sought among their nodes.
+PIECES, PIECES_OF_COURSES = 12, 24
 #: Sides of a signal on which its summaries lie.
 SIDES: Mapping[str, tuple[float, ...]] = {
     "max": (1.0,), "min": (-1.0,), "peak": (1.0, -1.0), "range": (1.0, -1.0), "argmax": (1.0,), "argmin": (-1.0,),
@@ -258,7 +259,7 @@ class Solved:
         self.pieces = Pieces(
             lambda columns, nodes: formula.run(known, columns, nodes),
             layout,
-            *self.stretches.first_pieces(PIECES),
+            *self.stretches.first_pieces(PIECES_OF_COURSES if cycle.even_words else PIECES),
             wanted,
         )
 
