@@ -152,7 +152,6 @@ def test_a_design_that_cannot_turn_has_no_value():
             "jaw_crusher_sixbar", "jaw.angle range", ["driver.start"], "study.moves_positions",
             {"address": "driver.start"},
         ),
-        ("stephenson_sixbar_triad", "rms_input_torque", ["crank.length"], "study.objective_loads", {}),
     ],
 )  # fmt: skip
 def test_refusals_say_why(model, terms, vary, code, values):

@@ -15,8 +15,6 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import kind_of, owners_of
-from linkwright.cycle.load_limits import FoundLimits
-from linkwright.cycle_programs.iterated_groups import FoundBeside, LimitsBeside
 from linkwright.cycle_programs.limit_stages import whole_turns
 from linkwright.cycle_programs.loaded_cycle import with_limits
 from linkwright.cycle_programs.traced_outputs import Traced
@@ -92,23 +90,17 @@ def _moving(
         return {}, {}
     if plain.solver.motion.angles.carried or plain.solver.manner.flipping:
         return None
-    states = {name: row[None, :] for name, row in plain.nominal.states.items()}
     over_time = not whole_turns(plain)
-    if over_time and (states or not along.outputs or any(each.through_end for each in sizes)):
+    if over_time and (plain.nominal.states or not along.outputs or any(each.through_end for each in sizes)):
         return None
     along = replace(along, constants={**along.constants, **_middle_numbers(plain, along)})
     columns = {name: np.array([plain.mechanism.dimension(name)]) for name in by}
     if not along.outputs:
         return {}, {}
-    if states:
-        beside = LimitsBeside(plain, along)
-        numbers = dict(beside.numbers)
-        limits: FoundLimits | FoundBeside = beside.solve(columns, states)
-    else:
-        loaded = with_limits(plain, along)
-        if loaded is None or loaded.limits is None:
-            return None
-        numbers, limits = dict(loaded.limits.numbers), loaded.limits.solve(columns)
+    loaded = with_limits(plain, along)
+    if loaded is None or loaded.limits is None:
+        return None
+    numbers, limits = dict(loaded.limits.numbers), loaded.limits.solve(columns)
     if not limits.certain.all():
         return None
     slopes = {}

@@ -11,14 +11,12 @@ from math import pi
 
 import numpy as np
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
 from linkwright.cycle_programs.traced_outputs import VALID, Traced
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.stage import Stage
-from linkwright.engine.states import states_as_fields
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, cos, minimum, select, sign, sin, sqrt
 from linkwright.kinematics.names import program_names
 from linkwright.kinetostatics.friction import Swinging
@@ -39,17 +37,6 @@ NEAR_STEPS, AT = 5, 1e-9
 EDGE_STEPS = 40
 
 
-@dataclass(frozen=True)
-class Way:
-    """How groups without closed form are followed over the positions: the values of the states at the ``following``
-    one, where the way so far was ``passed``, and what ``starts`` the states; with nothing ``following`` they are
-    fields."""
-
-    following: Mapping[str, Scalar]
-    passed: Mask
-    starts: Mapping[str, str]
-
-
 def limit_stages(
     traced: Traced,
     outputs: Iterable[Swinging],
@@ -57,13 +44,11 @@ def limit_stages(
     judged: bool = True,
     valued: Iterable[Output] = (),
     shown: Iterable[Output] = (),
-    way: Way | None = None,
 ) -> list[Stage]:
     """For every output its cycle values ``limit:OUTPUT:max`` and ``:min`` (rad of the input), of the ``valued`` ones
     also ``value:OUTPUT:max`` and ``:min``, of those that are ``shown`` ``extreme:OUTPUT:max`` and ``:min`` (angles
     as the machine itself has them), and where ``judged`` ``doubt:OUTPUT``: above zero where these are not certain to
-    be its only limits. Groups without closed form are followed on their ``way``; from the positions
-    next to the limits Newton's method finds these."""
+    be its only limits."""
     asked, known, named = tuple(dict.fromkeys(outputs)), set(valued), set(shown)
     if not asked:
         return []
@@ -74,8 +59,8 @@ def limit_stages(
             there[value_name(each, kind)] = output_value(traced.solver.motion, each)
         if isinstance(each, Output) and each in named:
             there[extreme_name(each, kind)] = traced.named.quantity(each.name).value
-        refined.append(_refined(traced, each, kind, there, way is not None))
-    return [_seen(traced, asked, judged, way), *refined, *([_doubt(traced, asked)] if judged else [])]
+        refined.append(_refined(traced, each, kind, there))
+    return [_seen(traced, asked, judged), *refined, *([_doubt(traced, asked)] if judged else [])]
 
 
 def rates(traced: Traced, output: Swinging) -> tuple[Scalar, Scalar]:
@@ -99,13 +84,11 @@ def _course(traced: Traced, output: Swinging) -> Scalar:
     return (across * c - along * s) / (1.0 + along * c + across * s)
 
 
-def _seen(traced: Traced, outputs: Iterable[Swinging], judged: bool, way: Way | None) -> Stage:
+def _seen(traced: Traced, outputs: Iterable[Swinging], judged: bool) -> Stage:
     """The inputs of the positions with the largest and the smallest value; where ``judged`` how many positions have a
-    growing value, and the sum of their directions on the circle of inputs; on a ``way`` also the carried states."""
+    growing value, and the sum of their directions on the circle of inputs."""
     trace, around = traced.solver.motion.trace, _direction(traced)
-    sure = traced.counted_for_certain if way is None else way.passed
-    states = {} if way is None else _carried(traced)
-    found: dict[str, Scalar | bool] = {"input": trace.position("input"), VALID: sure, **states}
+    found: dict[str, Scalar | bool] = {"input": trace.position("input"), VALID: traced.counted_for_certain}
     wanted: dict[str, Reduction] = {}
     for each in outputs:
         found[f"{each}"] = _course(traced, each)
@@ -113,42 +96,17 @@ def _seen(traced: Traced, outputs: Iterable[Swinging], judged: bool, way: Way | 
             f"near:{each}:{kind}": Reduction("input", f"at_{kind}", f"{each}")  # type: ignore[arg-type]
             for kind in ("max", "min")
         }
-        wanted |= {
-            f"{name}:{each}:{kind}": Reduction(name, f"at_{kind}", f"{each}")  # type: ignore[arg-type]
-            for name, kind in product(states, ("max", "min"))
-        }
         if judged:
             grows = select(rates(traced, each)[0] > 0.0, 1.0, 0.0)
             sums = {"grows": grows, **{part: grows * place for part, place in around.items()}}
             found |= {f"{part}:{each}": value for part, value in sums.items()}
             wanted |= {f"sum {part}:{each}": Reduction(f"{part}:{each}", "sum") for part in sums}
     count = ASSEMBLED if judged else ""
-    if way is not None:
-        followed = Program.of(trace, found, way.following)
-        followed = followed if way.following else states_as_fields(followed)
-        return Stage(followed, wanted, valid=VALID, count=count, starts=way.starts)
     program = Program.of(trace, found)
     if traced.lines:
         t = Trace()
         program = Program.of(t, traced.at_input(program, t, t.position("input")))
     return Stage(program, wanted, valid=VALID, count=count)
-
-
-def _carried(traced: Traced) -> dict[str, Scalar]:
-    """What is carried from position to position, and the determinants whose signs tell assemblies apart."""
-    motion = traced.solver.motion
-    found = {f"carried:{name}": value for name, value in motion.next_states.items()}
-    groups = ((name, placed) for name, placed in motion.placed.items() if placed.coordinates)
-    return found | {f"determinant:{name}": placed.determinant for name, placed in groups}
-
-
-def _other_assembly(there: Mapping[str, Scalar], beside: Mapping[str, Scalar]) -> Scalar:
-    """0 where no determinant has another sign than at the position beside, and all groups are closed; else 1."""
-    different: Scalar = select(there[VALID], 0.0, 1.0)  # type: ignore[arg-type]
-    for name in beside:
-        if name.startswith("determinant:"):
-            different = different + select(there[name] * beside[name] > 0.0, 0.0, 1.0)
-    return different
 
 
 def _direction(traced: Traced) -> dict[str, Scalar]:
@@ -169,20 +127,14 @@ def extreme_name(output: Output, kind: str) -> str:
     return f"extreme:{output}:{kind}"
 
 
-def _refined(
-    traced: Traced, output: Swinging, kind: str, values: Mapping[str, Scalar], followed: bool
-) -> Stage:
+def _refined(traced: Traced, output: Swinging, kind: str, values: Mapping[str, Scalar]) -> Stage:
     """The input where the rate is zero, within one step of the nearest position, and values there."""
     t, near = Trace(), f"near:{output}:{kind}"
     rate, second = rates(traced, output)
-    states = _carried(traced) if followed else {}
-    beside = {name: t.parameter(f"{name}:{output}:{kind}") for name in states}
-    judged = {**states, VALID: traced.solver.motion.valid} if followed else {}
-    motion = Program.of(traced.solver.motion.trace, {"rate": rate, "second": second, **values, **judged})
-    carried = {name.removeprefix("carried:"): value for name, value in beside.items()}
-    there = traced.at_input(motion, t, t.state("x"), carried)
+    motion = Program.of(traced.solver.motion.trace, {"rate": rate, "second": second, **values})
+    there = traced.at_input(motion, t, t.state("x"))
     sense = -1.0 if kind == "max" else 1.0
-    more = {"doubt": _other_assembly(there, beside) if followed else 0.0, **{n: there[n] for n in values}}
+    more = {name: there[name] for name in values}
     wanted = {limit_name(output, kind): "x", f"moved:{output}:{kind}": "moved", **{n: n for n in values}}
     return _newton(
         traced,
@@ -220,8 +172,7 @@ def _newton(
     steps: int = STEPS,
 ) -> Stage:
     """Newton's steps from a cycle value to where what is ``found`` at the state ``x``, with its rate, is zero in a
-    bracket, below zero where that begins; ``wanted``: results, and what they are the last values of. A ``doubt`` that
-    is ``more`` counts as movement."""
+    bracket, below zero where that begins; ``wanted``: results, and what they are the last values of."""
     (driver,) = traced.mechanism.drivers
     x, low, high = (t.state(name) for name in ("x", "low", "high"))
     gap, rate = found
@@ -229,7 +180,7 @@ def _newton(
     low0, high0 = (select(first, end, known) for end, known in zip(bracket, (low, high), strict=True))
     better = x - gap / rate * t.parameter(f"{driver}.speed")
     following, low1, high1 = narrowed(x, low0, high0, gap < 0.0, better)
-    moved = absolute(following - x) + more.get("doubt", 0.0)
+    moved = absolute(following - x)
     program = Program.of(
         t, {**more, "x": following, "moved": moved, "gap": gap}, {"x": following, "low": low1, "high": high1}
     )
@@ -270,23 +221,6 @@ def part_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> Stag
     bracket = begins, begins + sense * turned(sense * (ends - begins), t.parameter(LAP))
     start, wanted = limit_name(phase.output, phase.start), {edge_name(load.name, which): "x"}
     return _newton(traced, t, (there["gap"], there["rate"]), bracket, start, wanted, {}, EDGE_STEPS)
-
-
-def part_edge_beside(traced: Traced, load: Load, phase: SwingPhase, which: int) -> list[Stage]:
-    """The same in groups without closed form, from the position next to it on the way; what is carried from position
-    to position is given as fields."""
-    source, name, t = traced.solver.motion, edge_name(load.name, which), Trace()
-    gap = to_edge(traced, load, phase, which)
-    carried = {f"carried:{each}": value for each, value in source.next_states.items()}
-    away = select(gap["rate"] > 0.0, absolute(gap["gap"]), np.inf)
-    seen = {"away": away, "input": source.trace.position("input"), VALID: source.valid, **carried}
-    wanted = {f"{each}:{name}": Reduction(each, "at_min", "away") for each in ("input", *carried)}
-    nearest = Stage(states_as_fields(Program.of(source.trace, seen)), wanted, valid=VALID)
-    near = f"input:{name}"
-    states = {each.removeprefix("carried:"): t.parameter(f"{each}:{name}") for each in carried}
-    there = traced.at_input(Program.of(source.trace, gap), t, t.state("x"), states)
-    found = there["gap"], there["rate"]
-    return [nearest, _newton(traced, t, found, _beside(traced, t, near), near, {name: "x"}, {})]
 
 
 def to_edge(traced: Traced, load: Load, phase: SwingPhase, which: int) -> dict[str, Scalar]:

@@ -92,7 +92,7 @@ class Formula:
         own = {name: fields[name] for name in self.fields} if fields else {}
         if known.compiles(count * len(nodes)) and (code := self._code) is not None:
             return np.ascontiguousarray(code.store(table, given, own, length=count, tables=known.tables))
-        if 0 < count * len(nodes) <= FEW and not known.tables:
+        if known.compiled is None and 0 < count * len(nodes) <= FEW and not known.tables:
             return self._one_by_one(table, given, own, count)
         program = numpy_program(self.program)
         return program.run_designs(table, given, own, length=count, tables=known.tables)

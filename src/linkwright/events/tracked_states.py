@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from math import pi
 
 import numpy as np
@@ -10,31 +10,36 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.curves.pieces import HIGH, LOW
 from linkwright.engine.program import Program
+from linkwright.engine.recently_made import Recent
+from linkwright.engine.threads import spread_over
 from linkwright.engine.trace import Mask, Trace
 from linkwright.events.course import Course
-from linkwright.events.following import ITERATIONS, Paths, path_states, stays_on_path
+from linkwright.events.following import path_states, stays_on_path
 from linkwright.events.formula import ROW, Formula, Known
 from linkwright.events.path_step import PathStep
 from linkwright.events.path_tracker import PathTracker
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solver import MotionSolver
+from linkwright.mechanism.mechanism import Mechanism
+
+#: Designs that are tracked together.
+BLOCK = 512
 
 
 class TrackedStates:
-    """States at the positions of a motion, of designs of its mechanism in which some dimensions are ``varied``."""
+    """States at the positions of a motion, of designs of its mechanism.
 
-    def __init__(self, nominal: Motion, varied: Iterable[str]) -> None:
-        names, positions = tuple(varied), nominal.positions
-        solver = MotionSolver(
-            nominal.mechanism, Manner(frozenset(names), iterations=ITERATIONS), nominal.solver.assembly
-        )
+    ``solver``: traced with the dimensions that vary free and Newton's steps as formulas on paths have them;
+    ``compiled``: see :class:`Known`.
+    """
+
+    def __init__(self, nominal: Motion, solver: MotionSolver, compiled: bool | None = None) -> None:
+        self.motion, positions = solver.motion, nominal.positions
         self.course = Course.of(nominal.mechanism, positions)
-        self.known = Known(solver.nominal.parameters, compiled=True)
+        self.known = Known(solver.nominal.parameters, compiled=compiled)
+        step = PathStep(self.motion, self.course, solver.manner.free)
         first = int(np.argmin(positions.time))
         start = {name: float(row[first]) for name, row in nominal.states.items()}
-        self.motion = solver.motion
-        step = PathStep(self.motion, self.course, frozenset(names))
         self.tracker = PathTracker(step, self.course, self.known, start)
         self.shares = (positions.time - self.course.begin) / (self.course.duration or 1.0)
         t = Trace()
@@ -45,15 +50,38 @@ class TrackedStates:
         """Whether Newton's steps from these states end on the path, as a value of the motion's trace."""
         return stays_on_path(self.motion, self.tracker.signs_by_group)
 
-    def of(self, designs: Mapping[str, Floats]) -> tuple[dict[str, Floats], Paths]:
-        """The states, (designs, positions) by name, NaN where the path does not go; and the paths."""
+    def of(self, designs: Mapping[str, Floats], threads: int = 1) -> tuple[dict[str, Floats], Floats]:
+        """The states, (designs, positions) by name, NaN where the path of a design does not go; and how far its most
+        doubtful step was from being refused, (designs,), 1 far, 0 at the edge."""
         count = len(next(iter(designs.values())))
+        found = {name: np.empty((count, len(self.shares))) for name in self._formula.outputs}
+        margin = np.empty(count)
+
+        def work(first: int, last: int) -> None:
+            some = {name: column[first:last] for name, column in designs.items()}
+            self._some(some, {name: rows[first:last] for name, rows in found.items()}, margin[first:last])
+
+        spread_over(count, BLOCK, threads, work)
+        return found, margin
+
+    def _some(self, designs: Mapping[str, Floats], into: Mapping[str, Floats], margin: Floats) -> None:
+        count = len(margin)
         begin, duration = np.full(count, self.course.begin), np.full(count, self.course.duration)
         speed = designs.get(f"{self.course.first.name}.speed")
         if self.course.turns and speed is not None:
             duration = 2.0 * pi * self.course.turns / np.abs(speed)
         paths = self.tracker.track(designs, begin, duration)
         columns = {ROW: np.arange(float(count)), LOW: begin, HIGH: begin + duration}
-        fields = paths.fields(columns, self.shares)
-        found = self._formula.run(self.known, columns, self.shares, fields)
-        return {name: np.ascontiguousarray(found[:, k].T) for name, k in self._formula.place.items()}, paths
+        found = self._formula.run(self.known, columns, self.shares, paths.fields(columns, self.shares))
+        for name, place in self._formula.place.items():
+            into[name][...] = found[:, place].T
+        margin[...] = paths.margin
+
+
+def tracked_states(nominal: Motion, solver: MotionSolver, compiled: bool | None) -> TrackedStates:
+    """What tracks the designs of a mechanism over some positions; what was made lately serves again."""
+    key = (solver.manner, nominal.positions.key, compiled)
+    return _tracked.get(nominal.mechanism, key, lambda: TrackedStates(nominal, solver, compiled))
+
+
+_tracked: Recent[Mechanism, TrackedStates] = Recent(8)

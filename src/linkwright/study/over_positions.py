@@ -12,24 +12,27 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.cycle.load_limits import FoundLimits
 from linkwright.cycle.summary import KINDS, Summary
-from linkwright.cycle_programs.iterated_groups import Following, FoundBeside, LimitsBeside, following
 from linkwright.cycle_programs.loaded_cycle import (
     LoadedCycle,
     along_input,
     friction_doubt,
     with_limits,
-    with_loads,
 )
 from linkwright.cycle_programs.traced_outputs import CLEAR, VALID, Traced
 from linkwright.engine.gradient import Gradient
 from linkwright.engine.program import Program
 from linkwright.engine.states import inputs_as_fields, states_as_fields
 from linkwright.engine.summaries import Backend
+from linkwright.engine.threads import cores
 from linkwright.engine.trace import Mask, Scalar, Trace, absolute, maximum
 from linkwright.errors import RequestError
+from linkwright.events.following import ITERATIONS
+from linkwright.events.tracked_states import TrackedStates, tracked_states
 from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.groups import iterated
 from linkwright.kinematics.names import point_key
 from linkwright.kinematics.positions import Positions
+from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
@@ -50,14 +53,13 @@ class OverPositions:
     arrays: Mapping[str, Floats]
     loaded: LoadedCycle
     backend: Backend
-    following: Following | None = None
-    beside: LimitsBeside | None = None
+    tracked: TrackedStates | None = None
     judged: bool = False
 
     def many(self, columns: Mapping[str, Floats], threads: int | None) -> tuple[Floats, Floats]:
         """Values (designs,) and gradients (designs, names)."""
         states = self._states(columns, threads)
-        limits = self._limits(columns, states)
+        limits = self.loaded.solve(columns)
         values, slopes = self.gradient.evaluate(
             self.loaded.table(self.gradient.parameters, columns, limits.numbers if limits else {}),
             self.arrays,
@@ -82,7 +84,7 @@ class OverPositions:
     def values(self, columns: Mapping[str, Floats], threads: int | None) -> Floats:
         """Values (designs,)."""
         states = self._states(columns, threads)
-        limits = self._limits(columns, states)
+        limits = self.loaded.solve(columns)
         found = self.gradient.values(
             self.loaded.table(self.gradient.parameters, columns, limits.numbers if limits else {}),
             self.arrays,
@@ -93,18 +95,13 @@ class OverPositions:
         )
         return self._known(found, limits)
 
-    def _known(self, values: Floats, limits: FoundLimits | FoundBeside | None) -> Floats:
+    def _known(self, values: Floats, limits: FoundLimits | None) -> Floats:
         """NaN for designs whose limits are others than those of the machine as it is."""
         return values if limits is None or not self.judged else np.where(limits.certain, values, np.nan)
 
     def _states(self, columns: Mapping[str, Floats], threads: int | None) -> dict[str, Floats]:
         """Chain coordinates of groups without closed form, (designs, n)."""
-        return {} if self.following is None else self.following.states(columns, threads, self.backend)
-
-    def _limits(
-        self, columns: Mapping[str, Floats], states: Mapping[str, Floats]
-    ) -> FoundLimits | FoundBeside | None:
-        return self.loaded.solve(columns) if self.beside is None else self.beside.solve(columns, states)
+        return {} if self.tracked is None else self.tracked.of(columns, threads or cores())[0]
 
 
 class Builder:
@@ -118,25 +115,17 @@ class Builder:
         terms: dict[str | PathError, float],
     ) -> None:
         self.terms, self.names = terms, names
-        plain = Traced(mechanism, names, positions)
-        self.following: Following | None = None
-        if any(placed.next_states for placed in plain.solver.motion.placed.values()):
-            self.following = following(plain, (), ())
-        self.turns = {} if self.following else counted_turns(plain)
+        self.iterated = bool(iterated(analysed(mechanism)))
+        plain = Traced(mechanism, names, positions, iterations=ITERATIONS if self.iterated else 1)
+        self.turns = {} if self.iterated else counted_turns(plain)
         outputs = [summary.output for summary in self.summaries]
         fields = plain.program(plain.quantities(outputs)).fields
-        loads = along_input(plain, names, fields, over_time=self.following is None)
+        loads = along_input(plain, names, fields, over_time=not self.iterated)
         if loads is None:
             raise RequestError("study.objective_loads", name=mechanism.name)
-        self.beside = LimitsBeside(plain, loads) if self.following and loads.outputs else None
-        if self.following is not None:
+        if self.iterated:
             self._refuse_ways(plain, loads.outputs)
-            numbers = {} if self.beside is None else self.beside.numbers
-            loaded: LoadedCycle | None = LoadedCycle(
-                with_loads(plain, loads), loads, None, {**loads.constants, **numbers}
-            )
-        else:
-            loaded = with_limits(plain, loads)
+        loaded = with_limits(plain, loads)
         if loaded is None:
             raise RequestError("study.objective_loads", name=mechanism.name)
         self.loaded, self.loads, self.traced = loaded, loads, loaded.traced
@@ -167,11 +156,13 @@ class Builder:
     def built(self, backend: Backend) -> OverPositions:
         """What is evaluated."""
         outputs, targets = self._outputs()
-        program = Program.of(self.traced.solver.motion.trace, {**outputs, VALID: self._valid()})
+        tracked = None
+        if self.iterated:
+            tracked = tracked_states(self.traced.nominal, self.traced.solver, backend != "numpy")
+        program = Program.of(self.traced.solver.motion.trace, {**outputs, VALID: self._valid(tracked)})
         program = inputs_as_fields(program, self.turns, "position")
-        if self.following is not None:
-            program = states_as_fields(program)
-        limits = self.beside or self.loaded.limits
+        program = states_as_fields(program)
+        limits = self.loaded.limits
         moving = [
             name for name in program.parameters if name.startswith(("limit:", "limit input:", "value:"))
         ]
@@ -180,17 +171,15 @@ class Builder:
         behind = limits.dimensions if limits is not None and moving else ()
         names = tuple(name for name in self.names if name in own or name in behind)
         gradient = Gradient(program, self._total(), [*own, *moving], valid=VALID, complete=True)
-        judged = self.beside is not None or (
-            self.loaded.limits is not None and not self.loaded.limits.machine.course.turns
-        )
-        return OverPositions(
-            names, gradient, arrays, self.loaded, backend, self.following, self.beside, judged
-        )
+        judged = limits is not None and (self.iterated or not limits.machine.course.turns)
+        return OverPositions(names, gradient, arrays, self.loaded, backend, tracked, judged)
 
-    def _valid(self) -> Mask:
+    def _valid(self, tracked: TrackedStates | None) -> Mask:
         """Where a position is reached, its turns are counted, all loads have values, and the friction is certain."""
         motion = self.traced.solver.motion
         valid = self.traced.counted_for_certain if self.turns else motion.valid
+        if tracked is not None:
+            valid = motion.trace.logic("and", valid, tracked.on_path)
         if self.loads.fallible:
             exist = absolute(self.loads.sizes(motion)) <= LARGEST["torque"]
             valid = motion.trace.logic("and", valid, exist)

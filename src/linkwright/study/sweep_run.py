@@ -14,7 +14,6 @@ from linkwright.core.inputs import Input, mode_groups
 from linkwright.core.progress import Progress, current_progress, paced
 from linkwright.cycle.summary import Summary, finished, reductions
 from linkwright.cycle_programs.change_points import ChangePoints, near_enough
-from linkwright.cycle_programs.iterated_groups import MARGIN, following
 from linkwright.cycle_programs.loaded_cycle import LoadedCycle, doubts, loaded_cycle
 from linkwright.cycle_programs.one_by_one import OneByOne, changes_of
 from linkwright.cycle_programs.traced_outputs import NEAREST, VALID, Traced
@@ -29,8 +28,12 @@ from linkwright.engine.summaries import WORTH_COMPILING, Backend, summaries
 from linkwright.engine.threads import chunks, cores
 from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError, SelfCheckError
+from linkwright.events.following import ITERATIONS
+from linkwright.events.tracked_states import TrackedStates, tracked_states
 from linkwright.files.write import dump
+from linkwright.kinematics.groups import iterated
 from linkwright.kinematics.positions import Positions
+from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
@@ -38,8 +41,12 @@ from linkwright.study.finished_parts import identity, once
 
 #: The result that says whether a design passes its cycle.
 PASSED = "passed"
+#: The result that says how far a design's most doubtful step was from being refused.
+MARGIN = "branch margin"
 #: Designs of one block, of one whose loads are found together, and of one whose inputs are found design by design.
 BLOCK, TOGETHER_BLOCK, LOADED_BLOCK = 1 << 16, 1 << 13, 1 << 9
+#: Designs whose states at all positions are held at a time.
+TRACKED_BLOCK = 1 << 11
 #: Designs whose curves are held at a time.
 CURVE_BLOCK = 1 << 12
 #: Designs of a sweep whose forces are checked, and the positions in which they are.
@@ -77,7 +84,8 @@ class SweepRun:
         self.progress, self.backend = manner.progress or current_progress(), manner.backend
         self._told = 0
         self.designs = len(next(iter(columns.values())))
-        self.traced = Traced(mechanism, columns, positions)
+        iterations = ITERATIONS if iterated(analysed(mechanism)) else 1
+        self.traced = Traced(mechanism, columns, positions, iterations=iterations)
         names = [summary.output for summary in asked]
         self.quantities = self.traced.quantities(names)
         self.reductions = [*reductions(asked, self.quantities), Reduction(NEAREST, "min")]
@@ -86,24 +94,21 @@ class SweepRun:
         self.through: set[int] = set()
         self._programs: dict[tuple[tuple[str, ...], int], tuple[list[Quantity], Program]] = {}
         self.alone = bool(self.program.fields or self.traced.nominal.modes)
-        self.follow = None
-        if self.program.states and not self.traced.nominal.modes and not (self.alone and manner.partial):
-            self.follow = following(self.traced, names, self.program.fields)
-        self.margins = None if self.follow is None else np.full(self.designs, np.nan)
+        self.margins = None if self._tracked is None else np.full(self.designs, np.nan)
 
     def swept(self) -> tuple[Whole, Flags, dict[Summary, Floats]]:
         """Assembled positions (designs,), whether each design passes its cycle, and every summary (designs,)."""
         assembled, passed = np.zeros(self.designs, dtype=np.int64), np.zeros(self.designs, dtype=np.bool_)
         values = {summary: np.empty(self.designs) for summary in self.asked}
-        alone = self.alone and self.follow is None
-        size = (TOGETHER_BLOCK if self._together else LOADED_BLOCK) if alone else BLOCK
+        size = TOGETHER_BLOCK if self._together else LOADED_BLOCK if self.alone else BLOCK
+        size = size if self._tracked is None else TRACKED_BLOCK
         for first, end in chunks(self.designs, size):
             results = self._block(
                 {address: column[first:end] for address, column in self.columns.items()}, first
             )
             assembled[first:end], passed[first:end] = results["valid.count"], results[PASSED]
             if self.margins is not None:
-                self.margins[first:end] = results[f"{MARGIN}.min"]
+                self.margins[first:end] = results[MARGIN]
             for summary, into in values.items():
                 found = finished(summary, self.quantities[summary.output], results, self._input())
                 if not self.manner.partial:
@@ -179,7 +184,9 @@ class SweepRun:
         traced = self.traced if source is None else source.traced
         quantities, program = self._stored(tuple(names), traced)
         fields: Mapping[str, Floats] = {}
-        if source is not None or program.fields:
+        if source is None and self._tracked is not None and not self.alone:
+            fields, _ = self._tracked.of(part, self.manner.threads or cores())
+        elif source is not None or program.fields:
             fields, _, _ = (source or self._single).rows(program.fields, part)
         table, inputs, n = traced.table(program, part), self.positions.arrays, self.positions.count
         code = None if self.manner.backend == "numpy" else compile_program(program)
@@ -224,7 +231,7 @@ class SweepRun:
     def _in_pieces(self, part: Mapping[str, Floats], first: int) -> Results:
         """The results of a block; in pieces of a short time each, where somebody asks how far it is. Loads that are
         found for many designs at once are found so fast that a block is one piece."""
-        if self.progress is None or self._together:
+        if self.progress is None or (self.alone and self._together):
             return self._computed(part, first)
         pieces, count = [], len(next(iter(part.values())))
         self.backend = self.manner.backend
@@ -237,14 +244,10 @@ class SweepRun:
 
     def _computed(self, part: Mapping[str, Floats], first: int) -> Results:
         numbers = np.arange(first, first + len(next(iter(part.values()))))
-        if self.follow is not None:
-            found = self.follow.block(part, self.reductions, self.manner.threads, self.backend)
-            return self._noted(self._again(*found, part), numbers)
         if self.traced.nominal.modes:
             return self._noted(self._one_by_one(self._flipping, part), numbers)
         if self._together:
-            assert self._loaded is not None
-            results = self._noted(self._again(*self._with_loads(self._loaded, part), part), numbers)
+            results = self._noted(self._again(*self._with_loads(part), part), numbers)
         elif self.alone:
             results = self._noted(self._one_by_one(self._single, part), numbers)
         else:
@@ -262,13 +265,13 @@ class SweepRun:
 
     @property
     def _together(self) -> bool:
-        """Whether the loads of the designs of a block are found at once."""
-        return self.alone and self.follow is None and self._loaded is not None
+        """Whether the loads, and the states, of the designs of a block are found at once."""
+        return (self.alone or bool(self.program.states)) and self._loaded is not None
 
     @cached_property
     def _loaded(self) -> LoadedCycle | None:
         """The loads and the friction where these are traced; None where some are not."""
-        if self.manner.partial or self.traced.nominal.modes or self.program.states:
+        if (self.alone and self.manner.partial) or self.traced.nominal.modes:
             return None
         return loaded_cycle(self.traced, self.columns, self.program.fields)
 
@@ -278,25 +281,44 @@ class SweepRun:
 
     @cached_property
     def _traced_loads(self) -> Program:
-        """The program in which the loads are traced."""
+        """The program in which the loads are traced; states are given per design and position."""
         assert self._loaded is not None
         traced = self._loaded.traced
-        return traced.program(traced.quantities(self.quantities), self._doubts)
+        more: dict[str, Scalar | bool] = dict(self._doubts)
+        if self._tracked is not None:
+            motion = traced.solver.motion
+            more[VALID] = motion.trace.logic("and", motion.valid, self._tracked.on_path)
+        return _fed(traced.program(traced.quantities(self.quantities), more))
 
-    def _with_loads(self, loaded: LoadedCycle, part: Mapping[str, Floats]) -> tuple[Results, Indices]:
-        """The results of a block whose loads are traced, and the numbers of the designs of which these are not
-        certain."""
-        program = self._traced_loads
+    @cached_property
+    def _tracked(self) -> TrackedStates | None:
+        """What tracks groups without closed form, and counts turns; None where nothing must be, or loads are not
+        traced."""
+        if not self.program.states or self._loaded is None:
+            return None
+        solver, compiled = self._loaded.traced.solver, self.manner.backend != "numpy"
+        return tracked_states(self.traced.nominal, solver, compiled)
+
+    def _with_loads(self, part: Mapping[str, Floats]) -> tuple[Results, Indices]:
+        """The results of a block whose loads are traced, and whose states are tracked, and the numbers of the designs
+        of which these are not certain."""
+        program, loaded = self._traced_loads, self._loaded
+        assert loaded is not None
+        threads = self.manner.threads or cores()
+        states, margin = ({}, None) if self._tracked is None else self._tracked.of(part, threads)
         wanted = [*self.reductions, *(Reduction(name, "sum") for name in self._doubts)]
         limits = loaded.solve(part)
         results = summaries(program, wanted, VALID).evaluate(
             loaded.table(program.parameters, part, {} if limits is None else limits.numbers),
             self.positions.arrays,
+            states,
             tables=loaded.loads.tables,
             threads=self.manner.threads,
             backend=self.backend,
         )
         results |= {name: results.pop(f"{name}.sum") for name in self._doubts}
+        if margin is not None:
+            results[MARGIN] = margin
         return results, loaded.doubtful(results, limits)
 
     def _again(

@@ -18,9 +18,11 @@ from linkwright.curves.pieces import HIGH, LOW
 from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine
-from linkwright.events.following import Paths
+from linkwright.events.following import ITERATIONS, Paths
 from linkwright.events.formula import ROW
 from linkwright.events.tracked_states import TrackedStates
+from linkwright.kinematics.programs import Manner
+from linkwright.kinematics.solver import MotionSolver
 
 Floats = NDArray[np.float64]
 FAULTS = Path(__file__).parents[2] / "reference" / "faults"
@@ -59,11 +61,16 @@ def alone(machine: lw.Mechanism, designs: Mapping[str, Floats], index: int, step
     return lw.solve_motion(changed, steps=steps, failures="mark")
 
 
-def tracked(
-    machine: lw.Mechanism, designs: Mapping[str, Floats], steps: int
-) -> tuple[dict[str, Floats], Paths]:
+def tracking(machine: lw.Mechanism, designs: Mapping[str, Floats], steps: int = 36) -> TrackedStates:
     motion = lw.solve_motion(machine, steps=steps, failures="mark")
-    return TrackedStates(motion, designs).of(designs)
+    solver = MotionSolver(machine, Manner(frozenset(designs), iterations=ITERATIONS), motion.solver.assembly)
+    return TrackedStates(motion, solver)
+
+
+def paths_of(machine: lw.Mechanism, designs: Mapping[str, Floats]) -> Paths:
+    states, count = tracking(machine, designs), len(next(iter(designs.values())))
+    course = states.course
+    return states.tracker.track(designs, np.full(count, course.begin), np.full(count, course.duration))
 
 
 @pytest.mark.parametrize("name", MACHINES)
@@ -71,8 +78,8 @@ def test_designs_are_where_each_is_alone(name: str) -> None:
     """Near enough for Newton's method; the turns of rotations that are counted are the same."""
     machine = MACHINES[name]()
     designs = near(machine, varied(machine))
-    found, paths = tracked(machine, designs, 90)
-    assert paths.passed.all() and (paths.margin > 0.0).all()
+    found, margin = tracking(machine, designs, 90).of(designs)
+    assert paths_of(machine, designs).passed.all() and (margin > 0.0).all()
     for index in range(4):
         states = alone(machine, designs, index, 90).states
         for state, rows in found.items():
@@ -84,8 +91,8 @@ def test_designs_are_where_each_is_alone(name: str) -> None:
 def test_a_path_ends_where_its_group_is_singular() -> None:
     machine = lw.load(FAULTS / "valid_position_barred.yaml")
     designs = near(machine, varied(machine), 2)
-    found, paths = tracked(machine, designs, 40)
-    assert not paths.passed.any()
+    found, _ = tracking(machine, designs, 40).of(designs)
+    assert not paths_of(machine, designs).passed.any()
     rows = next(iter(found.values()))
     for index in range(2):
         reached = alone(machine, designs, index, 40).ok
@@ -94,14 +101,14 @@ def test_a_path_ends_where_its_group_is_singular() -> None:
 
 def test_a_design_that_is_not_reached_has_no_path() -> None:
     machine = stored("triad")
-    _, paths = tracked(machine, {"crank.A.x": np.array([0.03, 0.5])}, 36)
+    paths = paths_of(machine, {"crank.A.x": np.array([0.03, 0.5])})
     assert paths.passed.tolist() == [True, False] and paths.reached[1] == 0.0
 
 
 def test_counted_turns_go_on_from_turn_to_turn() -> None:
     machine = stored("rack_and_rocker")
     designs = near(machine, varied(machine), 1)
-    _, paths = tracked(machine, designs, 36)
+    paths = paths_of(machine, designs)
     period, step = paths.duration[0], np.array([0.0, 1.0, 2.0])
     columns = {ROW: np.zeros(1), LOW: paths.begin, HIGH: paths.begin + period}
     ((name, gained),) = paths.laps.items()

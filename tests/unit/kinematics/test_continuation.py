@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from tests.invariants.output_driven import turning
 
 import linkwright as lw
-from linkwright.cycle_programs import iterated_groups
+from linkwright.events.path_step import PathStep
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.branch import Branch, Node, _Walk, follow, straight
 from linkwright.kinematics.continuation import Follower
@@ -336,7 +336,7 @@ def test_a_second_sweep_follows_no_way_again(monkeypatch: pytest.MonkeyPatch) ->
     mechanism = lw.load("gallery:triad")
     first, anew = swept(mechanism), swept(lw.load("gallery:triad"))
     monkeypatch.setattr(_Journey, "followed", lambda *_: pytest.fail("followed again"))
-    monkeypatch.setattr(iterated_groups._Way, "__init__", lambda *_: pytest.fail("traced again"))
+    monkeypatch.setattr(PathStep, "__init__", lambda *_: pytest.fail("traced again"))
     second = swept(mechanism)
     assert np.isfinite(second["input_torque", "rms"]).all()
     for each in (anew, second):
