@@ -85,7 +85,7 @@ class Curve:
 
     @cached_property
     def _series(self) -> Floats:
-        return SERIES @ self.values
+        return product(SERIES, self.values)
 
     def __call__(self, x: Floats) -> Floats:
         """The function at places between the outer edges, (n,)."""

@@ -44,6 +44,8 @@ HALVINGS, NARROW = 44, 1e-13
 #: More pieces of a design than these, beside four for each of the first ones, that are unmet at once are noise, which
 #: no halving smooths.
 CROWD = 96
+#: So are more than twice as many as in the first halvings, beside a few.
+EARLY, MANY = 6, 8
 #: Narrower than this share of a cycle, a piece counts by its width where a signal is wanted everywhere.
 WIDE = 1.0 / 12.0
 
@@ -129,11 +131,14 @@ class Pieces:
         self._owner, self._length = layout.design, np.ones(self.designs)
         self.size: Floats = np.empty(0)
         crowd = wanted.crowd + 4 * np.bincount(layout.design[stretch], minlength=self.designs)
-        done: list[_Batch] = []
+        most, done = np.zeros_like(crowd), list[_Batch]()
         for turn in range(HALVINGS):
             batch = self._evaluated(signals, layout.columns(stretch, first, last), stretch, first, last)
             design = layout.design[stretch]
-            few = np.bincount(design[batch.unmet], minlength=self.designs) <= crowd
+            count = np.bincount(design[batch.unmet], minlength=self.designs)
+            if turn < EARLY:
+                most = np.maximum(most, count)
+            few = count <= (crowd if turn < EARLY else np.minimum(crowd, 2 * most + MANY))
             halved = batch.unmet & few[design] & (turn + 1 < HALVINGS)
             done.append(batch.taken(~halved) if halved.any() else batch)
             if not halved.any():
