@@ -39,6 +39,8 @@ MET = 1e-11
 ALIKE = 1e-4
 #: From values at the nodes to the last three orders and the mean.
 LAST_AND_MEAN = np.vstack([LAST, WEIGHTS])
+#: A piece that is not met to this share of the signal's size may hide what no node of it sees.
+BLIND = 1e-4
 #: Halvings of a piece, and the share of a cycle below which it is halved no more.
 HALVINGS, NARROW = 44, 1e-13
 #: More pieces of a design than these, beside four for each of the first ones, that are unmet at once are noise, which
@@ -208,7 +210,9 @@ class Pieces:
                 matters[k] = rough[k] * np.minimum(1.0, share / self.wanted.wide) > limit[k]
             for n, (k, _) in enumerate(self.wanted.sides):
                 reach = highest[n] + SLACK * (top[k] - bottom[k]) + HIDDEN * rough[k]
-                matters[k] |= reach >= self._best[n, design]
+                matters[k] |= (reach >= self._best[n, design]) | (
+                    rough[k] * self.wanted.met > BLIND * limit[k]
+                )
         return np.asarray((coarse & matters).any(axis=0) & (share > NARROW))
 
     def _sizes(self) -> Floats:

@@ -9,7 +9,6 @@ from numpy.polynomial import chebyshev, legendre
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import EQUAL, Floats, Indices
-from linkwright.curves import peak_kernel
 
 #: Of every design: the piece of an extreme, its place in it (-1 to 1), and its value, (designs,) each.
 Peak = tuple[Indices, Floats, Floats]
@@ -72,8 +71,11 @@ def climbed(rows: Floats) -> tuple[Floats, Floats]:
 
     From the highest look by Newton's steps between its neighbours, halvings where these leave the bracket.
     """
-    if rows.shape[1] >= COMPILED and peak_kernel.possible():
-        return peak_kernel.climbed(rows)
+    if rows.shape[1] >= COMPILED:
+        from linkwright.curves import peak_kernel  # slow to load, for many of them alone
+
+        if peak_kernel.possible():
+            return peak_kernel.climbed(rows)
     looks = product(TO_LOOKS, rows)
     best = looks.argmax(axis=0)
     top, x = looks[best, np.arange(rows.shape[1])], LOOKS[best]
@@ -105,14 +107,18 @@ def turning_points(rows: Floats, low: Floats, high: Floats, start: Floats) -> Fl
     return x
 
 
-def best_of(value: Floats, owner: Indices) -> Indices:
-    """Of values (k,) in the order of their owners the number of the first largest one of every owner; which of equal
-    ones is larger is rounding."""
+def best_of(
+    value: Floats, owner: Indices, slack: Floats | None = None, time: Floats | None = None
+) -> Indices:
+    """Of values (k,) in the order of their owners the number of the largest one of every owner: of such as are as
+    large but for ``slack`` (rounding where left out) the first, in ``time``."""
     starts = np.flatnonzero(np.append(True, owner[1:] != owner[:-1]))
-    best = np.maximum.reduceat(value, starts)
-    size = np.where(np.isfinite(best), np.abs(best), 0.0)
-    least = np.repeat(best - EQUAL * size, np.diff(np.append(starts, len(owner))))
-    first = np.flatnonzero(~(value < least))
+    best = np.repeat(np.maximum.reduceat(value, starts), np.diff(np.append(starts, len(owner))))
+    if slack is None:
+        slack = EQUAL * np.where(np.isfinite(best), np.abs(best), 0.0)
+    first = np.flatnonzero(~(value < best - slack))
+    if time is not None:
+        first = first[np.lexsort((time[first], owner[first]))]
     return np.asarray(first[np.append(True, owner[first][1:] != owner[first][:-1])])
 
 

@@ -475,11 +475,15 @@ class Solved:
             [(k, sign) for k, sign, _ in sides], [self._on_stroke(stroke) for *_, stroke in sides]
         )
         place, value = climbed(rows)
-        jumps = self.pieces.unresolved(np.array([k for k, *_ in sides])[side], piece)
+        design, signal = self.pieces.design[piece], np.array([k for k, *_ in sides])[side]
+        jumps = self.pieces.unresolved(signal, piece)
         if jumps.any():
             node = rows[:, jumps].argmax(axis=0)
             place[jumps], value[jumps] = 2.0 * NODES[node] - 1.0, rows[:, jumps].max(axis=0)
-        best = best_of(value, side * self.count + self.pieces.design[piece])
+        alike = EQUAL * self.pieces.size[signal, design]
+        place = np.where((self.pieces.top - self.pieces.bottom)[signal, piece] <= alike, -1.0, place)
+        time = self._inside(self._time(piece, place), design)
+        best = best_of(value, side * self.count + design, alike, time)
         shape = (len(sides), -1)
         signs = np.array([sign for _, sign, _ in sides])[:, None]
         found = piece[best].reshape(shape), place[best].reshape(shape), value[best].reshape(shape) * signs
@@ -548,24 +552,34 @@ class Solved:
         sides = self.cycle.sides_of.get(text, ())
         if not sides or kind == "range":
             return np.full(self.count, np.nan)
-        times = []
-        for side in sides:
-            piece, place, _ = self.extremes[side]
-            times.append(self.pieces.columns[LOW][piece] + 0.5 * (1.0 + place) * self.pieces.width[piece])
-        if len(times) == 1:
-            return self._inside(times[0])
-        high, low = (np.abs(self.extremes[side][2]) for side in sides)
-        first = np.where(
-            np.abs(high - low) <= EQUAL * np.maximum(high, low), times[0] <= times[1], high > low
-        )
-        return self._inside(np.where(first, times[0], times[1]))
+        times = [self._inside(self._time(*self.extremes[side][:2])) for side in sides]
+        if len(times) > 1:
+            high, low = (np.abs(self.extremes[side][2]) for side in sides)
+            upwards = np.where(
+                np.abs(high - low) <= EQUAL * np.maximum(high, low), times[0] <= times[1], high > low
+            )
+            times[0] = np.where(upwards, *times)
+        k, _, stroke = sides[0]
+        return times[0] if stroke else np.where(self._constant[k], self.span.begin, times[0])
 
-    def _inside(self, time: Floats) -> Floats:
+    @cached_property
+    def _constant(self) -> Flags:
+        """Signals that are the same over the whole cycle, (signals, designs)."""
+        pieces = self.pieces
+        return np.asarray(pieces.most(pieces.top) + pieces.most(-pieces.bottom) <= EQUAL * pieces.size)
+
+    def _time(self, piece: Indices, place: Floats) -> Floats:
+        """Times of places, -1 to 1, in pieces, s."""
+        return np.asarray(self.pieces.columns[LOW][piece] + 0.5 * (1.0 + place) * self.pieces.width[piece])
+
+    def _inside(self, time: Floats, design: Indices | slice = slice(None)) -> Floats:
         """The same times in the cycle that begins where the course does."""
         course = self.machine.course
         if not course.closed:
             return time
-        return np.asarray(time - np.floor((time - course.begin) / self.span.period) * self.span.period)
+        period = self.span.period[design]
+        share = (time - course.begin) / period
+        return np.asarray(time - np.floor(share + 1e-12) * period)
 
     def input_at(self, time: Floats) -> Floats:
         """The first driver's coordinate at times, (designs,) rad or m."""

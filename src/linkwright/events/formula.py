@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -19,13 +19,15 @@ from linkwright.core.dataclass import dataclass
 from linkwright.curves.pieces import LOW, Columns
 from linkwright.engine.adjoint import Adjoints
 from linkwright.engine.derivative import forward
-from linkwright.engine.llvm_backend import CompiledProgram, compile_program
 from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.replay import Replay, depending
 from linkwright.engine.scalar_backend import ScalarProgram
 from linkwright.engine.table import Tables
+
+if TYPE_CHECKING:
+    from linkwright.engine.llvm_backend import CompiledProgram
 
 #: Place in a piece, 0 to 1; the number of its design.
 NODE, ROW = "node", "row"
@@ -113,6 +115,8 @@ class Formula:
 
     @cached_property
     def _code(self) -> CompiledProgram | None:
+        from linkwright.engine.llvm_backend import compile_program  # slow to load, for many places alone
+
         return compile_program(self.program)
 
     @cached_property

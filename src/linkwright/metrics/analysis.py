@@ -15,6 +15,8 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, row_names
 from linkwright.core.piecewise import POINTS, Piecewise, largest, reach, sought
 from linkwright.core.search import first_largest
+from linkwright.cycle.cycle import Cycle, Solved
+from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.cycle.summary import STROKES, TRUE_SPEED, Extreme, Summary, one, signal_of
 from linkwright.engine.recently_made import Recent
 from linkwright.kinematics.limits import limit_positions
@@ -78,6 +80,7 @@ class Analysis(PartlyReached):
         self._asked: dict[Summary, Extreme | None] = {}
         self._met: dict[str, tuple[int, Columns]] = {}
         self._parts: dict[str, Extreme] = {}
+        self._texts: dict[str, None] = {}
 
     @classmethod
     def of(cls, result: Motion | Forces | Analysis) -> Analysis:
@@ -138,7 +141,9 @@ class Analysis(PartlyReached):
 
     def ask(self, parts: Iterable[str]) -> None:
         """Says which summaries will be wanted, so that their outputs are evaluated together."""
-        for summary in map(one, parts):
+        texts = tuple(parts)
+        self._texts |= dict.fromkeys(texts)
+        for summary in map(one, texts):
             output = summary.output
             if summary.kind in STROKES.values():
                 output = signal_of(summary)
@@ -181,7 +186,7 @@ class Analysis(PartlyReached):
         ``peak``: the largest size; places of extremes of a mechanism's outputs are its outermost limit positions.
         """
         if summary not in self._parts:
-            found = self._summarised(one(summary))
+            found = self._of_cycle(summary) or self._summarised(one(summary))
             small = (
                 self.forces and summary.startswith("reaction ") and abs(found.value) < self.forces.rounding
             )
@@ -189,6 +194,41 @@ class Analysis(PartlyReached):
                 found = replace(found, value=0.0)
             self._parts[summary] = found
         return self._parts[summary]
+
+    def _of_cycle(self, text: str) -> Extreme | None:
+        """A part of a cycle that is passed by one formula, found at once with all that were asked for."""
+        if one(text).kind in TRUE_SPEED or self._machine is None:
+            return None
+        if text not in self._together:
+            parts = [each for each in {**self._texts, text: None} if each not in self._together]
+            parts = [each for each in parts if one(each).kind not in TRUE_SPEED]
+            limited = [output for output in self.outputs if self.limits(output)] if self.closed else ()
+            solved = Cycle(self._machine, parts, limited).solve({})
+            self._together |= {each: self._read_of(solved, each) for each in parts}
+        return self._together[text]
+
+    def _read_of(self, solved: Solved, text: str) -> Extreme | None:
+        """A part of one machine's cycle; None of one that is not passed."""
+        if not solved.passed[0]:
+            return None
+        value, time = float(solved.values[text][0]), float(solved.time_of(text)[0])
+        place = float(solved.input_at(solved.time_of(text))[0])
+        return Extreme(value, time, place, True)
+
+    @cached_property
+    def _together(self) -> dict[str, Extreme | None]:
+        return {}
+
+    @cached_property
+    def _machine(self) -> Machine | None:
+        """The formulas of the cycle; None where it is not passed by one of each position."""
+        if not self.resolver.possible or not self.resolver.whole or len(self.resolver.changes):
+            return None
+        try:
+            static = self.forces is not None and self.forces.static
+            return Machine(self.motion.mechanism, self.motion, static=static)
+        except NotTogether:
+            return None
 
     def _rounding(self, time: float) -> float:
         """Size, N, below which a joint force is but rounding; of a machine that is partly reached beside the forces
