@@ -46,7 +46,7 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     if forces is None or not solved.motion.ok.any():
         return []
     several = solved.motion.steps > 1
-    title = "largest_of_cycle" if solved.grid is not None else "largest_forces" if several else "joint_forces"
+    title = "largest_of_cycle" if solved.between else "largest_forces" if several else "joint_forces"
     pairs = reaction_pairs(forces.mechanism)
     peaks = largest_reactions(solved, degrees=degrees)
     rows = [
@@ -84,7 +84,7 @@ def _places(solved: Solved, wanted: Sequence[Wanted], degrees: bool) -> list[Pla
     """Extremes of what the forces give: refined between the positions of a whole cycle, else those of positions."""
     forces = solved.forces
     assert forces is not None
-    if solved.grid is None:
+    if not solved.between:
         rows = [
             first_largest(signal(forces) if kind == "max" else -signal(forces)) for signal, kind in wanted
         ]
@@ -182,7 +182,7 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
         high, low = _places(solved, [(effort, "max"), (effort, "min")], degrees)
         said = say("solve.effort_range", name=name, high=number(high.value), low=number(low.value), unit=unit,
                    high_at=say("solve.at", place=high.input), low_at=say("solve.at", place=low.input))  # fmt: skip
-        if solved.grid is not None and solved.motion.positions.closed:
+        if solved.between and solved.motion.positions.closed:
             said += say("solve.effort_mean", mean=number(solved.analysis.mean_of(effort)), unit=unit)
         rows.append(said)
     return rows

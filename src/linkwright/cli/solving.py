@@ -29,7 +29,6 @@ from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.cycle_grid import CycleGrid
 from linkwright.words.sentence import Sentence
 
 Failures = Literal["raise", "mark"]
@@ -84,9 +83,10 @@ class Solved:
         return Analysis.of(self.motion if self.forces is None else self.forces)
 
     @cached_property
-    def grid(self) -> CycleGrid | None:
-        """The cycle between its positions; None of chosen positions, and where it is not passed."""
-        return self.analysis.grid if self.whole else None
+    def between(self) -> bool:
+        """Whether what is between the positions of a cycle is known; not of chosen positions, nor where it is not
+        passed."""
+        return self.whole and self.analysis.cycle is not None
 
     def results(self) -> dict[Output, Floats]:
         """All results at the shown rows, SI."""

@@ -12,7 +12,6 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
 from linkwright.curves.curve import Curve, Extreme, Integral, at_nodes
-from linkwright.curves.polynomials import POINTS
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import not_back
 from linkwright.kinematics.motion import Motion
@@ -164,28 +163,24 @@ def equivalent(forces: Forces) -> Equivalent:
     rate = steady_rate(motion)
     direction = float(np.sign(rate))
     period = abs(rate) * (motion.positions.period or 0.0)
-    begin, analysis = float(motion.time[0]), Analysis.of(forces)
-    analysis.ask_rows(chain.from_iterable(_rates_of_centres(motion.mechanism).values()))
-    grid = analysis.grid
-    if grid is None:
+    cycle = Analysis.of(forces).cycle
+    if cycle is None:
         raise LinkwrightError("running.not_between", name=motion.mechanism.name)
 
-    edges = abs(rate) * (grid.edges - begin)
-    between, slope = _inertia_and_slope(grid.motion)
-    torque = _torque(grid.forces, between, slope)
-    load = Curve(edges, direction * torque.reshape(-1, POINTS).T)
-    size = np.abs(grid.forces.input_torque).max()
-    if not grid.met(load.values.T, size):
-        halved = grid.curve(equivalent_torque, "forces", halve=True)
-        load = Curve(abs(rate) * (halved.edges - begin), direction * halved.values.T)
+    def reduced(solved: Forces) -> Floats:
+        inertia, slope = _inertia_and_slope(solved.motion)
+        return np.stack([inertia, direction * _torque(solved, inertia, slope)])
+
+    edges, (inertia, torque) = cycle.curve(reduced, "forces")
+    edges = abs(rate) * (edges - cycle.begin)
     return Equivalent(
         forces=forces,
         speed=abs(rate),
         period=period,
         start=float(motion.input[0]),
         direction=direction,
-        inertia_at=Curve(edges, between.reshape(-1, POINTS).T),
-        load=TorqueCurve.from_pieces(load),
+        inertia_at=Curve(edges, inertia),
+        load=TorqueCurve.from_pieces(Curve(edges, torque)),
     )
 
 

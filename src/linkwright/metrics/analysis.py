@@ -10,36 +10,31 @@ from typing import Any, Literal, TypeAlias, overload
 
 import numpy as np
 
-from linkwright.core.arrays import EQUAL, Floats
+from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, row_names
-from linkwright.core.piecewise import POINTS, Piecewise, largest, reach, sought
 from linkwright.core.search import first_largest
 from linkwright.cycle.cycle import Cycle, Solved
 from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.cycle.summary import STROKES, TRUE_SPEED, Extreme, Summary, one, signal_of
 from linkwright.engine.recently_made import Recent
+from linkwright.errors import LinkwrightError
 from linkwright.kinematics.limits import limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
-from linkwright.kinetostatics.forces import ROUNDING, Forces
+from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.signals import Limit
 from linkwright.loads.strokes import outermost
-from linkwright.metrics.cycle_grid import PASSED, CycleGrid, cycle_grid
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.reached_extremes import PartlyReached
 from linkwright.metrics.solved_again import in_enough_positions
+from linkwright.metrics.solved_cuts import SolvedCuts
+from linkwright.metrics.solved_pieces import SolvedPieces
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
-#: By kind of summary values and times (s) of some outputs, and whether polynomials meet these.
-Columns: TypeAlias = dict[str, tuple[list[float], list[float], list[bool]]]
-#: Summaries that are found of all outputs at once.
-_TOGETHER = frozenset({"max", "min", "peak", "mean", "rms"})
-
-
 #: Finds parts of some kinds of one machine.
 Finder: TypeAlias = "Callable[[Sequence[Summary], Analysis], list[Extreme]]"
 _FINDERS: dict[str, Finder] = {}
@@ -75,10 +70,8 @@ class Analysis(PartlyReached):
         self._limits: dict[Output, tuple[Limit, ...]] = {}
         self._outermost: dict[Output, list[Limit]] = {}
         self._words: dict[str, None] = {}
-        self._rows: dict[str, None] = {}
         self._outputs = motion.solver.programs.meanings
         self._asked: dict[Summary, Extreme | None] = {}
-        self._met: dict[str, tuple[int, Columns]] = {}
         self._parts: dict[str, Extreme] = {}
         self._texts: dict[str, None] = {}
 
@@ -150,10 +143,6 @@ class Analysis(PartlyReached):
                 self._asked.setdefault(summary)
             if summary.kind not in TRUE_SPEED and not self._meant(output).of_course:
                 self._words[words_name(output)] = None
-
-    def ask_rows(self, names: Iterable[str]) -> None:
-        """Says which outputs, by their names in programs, will be wanted of the :attr:`grid`."""
-        self._rows |= dict.fromkeys(names)
 
     def signal(self, output: str) -> Callable[[Motion | Forces], Floats]:
         """An output in words (see ``kinetostatics.named``) as a function of motion or forces, (n,)."""
@@ -244,16 +233,19 @@ class Analysis(PartlyReached):
         kind = summary.kind
         if kind in TRUE_SPEED or kind in STROKES.values():
             return self._found_together(summary, _FINDERS[kind])
-        if kind in _TOGETHER and (known := self._known(summary.output, kind)):
-            return known
         if kind in ("argmax", "argmin", "range") and (output := self.output(summary.output)):
             return self._of_limits(output, kind)
         nothing, signal = Extreme(float("nan"), float("nan"), float("nan"), True), self.signal(summary.output)
         if kind in ("mean", "rms"):
             value = (self.mean_of if kind == "mean" else self.rms_of)(signal)
-            return replace(nothing, value=value, exact=self.grid is not None)
+            return replace(nothing, value=value, exact=self.cycle is not None)
         if kind == "excess":
-            return replace(nothing, value=self._excess(signal))
+            rate = float(abs(self.input_rate[0]))
+            return (
+                nothing
+                if self.cycle is None
+                else replace(nothing, value=rate * self.cycle.excess(signal, self._of))
+            )
         if kind in ("max", "min"):
             return self._extreme(summary.output, kind) or replace(nothing, exact=False)
         high, low = self._extreme(summary.output, "max"), self._extreme(summary.output, "min")
@@ -280,75 +272,10 @@ class Analysis(PartlyReached):
         assert found is not None
         return found
 
-    def _excess(self, signal: Callable[[Motion | Forces], Floats]) -> float:
-        """Largest difference of the integral over the first driver's way of a signal's lack of its mean."""
-        if self.grid is None:
-            return float("nan")
-        curve = self.grid.curve(signal, "forces", halve=True)
-        mean = curve.total / (self.grid.end - self.grid.start)
-        work = Piecewise(curve.edges, mean - curve.values).integral()
-        least, most = Piecewise(curve.edges, work.at_nodes).extremes()
-        way, size = self.grid.end - self.grid.start, float(np.abs(curve.values).max())
-        excess = most.value - least.value
-        return float(abs(self.input_rate[0])) * (excess if excess > ROUNDING * size * way else 0.0)
-
     def _extreme(self, output: str, kind: str) -> Extreme | None:
         side: Kind = "max" if kind == "max" else "min"
-        if known := self._known(output, kind):
-            return known
         signal = self.signal(output)
         return self.extreme(signal, side) if self.forces is None else self.extreme(signal, side, of="forces")
-
-    def _known(self, output: str, kind: str) -> Extreme | None:
-        """One of the summaries of an output that are found together, where polynomials meet it, found at once with
-        those of all that were asked for."""
-        name = words_name(output)
-        if name not in self._met:
-            if self._meant(output).of_course or self.grid is None:
-                return None
-            missing = tuple(each for each in {**self._words, name: None} if each not in self._met)
-            columns = self._summaries(self.grid, missing)
-            self._met |= {each: (k, columns) for k, each in enumerate(missing)}
-        k, columns = self._met[name]
-        values, times, met = columns[kind]
-        if not met[k]:
-            return None
-        return Extreme(
-            values[k], times[k], times[k] if isnan(times[k]) else self.resolver.input_at(times[k]), True
-        )
-
-    def _summaries(self, grid: CycleGrid, names: tuple[str, ...]) -> Columns:
-        """The summaries of some outputs."""
-        solved = grid.motion if self.forces is None else grid.forces
-        rows = solved.rows.fetch(names, lambda missing: self._read(missing, solved))
-        pieces, count = np.concatenate(rows).reshape(len(names), -1, POINTS), len(names)
-        both = np.empty((2, count, POINTS, pieces.shape[1]))
-        both[0] = pieces.swapaxes(1, 2)
-        np.negative(both[0], out=both[1])
-        values = both.reshape(2 * count, *both.shape[2:])
-        tops = values.max(axis=1)
-        size = tops.max(axis=1).reshape(2, count).max(axis=0)
-        with np.errstate(all="ignore"):
-            means, met = grid.means(pieces, size)
-            squares, even = grid.means(pieces * pieces, size * size)
-            sizes = np.sqrt(squares)
-        piece, place, top, rough = largest(values, tops)
-        time = grid.edges[piece] + 0.5 * (place + 1.0) * np.diff(grid.edges)[piece]
-        high, low = top[:count], -top[count:]
-        time[np.tile(high - low <= ROUNDING * np.abs(high), 2)] = grid.start
-        bound = np.tile(grid.tolerance * size, 2)
-        smooth = (rough <= bound) & (reach(pieces, tops.reshape(2, count, -1), bound[:count]) <= top + bound)
-        first, last, never = time[:count], time[count:], np.full(count, np.nan)
-        above, below, more = smooth[:count], smooth[count:], np.abs(high) - np.abs(low)
-        upwards = np.where(np.abs(more) <= EQUAL * size, first <= last, more > 0.0)
-        found = {
-            "max": (high, first, above),
-            "min": (low, last, below),
-            "peak": (np.abs(np.where(upwards, high, low)), np.where(upwards, first, last), above & below),
-            "mean": (means, never, met),
-            "rms": (sizes, never, even),
-        }
-        return {kind: (a.tolist(), b.tolist(), c.tolist()) for kind, (a, b, c) in found.items()}
 
     def output(self, words: str) -> Output | None:
         """The output of the mechanism that words mean."""
@@ -386,31 +313,46 @@ class Analysis(PartlyReached):
         limits = self.ends.limits(lambda solved: solved.read(output), "motion")
         return list(self.ways.ranges(output, zip(self.ends.times, limits, strict=True)))
 
-    @cached_property
-    def grid(self) -> CycleGrid | None:
-        """The cycle at Gauss points; None where not all of it is reached, or nothing lies between its positions."""
-        return cycle_grid(self.resolver, self.motion, self.forces, (*self._words, *self._rows))
+    @property
+    def _of(self) -> str:
+        return "motion" if self.forces is None else "forces"
 
-    def mean_of(self, signal: Callable[..., Floats]) -> float:
-        """Mean over the time of the cycle of what the forces (without them, the motion) give, (n,).
+    @cached_property
+    def cycle(self) -> SolvedPieces | None:
+        """The cycle on pieces; None where not all of it is reached, or nothing lies between its positions."""
+        if not self.resolver.possible or self.motion.steps < 3 or not self.resolver.whole:
+            return None
+        try:
+            if self._machine is None:
+                cuts = SolvedCuts(self.motion, self.forces, self.resolver).times
+            else:
+                cuts = Cycle(self._machine, ()).solve({}).stretches.begin
+            found = SolvedPieces(self.motion, self.resolver, cuts)
+            return found if found.reached(self._of) else None
+        except LinkwrightError:
+            return None
+
+    def mean_of(self, signal: Callable[..., Floats], *, square: bool = False) -> float:
+        """Mean over the time of the cycle of what the forces (without them, the motion) give, (n,), or of its
+        ``square``.
 
         By integration between the positions, so that the jumps of loads fall where they are. NaN where not all of
         a closed cycle is reached, but for what is the same everywhere; of a way that ends that of the time until
         then, if it does not grow without bound; of the positions where nothing can be solved between these.
         """
-        of = "motion" if self.forces is None else "forces"
-        if self.grid is None:
-            if self.partial:
-                return self.mean_of_part(signal, of)
-            return self.mean(signal(self.forces or self.motion))
-        for _, *ends in self.grid.limits_at_changes(signal, of):
-            if np.isinf(ends).any():
-                return float(np.sum(ends))  # infinite, or undefined where it grows to both sides
-        return self.grid.curve(signal, of, halve=True).total / (self.grid.end - self.grid.start)
+        if self.cycle is not None:
+            return self.cycle.mean(signal, self._of, square=square)
+
+        def power(solved: Any) -> Floats:
+            return np.asarray(signal(solved) ** (2 if square else 1))
+
+        if self.partial:
+            return self.mean_of_part(power, self._of)
+        return self.mean(power(self.forces or self.motion))
 
     def rms_of(self, signal: Callable[..., Floats]) -> float:
         """Root of the mean square over the time of the cycle, found in the same way."""
-        return float(np.sqrt(self.mean_of(lambda solved: signal(solved) ** 2)))
+        return float(np.sqrt(self.mean_of(signal, square=True)))
 
     @overload
     def extreme(self, signal: Callable[[Motion], Floats], kind: Kind) -> Extreme | None: ...
@@ -435,64 +377,9 @@ class Analysis(PartlyReached):
         sample = Extreme(float(values[index]), float(time[index]), at, False)
         if not self.resolver.possible or self.motion.steps < 3:
             return sample
-        if self.grid is not None:
-            curve = self.grid.curve(signal, of)
-            if len(self.grid.around) and not curve.extreme(kind).smooth:
-                return self._past_changes(self.grid, signal, of, sign)
-            found = sought(curve, kind, self.grid.function(signal, of))
-            return Extreme(found.value, found.place, self.resolver.input_at(found.place), True)
+        if self.cycle is not None:
+            return self.cycle.extreme(signal, sign, of)
         return self.extreme_of_part(signal, sign, of, sample)
-
-    def _past_changes(
-        self, grid: CycleGrid, signal: Callable[[Any], Floats], of: str, sign: float
-    ) -> Extreme | None:
-        """The extreme of a signal that polynomials do not meet in a cycle with change points."""
-        for time, *ends in grid.limits_at_changes(signal, of):
-            if sign * np.inf in ends:
-                return Extreme(sign * np.inf, time, self.resolver.input_at(time), True)
-        times = np.linspace(grid.start, grid.end, 361)
-        times = np.sort(np.append(times, grid.around.mean(axis=1)))
-        function = grid.function(signal, of)
-        found = self._best_of(lambda t: sign * function(t), times, sign)
-        if found is None or abs(found.value) > PASSED * np.nanmax(np.abs(function(times))):
-            return found
-        return replace(found, value=0.0)
-
-    def extremes_between(
-        self,
-        kind: Kind,
-        wanted: Sequence[tuple[Callable[[Any], Floats], tuple[float, float]]],
-        of: str = "motion",
-    ) -> list[Extreme | None]:
-        """The same of signals, each between a pair of times, s, both among the candidates, where positions can be
-        solved between; None where none of them is reached."""
-        grid = self.grid
-        if wanted and grid is not None and all(grid.start <= start < end for _, (start, end) in wanted):
-            found = grid.extremes_between(kind, wanted, of)
-            return [
-                Extreme(each.value, each.place, self.resolver.input_at(each.place), True) for each in found
-            ]
-        return [self._extreme_between(signal, kind, of, *span) for signal, span in wanted]
-
-    def _extreme_between(
-        self, signal: Callable[[Any], Floats], kind: Kind, of: str, start: float, end: float
-    ) -> Extreme | None:
-        """The same between two times, from samples."""
-        sign = 1.0 if kind == "max" else -1.0
-        return self._best_of(
-            lambda t: sign * signal(self.resolver.at(t, of)), np.linspace(start, end, 361), sign
-        )
-
-    def _best_of(self, signal: Callable[[Floats], Floats], time: Floats, sign: float) -> Extreme | None:
-        """The largest of a signal at some times, s, and between those beside it."""
-        values = signal(time)
-        if not np.isfinite(values).any():
-            return None
-        best = first_largest(values)
-        at = float(time[best])
-        first = Extreme(sign * float(values[best]), at, self.resolver.input_at(at), True)
-        low, high = time[[max(best - 1, 0)]], time[[min(best + 1, len(time) - 1)]]
-        return self.narrowed(signal, low, high, sign, first)
 
 
 _known: Recent[Motion | Forces, Analysis] = Recent(8)

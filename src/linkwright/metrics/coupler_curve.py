@@ -12,8 +12,9 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import increasing
+from linkwright.core.piecewise import increasing, nodes
 from linkwright.core.plane import cross, crossings
+from linkwright.core.search import lowest
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
@@ -193,26 +194,31 @@ def _cusps(analysis: Analysis, point: str, motion: Motion, length: float) -> Ite
     for i in np.flatnonzero(low & (speed < np.roll(speed, -1)) & (speed < 0.3 * mean)).tolist():
         before, after = (time[i] - time[i - 1], time[(i + 1) % len(time)] - time[i])
         ends = [float(time[i] + way * min(abs(gap), apart)) for way, gap in ((-1.0, before), (1.0, after))]
-        (least,) = analysis.extremes_between(
-            "min", [(lambda m: np.hypot(*m.point(point).velocity.T), (ends[0], ends[1]))]
-        )
-        if least is None or least.value > STANDING * mean:
+        low, high = np.array(ends)[:, None]
+        (at,), (least,) = lowest(lambda place: _speed(analysis, point, place), low, high)
+        if least > STANDING * mean:
             continue
-        x, y = analysis.resolver.motion(np.array([least.time])).point(point).position[0].tolist()
+        x, y = analysis.resolver.motion(np.array([at])).point(point).position[0].tolist()
         if not any(np.hypot(x - a, y - b) <= APART * length for a, b in found):
             found.append((x, y))
-            yield (x, y), least.input
+            yield (x, y), analysis.resolver.input_at(float(at))
 
 
 def _speeds(analysis: Analysis, point: str, motion: Motion) -> tuple[Floats, Floats]:
     """Times of a motion and of the pieces of the cycle beside them, which are short where the speed changes sharply,
     in order, with a point's speeds there."""
     time = motion.time
-    if analysis.grid is not None:
-        inner = analysis.grid.motion.time
+    if analysis.cycle is not None:
+        inner = nodes(analysis.cycle.curve(lambda each: each.point(point).velocity.T, "motion")[0]).ravel()
         time = increasing(np.append(time, inner[(inner > time.min()) & (inner < time.max())]))
-    speed = np.hypot(*analysis.resolver.motion(time).point(point).velocity.T)
+    speed = _speed(analysis, point, time)
     return time, np.where(speed <= AT_REST * speed.max(), 0.0, speed)
+
+
+def _speed(analysis: Analysis, point: str, time: Floats) -> Floats:
+    """How fast a point is at times (...), s."""
+    velocity = analysis.resolver.motion(time.ravel()).point(point).velocity
+    return np.asarray(np.hypot(*velocity.T).reshape(time.shape))
 
 
 class CurveMetric(Metric):

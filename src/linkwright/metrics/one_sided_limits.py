@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.piecewise import NODES, POINTS
+from linkwright.curves.polynomials import NODES, POINTS
 
 #: Two polynomials, through all values of a side and through all but the outermost, agree to this share of the values.
 AGREE = 1e-6
@@ -29,10 +29,10 @@ STEEPEST = 10
 SLOWED = (0.2, 0.02)
 _HALF = POINTS // 2
 #: Distances of a side's places from the middle, the nearest first, as shares of the half width.
-_AWAY = NODES[_HALF:]
+AWAY = 2.0 * NODES[_HALF:] - 1.0
 
 
-def _weights(away: Floats, x: Floats) -> Floats:
+def weights(away: Floats, x: Floats) -> Floats:
     """Weights (m, k) of values at distances (k,) in their polynomial's values at x (m,)."""
     others = away[:, None] - away
     np.fill_diagonal(others, 1.0)
@@ -42,19 +42,14 @@ def _weights(away: Floats, x: Floats) -> Floats:
 
 
 _MIDDLE = np.zeros(1)
-_ALL = _weights(_AWAY, _MIDDLE)[0]
-_BUT_ONE = np.append(_weights(_AWAY[:-1], _MIDDLE)[0], 0.0)
-
-
-def sides(values: Floats) -> tuple[Floats, Floats]:
-    """Values (POINTS,) at the Gauss points of a piece before and after its middle, the nearest first."""
-    return values[:_HALF][::-1], values[_HALF:]
+_ALL = weights(AWAY, _MIDDLE)[0]
+_BUT_ONE = np.append(weights(AWAY[:-1], _MIDDLE)[0], 0.0)
 
 
 def towards(length: Floats, slowed: float) -> Floats:
     """Distances (..., k) from ends of range, the nearest first, of stretches of some lengths: squares, nearly, of
     distances as :func:`limit` takes them."""
-    return 0.5 * np.asarray(length)[..., None] * (1.0 - np.cos(slowed * _AWAY))
+    return 0.5 * np.asarray(length)[..., None] * (1.0 - np.cos(slowed * AWAY))
 
 
 def limit(values: Floats, steepest: int = 2) -> float:
@@ -66,16 +61,9 @@ def limit(values: Floats, steepest: int = 2) -> float:
         return found if abs(found) > nothing else 0.0
     if (np.diff(np.abs(values[:_GROWING])) < 0.0).all():
         for order in range(1, steepest + 1):
-            scaled = values * np.sign(values[0]) * _AWAY**order
+            scaled = values * np.sign(values[0]) * AWAY**order
             found = float(_ALL @ scaled)
             unsure = max(abs(found - float(_BUT_ONE @ scaled)), AGREE * float(np.abs(scaled).max()))
             if found > _SURE * unsure:
                 return float(np.copysign(np.inf, values[0]))
     return float("nan")
-
-
-def between(values: Floats, share: Floats) -> Floats:
-    """A signal at shares (m,) of the half width from the middle, -1 to 1, by the polynomials of both sides."""
-    before, after = sides(values)
-    weights = _weights(_AWAY, np.abs(share))
-    return np.where(share < 0.0, weights @ before, weights @ after)

@@ -14,9 +14,10 @@ from linkwright.core.outputs import Output
 from linkwright.core.piecewise import NODES, POINTS, WEIGHTS, Piecewise, nodes, weights_at
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
-from linkwright.metrics.cycle_grid import PIECES
 from linkwright.metrics.solved_again import Resolver
 
+#: Pieces of a stretch.
+PIECES = 24
 #: Share of its size to which polynomials meet an output: nothing is solved very near the ends.
 MET = 3e-7
 #: Shares of the first and the last piece, next to the ends, that are left out where nothing is solved so near.

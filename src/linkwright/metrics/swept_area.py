@@ -18,11 +18,11 @@ from linkwright.kinematics.names import canonical
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
-from linkwright.metrics.cycle_grid import PIECES, CycleGrid
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
 from linkwright.metrics.range_of_motion import turns
-from linkwright.metrics.reached_ways import MET
+from linkwright.metrics.reached_ways import MET, PIECES
+from linkwright.metrics.solved_pieces import SolvedPieces
 from linkwright.metrics.swept_hull import Curves, SweptHull
 
 #: Ends of ways nearer to each other than this share of the way are the same.
@@ -106,11 +106,13 @@ _points: Recent[object, Mapping[str, tuple[str, ...]]] = Recent(64)
 
 def _curves(analysis: Analysis) -> tuple[Curves | None, bool]:
     """The curves of all points, and whether polynomials meet them; None where nothing lies between the positions."""
-    grid, keys = analysis.grid, points(analysis.motion.mechanism)
-    if grid is not None:
-        values = _places(grid.motion, keys)
-        spans = _spans(analysis, grid, values)
-        return Curves(values, *turned(analysis.motion.mechanism, grid.edges, analysis.closed), spans), True
+    cycle, mechanism = analysis.cycle, analysis.motion.mechanism
+    keys = points(mechanism)
+    if cycle is not None:
+        edges, rows = cycle.curve(lambda motion: _rows(motion, keys), "motion")
+        values = np.moveaxis(rows, 1, 2).reshape(len(keys), 2, -1, POINTS)
+        spans = _spans(analysis, cycle, edges, values)
+        return Curves(values, *turned(mechanism, edges, analysis.closed), spans), True
     if not analysis.ways.whole:
         return None, False
     ways = analysis.ways.motions
@@ -118,7 +120,7 @@ def _curves(analysis: Analysis) -> tuple[Curves | None, bool]:
     whole = np.tile([0, len(piece) * POINTS], (len(keys), 1))
     values = np.concatenate(
         [
-            analysis.ways.to_ends(_places(way, keys).reshape(len(keys), 2, -1), number)
+            analysis.ways.to_ends(_rows(way, keys).reshape(len(keys), 2, -1), number)
             for number, way in enumerate(ways)
         ],
         axis=2,
@@ -139,16 +141,16 @@ def turned(mechanism: Mechanism, edges: Floats, closed: bool) -> tuple[Flags, Fl
     return bent[:-1], bent[1:]
 
 
-def _spans(analysis: Analysis, grid: CycleGrid, values: Floats) -> Indices:
+def _spans(analysis: Analysis, cycle: SolvedPieces, edges: Floats, values: Floats) -> Indices:
     """The nodes of every curve from one end of its way to the other, where it is run to and fro: of all points by the
     one driver, or by a link that turns or slides on the frame; one of a point at rest."""
-    mechanism, times = analysis.motion.mechanism, nodes(grid.edges).ravel()
-    whole = (0, len(times)) if len(analysis.resolver.changes) else of_driver(mechanism, grid.edges)
+    mechanism, times = analysis.motion.mechanism, nodes(edges).ravel()
+    whole = (0, len(times)) if len(analysis.resolver.changes) else of_driver(mechanism, edges)
     keys, found = points(mechanism), np.tile(whole, (len(values), 1))
     for output in analysis.outputs:
-        way = grid.motion.read(output)
+        way = cycle.at(times, "motion").read(output)
         if output.kind != "angle" or np.ptp(way) < 2.0 * np.pi:
-            ends = [(grid.start, float(way[0])), (grid.end, float(way[-1]))]
+            ends = [(cycle.begin, float(way[0])), (cycle.end, float(way[-1]))]
             reached = [*ends, *((each.time, each.value) for each in analysis.limits(output))]
             own = points_of_links(mechanism)[output_link(mechanism, output)]
             found[[keys.index(key) for key in own]] = _between(times, _once(reached))
@@ -182,8 +184,7 @@ def _once(reached: Sequence[tuple[float, float]]) -> tuple[float, float]:
     return min(first, last), max(first, last)
 
 
-def _places(motion: Motion, keys: tuple[str, ...]) -> Floats:
-    """The places of points, (points, 2, pieces, POINTS) m."""
+def _rows(motion: Motion, keys: tuple[str, ...]) -> Floats:
+    """The places of points, (2 · points, n) m."""
     names = tuple(chain.from_iterable(row_names("position", key) for key in keys))
-    rows = motion.rows.fetch(names, motion.evaluate)
-    return np.concatenate(rows).reshape(len(keys), 2, -1, POINTS)
+    return np.stack(motion.rows.fetch(names, motion.evaluate))

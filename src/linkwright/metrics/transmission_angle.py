@@ -79,21 +79,14 @@ def _driven_dyads(analysis: Analysis) -> list[tuple[Group, Output]]:
 def on_strokes(parts: Sequence[Summary], analysis: Analysis) -> list[Extreme]:
     """Such parts of one machine, each the smallest of all its strokes that way: of the stroke in which it lies the
     smallest of the cycle."""
-    found: dict[tuple[Summary, int], Extreme | None] = {}
-    period, sought = analysis.motion.positions.period or 0.0, []
-    for part in parts:
-        lowest = analysis.part(f"{signal_of(part)} min")
-        for k, (start, end) in enumerate(_strokes(part, analysis, period)):
-            found[part, k] = lowest
-            if not lowest.exact or not any(start <= lowest.time + lap <= end for lap in (0.0, period)):
-                sought.append(((part, k), (analysis.signal(signal_of(part)), (start, end))))
+    found: list[Extreme] = []
+    period = analysis.motion.positions.period or 0.0
     of = "motion" if analysis.forces is None else "forces"
-    smallest = analysis.extremes_between("min", [wanted for _, wanted in sought], of)
-    found |= zip((key for key, _ in sought), smallest, strict=True)
-    return [
-        min((one for (each, _), one in found.items() if each == part and one), key=lambda one: one.value)
-        for part in parts
-    ]
+    for part in parts:
+        assert analysis.cycle is not None
+        spans = _strokes(part, analysis, period)
+        found.append(analysis.cycle.extreme(analysis.signal(signal_of(part)), -1.0, of, spans))
+    return found
 
 
 def _strokes(part: Summary, analysis: Analysis, period: float) -> list[tuple[float, float]]:

@@ -5,12 +5,11 @@ from math import inf
 import numpy as np
 import pytest
 
-from linkwright.core.piecewise import NODES
-from linkwright.metrics.one_sided_limits import between, limit, sides
+from linkwright.metrics.one_sided_limits import AWAY, limit, weights
 
 
 def test_limits_of_what_is_smooth_kinked_and_unbounded() -> None:
-    x = 0.3 * NODES  # a piece of 0.6 rad
+    x = 0.3 * np.array([-AWAY, AWAY])  # both sides, the nearest first
     for signal, before, after in (
         (np.cos(x + 0.3), np.cos(0.3), np.cos(0.3)),
         (np.abs(np.sin(x)), 0.0, 0.0),
@@ -19,12 +18,14 @@ def test_limits_of_what_is_smooth_kinked_and_unbounded() -> None:
         (1.0 / x**2, inf, inf),
         (np.hypot(1.0 / np.sin(x), 3.0), inf, inf),
     ):
-        assert [limit(side) for side in sides(signal)] == pytest.approx([before, after], abs=1e-7)
-    jumping = np.random.default_rng(3).normal(size=len(x))
-    assert all(np.isnan(limit(side)) for side in sides(jumping))
+        assert [limit(side) for side in signal] == pytest.approx([before, after], abs=1e-7)
+    jumping = np.random.default_rng(3).normal(size=x.shape)
+    assert all(np.isnan(limit(side)) for side in jumping)
 
 
 def test_values_between_follow_each_side() -> None:
-    share = np.linspace(-1.0, 1.0, 41)
-    kinked = np.abs(np.sin(0.4 * NODES)) + NODES
-    np.testing.assert_allclose(between(kinked, share), np.abs(np.sin(0.4 * share)) + share, atol=1e-10)
+    share = np.linspace(0.0, 1.0, 21)
+    for sign in (-1.0, 1.0):
+        kinked = np.abs(np.sin(0.4 * sign * AWAY)) + sign * AWAY
+        expected = np.abs(np.sin(0.4 * share)) + sign * share
+        np.testing.assert_allclose(weights(AWAY, share) @ kinked, expected, atol=1e-10)

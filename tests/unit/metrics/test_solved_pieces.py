@@ -7,7 +7,7 @@ from tests.invariants.turned_cams import UNEVEN
 from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.core.piecewise import SMOOTH
+from linkwright.curves.curve import Curve
 from linkwright.metrics import Analysis
 
 
@@ -16,12 +16,12 @@ def test_polynomials_meet_the_motion_between_their_points(frame: float) -> None:
     """Crank 1 m, coupler 3.5 m and rocker 2.5 m fold with a frame of 5 m."""
     machine = stored("crank_rocker").with_dimensions({"frame.O2.x": frame})
     motion = lw.solve_motion(machine)
-    grid = Analysis.of(motion).grid
-    assert grid is not None
-    curve = grid.curve(lambda each: each.link("rocker").angular_velocity, "motion")
-    assert curve.smooth.all() and grid.tolerance == SMOOTH
-    assert grid.edges[[0, -1]] == pytest.approx([0.0, motion.time[-1] * 360 / 359], rel=1e-12)
-    time = np.random.default_rng(3).uniform(grid.start, grid.end, 400)
+    cycle = Analysis.of(motion).cycle
+    assert cycle is not None
+    edges, values = cycle.curve(lambda each: each.link("rocker").angular_velocity, "motion")
+    curve = Curve(edges, values[0])
+    assert edges[[0, -1]] == pytest.approx([0.0, motion.time[-1] * 360 / 359], rel=1e-12)
+    time = np.random.default_rng(3).uniform(cycle.begin, cycle.end, 400)
     exact = lw.solve_motion(machine, times=time).link("rocker").angular_velocity
     assert np.abs(curve(time) - exact).max() < 1e-9 * np.abs(exact).max()
 
@@ -32,5 +32,6 @@ def test_a_cycle_is_cut_where_it_bends_and_nothing_is_halved(text: str, most: in
     machine = lw.loads(text.partition("  press:")[0])
     analysis = Analysis.of(lw.solve_forces(machine))
     assert np.isfinite([analysis.part(part).value for part in ("driver.effort rms", "power mean")]).all()
-    assert analysis.grid is not None
-    assert len(analysis.grid.edges) < most
+    assert analysis.cycle is not None
+    edges, _ = analysis.cycle.curve(lambda forces: forces.input_torque, "forces")
+    assert len(edges) < most
