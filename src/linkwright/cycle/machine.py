@@ -235,7 +235,7 @@ class Machine:
     ) -> None:
         self.mechanism, self.nominal, self.varied = mechanism, nominal, tuple(varied)
         if not nominal.whole or nominal.modes or nominal.steps < 3 or not mechanism.drivers:
-            raise NotTogether("not all of the cycle is passed by one formula")
+            raise NotTogether
         self.loads = self._traced_loads()
         self.course = Course.of(mechanism, nominal.positions, seam=self._seamed())
         self.terms: tuple[FrictionTerm, ...] = ()
@@ -247,7 +247,7 @@ class Machine:
         if rubbing:
             terms = programs._terms
             if not can_be_traced(terms):
-                raise NotTogether("more friction in one group than is traced")
+                raise NotTogether
             self.terms = terms.terms
         columns = frozenset(self.varied)
         key = (columns, self.course.key)
@@ -261,12 +261,12 @@ class Machine:
         varying = [each for each in self.mechanism.loads.values() if not each.magnitude.constant]
         for load in varying:
             if not load.magnitude.has_formula or None in load.magnitude.size.outputs(self.mechanism):
-                raise NotTogether("a load has no formula of one position")
+                raise NotTogether
         known = numbers_of_loads(varying, self.mechanism)
         if known.angles:
             middles = known.middles(MotionSignals(self.nominal))
             if middles is None:
-                raise NotTogether("a load has no formula of one position")
+                raise NotTogether
             known = AlongInput(known.names, constants={**known.constants, **middles}, tables=known.tables)
         return known
 
@@ -364,7 +364,7 @@ class Machine:
         rotary = next(iter(self.nominal.positions.rotary.values()))
         line = line_near(rotation, self.nominal.input if rotary else np.zeros(len(rotation)))
         if line is None:
-            raise NotTogether("a rotation runs near no line")
+            raise NotTogether
         return line[which == "turns"]
 
     def swings(self, term: FrictionTerm | RelativeAngle) -> bool:
