@@ -34,7 +34,7 @@ LOOSER = {"swept_area": 1e-6, "swept_area_of_link": 1e-6}
 #: Values smaller than this share of the largest of their unit are judged beside it.
 SMALL = 1e-3
 #: The same in SI, of units that ``LEAST`` has not.
-OTHERS = 1e-3
+OTHERS = 1e-2
 #: Factors of two dimensions in three designs.
 FACTORS = np.array([[1.0, 1.002, 0.998], [1.0, 0.9985, 1.0015]])
 VARIED = (".length", ".x", ".y", "radius", "offset", "mass")
