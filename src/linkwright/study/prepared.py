@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from array import array
 from collections.abc import Callable, Iterable, Mapping
-from functools import cached_property, partial
+from functools import cached_property
 from math import inf
 from typing import Literal
 
@@ -13,39 +13,39 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.given import one_of, require
-from linkwright.core.outputs import row_name
-from linkwright.cycle_programs.limit_stages import CONVERGED, agree, constants, limit_stages, near_limits
-from linkwright.cycle_programs.loaded_cycle import along_input, with_loads
+from linkwright.core.outputs import Output, row_name
+from linkwright.cycle.load_limits import NearLimits
+from linkwright.cycle_programs.loaded_cycle import LoadedCycle, along_input, with_limits
 from linkwright.cycle_programs.traced_outputs import Traced
-from linkwright.engine.call_block import address_of
-from linkwright.engine.cycle import CycleProgram
-from linkwright.engine.llvm_backend import CompiledProgram, compile_program
-from linkwright.engine.machine_code import OF_ONE_ADDRESS, available
+from linkwright.engine.llvm_backend import compile_program
+from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import numpy_program
 from linkwright.engine.program import Program
 from linkwright.engine.summaries import BACKENDS, Backend
-from linkwright.engine.trace import Mask, Scalar, absolute, select
+from linkwright.engine.trace import Mask, Scalar, absolute, minimum, select, sign
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.change_points import nearness, parts
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
+from linkwright.kinematics.names import program_names
 from linkwright.kinematics.passing_proof import NEAR
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
-from linkwright.kinetostatics.load_site import limit_name
+from linkwright.kinetostatics.load_site import LAP, limit_name
 from linkwright.kinetostatics.run import forces_of_run
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import AlongInput, traced_magnitude
+from linkwright.loads.strokes import turned
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.study.varied_dimensions import checked_addresses
 
 #: The row of how near a group is to a change point or a gap; 0 where it cannot be assembled, where a load has no
 #: value, and where limit positions do not agree with the rates.
 NEAREST = "nearest change point"
-#: Lanes in which limit positions are looked for beside each other, as many as a processor may have.
-LANES = 8
+#: The step of the input between two positions, rad; how near to a limit, rad, a position counts as on it.
+STEP, AT = "step of the input", 1e-9
 
 
 def prepare(
@@ -197,14 +197,14 @@ def is_near(row: Floats) -> bool:
 class _Followed:
     """Loads and friction that a compiled program traces, with what finds limit positions before."""
 
-    def __init__(self, traced: Traced, loads: AlongInput) -> None:
-        self.traced, self.loads = traced, loads
-        self.tables = loads.tables
-        rubbing = traced.forces.programs.friction
+    def __init__(self, loaded: LoadedCycle) -> None:
+        self.traced, self.loads, self.sought = loaded.traced, loaded.loads, loaded.limits
+        self.tables = self.loads.tables
+        rubbing = self.traced.forces.programs.friction
         self.friction = {} if rubbing is None else rubbing.sizes
-        self.fields = (*(row_name("magnitude", name) for name in sorted(loads.names)), *self.friction)
-        self.known = {**constants(traced), **loads.constants}
-        self._own = threading.local()
+        self.fields = (*(row_name("magnitude", name) for name in sorted(self.loads.names)), *self.friction)
+        lap = loaded.constants.get(LAP, 0.0)
+        self.known = {**loaded.constants, STEP: lap / self.traced.positions.count}
 
     @classmethod
     def of(cls, prepared: Prepared) -> _Followed:
@@ -214,9 +214,9 @@ class _Followed:
         fields = plain.forces.fields_needed()
         nothing = AlongInput(frozenset())
         if not fields or prepared.backend == "numpy" or not available() or plain.solver.motion.next_states:
-            return cls(plain, nothing)
+            return cls(LoadedCycle(plain, nothing, None, {}))
         loads = along_input(plain, vary, fields) or nothing
-        return cls(with_loads(plain, loads), loads)
+        return cls(with_limits(plain, loads) or LoadedCycle(plain, nothing, None, {}))
 
     @cached_property
     def sizes(self) -> dict[str, Scalar]:
@@ -247,35 +247,25 @@ class _Followed:
         """
         if not self._of_drivers.isdisjoint(changes):
             return False
-        if not self.loads.outputs:
+        if self.sought is None:
             return True
-        newton: _Newton | None = getattr(self._own, "newton", None)
-        if newton is None:
-            if self._begin is None:
-                return False
-            newton = self._own.newton = _Newton(*self._begin, places)
-        return newton.limit(changes, numbers)
+        found = None if self._near is None else self._near.limits({**self._nominal, **changes})
+        for name, value in (found or {}).items():
+            if name in places:
+                numbers[places[name]] = value
+        return found is not None
 
     @cached_property
-    def _begin(self) -> tuple[CompiledProgram, array[float], dict[str, Floats]] | None:
-        """Newton's steps compiled, their numbers, and the limits where they begin."""
-        outputs, valued = self.loads.outputs, self.loads.valued
-        cycle = CycleProgram(tuple(limit_stages(self.traced, outputs, valued=valued)))
-        compiled = compile_program(near_limits(self.traced, outputs, valued))
-        if compiled is None:
-            return None
-        known = {**self.traced.solver.nominal.parameters, **self.known}
-        table, positions = [[known[name] for name in cycle.dimensions]], self.traced.positions.arrays
-        found = cycle.evaluate(table, positions, tables=self.tables, threads=1, backend="llvm")
-        if any(found[f"doubt:{output}"][0] != 0.0 for output in outputs):
-            return None
-        starts = {
-            f"near:{output}": np.resize(
-                [found[limit_name(output, kind)][0] for kind in ("max", "min")], LANES
-            )
-            for output in outputs
-        }
-        return compiled, array("d", [known[name] for name in compiled.program.parameters]), starts
+    def _nominal(self) -> dict[str, float]:
+        """The dimensions that vary in the mechanism as it is."""
+        return {name: self.traced.mechanism.dimension(name) for name in self.traced.solver.manner.free}
+
+    @cached_property
+    def _near(self) -> NearLimits | None:
+        """What finds limits from those of the mechanism as it is; None where these are not just two."""
+        assert self.sought is not None
+        found = self.sought.solve({name: np.array([value]) for name, value in self._nominal.items()})
+        return NearLimits(self.sought, found) if found.certain.all() else None
 
     @cached_property
     def _of_drivers(self) -> frozenset[str]:
@@ -285,41 +275,21 @@ class _Followed:
         return frozenset(name for name in known if name.rpartition(".")[0] in mechanism.drivers)
 
 
-class _Newton:
-    """One thread's call of Newton's steps to the limit positions of a design."""
-
-    def __init__(
-        self,
-        compiled: CompiledProgram,
-        base: array[float],
-        starts: Mapping[str, Floats],
-        places: Mapping[str, int],
-    ) -> None:
-        program = compiled.program
-        self._base, self._numbers = base, base[:]
-        self._places = {name: place for place, name in enumerate(program.parameters)}
-        names = program.output_names
-        self._rows = array("d", bytes(8 * LANES * len(names)))
-        out = np.frombuffer(self._rows).reshape(-1, LANES)
-        entry, block, _ = compiled.one_by_one(np.frombuffer(self._numbers), starts, out)
-        self._run = partial(OF_ONE_ADDRESS(entry), address_of(block))
-        self._read = compiled, starts, block
-        lanes = [
-            (lane, f"{name}:{kind}")
-            for row, name in enumerate(names)
-            for lane, kind in enumerate(("max", "min"), start=row * LANES)
-        ]
-        self._moved = [lane for lane, name in lanes if name.startswith("moved:")]
-        self._found = [(lane, places[name]) for lane, name in lanes if name in places]
-
-    def limit(self, changes: Mapping[str, float], numbers: array[float]) -> bool:
-        """Writes limits, and values there, among the numbers; False where the steps do not come to an end."""
-        own, rows = self._numbers, self._rows
-        own[:] = self._base
-        for address, value in changes.items():
-            if address in self._places:
-                own[self._places[address]] = value
-        self._run()
-        for lane, place in self._found:
-            numbers[place] = rows[lane]
-        return sum([rows[lane] for lane in self._moved]) <= CONVERGED
+def agree(traced: Traced, outputs: Iterable[Output]) -> Mask:
+    """Whether every output falls at this position just where it lies between the limits ``max`` and ``min``, with
+    positions on both ways; on a limit its rate may have either sign."""
+    motion, logic = traced.solver.motion, traced.solver.motion.trace.logic
+    found: Mask = True
+    for output in outputs:
+        (driver,) = traced.mechanism.drivers
+        sense = sign(motion.trace.parameter(f"{driver}.speed"))
+        step, lap = motion.trace.parameter(STEP), motion.trace.parameter(LAP)
+        highest, lowest = (motion.trace.parameter(limit_name(output, kind)) for kind in ("max", "min"))
+        way = turned(sense * (motion.trace.position("input") - highest), lap)
+        length = turned(sense * (lowest - highest), lap)
+        gone = way - length
+        rate = traced.solver.outputs.value(program_names(traced.mechanism, output)[1][0])
+        beside = minimum(minimum(way, lap - way), absolute(gone)) <= AT
+        apart = minimum(length, lap - length) > step
+        found = logic("and", found, logic("and", apart, logic("or", rate * gone >= 0.0, beside)))
+    return found
