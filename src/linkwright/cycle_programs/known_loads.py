@@ -15,8 +15,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import kind_of, owners_of
-from linkwright.cycle_programs.limit_stages import whole_turns
-from linkwright.cycle_programs.loaded_cycle import with_limits
+from linkwright.cycle_programs.loaded_cycle import whole_turns, with_limits
 from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.table import Tables
 from linkwright.errors import LinkwrightError

@@ -13,6 +13,7 @@ import numpy as np
 
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
+from linkwright.cycle_programs.loaded_cycle import whole_turns
 from linkwright.cycle_programs.traced_outputs import VALID, Traced
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
@@ -303,14 +304,3 @@ def constants(traced: Traced, count: int | None = None) -> dict[str, float]:
     count = traced.positions.count if count is None else count
     lap = TURN * max(1, whole_turns(traced))
     return {LAP: lap, STEP: lap / count, "positions": float(count)}
-
-
-def whole_turns(traced: Traced, varied: Iterable[str] = ()) -> int:
-    """Of how many turns of the only driver the cycle is, closed and of constant speed, whatever varies; else 0."""
-    drivers = list(traced.mechanism.drivers.values())
-    speed = drivers[0].law.constant_speed if len(drivers) == 1 else None
-    if speed is None or not traced.positions.closed or not traced.positions.rotary[drivers[0].name]:
-        return 0
-    turns = abs(speed) * (traced.positions.period or 0.0) / TURN
-    steady = abs(turns - round(turns)) * TURN <= 1e-9 and f"{drivers[0].name}.speed" not in set(varied)
-    return round(turns) if steady else 0

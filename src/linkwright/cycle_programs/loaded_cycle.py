@@ -12,7 +12,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, kind_of, owners_of
 from linkwright.cycle.load_limits import FoundLimits, LoadLimits
 from linkwright.cycle.machine import Machine, NotTogether
-from linkwright.cycle_programs.limit_stages import whole_turns
 from linkwright.cycle_programs.traced_outputs import Traced, design_table
 from linkwright.engine.reductions import VALID_COUNT, Results
 from linkwright.engine.trace import Scalar, select
@@ -24,6 +23,7 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import Magnitude
+from linkwright.loads.strokes import TURN
 from linkwright.mechanism.mechanism import Mechanism
 
 #: The output that is the sum of magnitudes which may not exist, and that is 1 where friction is not certain.
@@ -189,3 +189,14 @@ def doubtful(results: Results, loads: AlongInput, count: int, limits: Iterable[O
         doubt += results[RUBBING]
     doubt[results[VALID_COUNT] != count] = 0.0
     return np.flatnonzero(~(doubt == 0.0))
+
+
+def whole_turns(traced: Traced, varied: Iterable[str] = ()) -> int:
+    """Of how many turns of the only driver the cycle is, closed and of constant speed, whatever varies; else 0."""
+    drivers = list(traced.mechanism.drivers.values())
+    speed = drivers[0].law.constant_speed if len(drivers) == 1 else None
+    if speed is None or not traced.positions.closed or not traced.positions.rotary[drivers[0].name]:
+        return 0
+    turns = abs(speed) * (traced.positions.period or 0.0) / TURN
+    steady = abs(turns - round(turns)) * TURN <= 1e-9 and f"{drivers[0].name}.speed" not in set(varied)
+    return round(turns) if steady else 0

@@ -9,16 +9,13 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.cycle_programs.limit_stages import constants
 from linkwright.cycle_programs.traced_outputs import VALID, Traced, design_table
-from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.derivative import forward
 from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
-from linkwright.engine.reductions import Reduction
+from linkwright.engine.reductions import VALID_COUNT, Reduction
 from linkwright.engine.replay import Replay
-from linkwright.engine.stage import Stage
-from linkwright.engine.summaries import Arrays, Backend
+from linkwright.engine.summaries import Arrays, Backend, Summaries
 from linkwright.engine.trace import Scalar
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.names import point_key
@@ -34,7 +31,7 @@ class PathCurvature:
     """
 
     names: tuple[str, ...]
-    cycle: CycleProgram
+    means: Summaries
     arrays: Arrays
     known: Mapping[str, float]
     backend: Backend
@@ -42,11 +39,14 @@ class PathCurvature:
     def __call__(self, columns: Mapping[str, Floats]) -> Floats:
         """Curvatures (designs, names, names), m² over the squares of the dimensions; NaN where a design does not
         pass its cycle."""
-        table = design_table(self.cycle.dimensions, self.known, columns)
-        found = self.cycle.evaluate(table, self.arrays, threads=1, backend=self.backend)
-        bent = np.zeros((len(table), len(self.names), len(self.names)))
+        table = design_table(self.means.parameters, self.known, columns)
+        found = self.means.evaluate(table, self.arrays, threads=1, backend=self.backend)
+        count = len(next(iter(self.arrays.values())))
+        bent = np.full((len(table), len(self.names), len(self.names)), np.nan)
+        passed = found[VALID_COUNT] == count
         for i, j in combinations_with_replacement(range(len(self.names)), 2):
-            bent[:, i, j] = bent[:, j, i] = 2.0 * found[_product(i, j)]
+            mean = found[f"{_product(i, j)}.mean"][passed]
+            bent[passed, i, j] = bent[passed, j, i] = 2.0 * mean
         return bent
 
 
@@ -81,10 +81,9 @@ def _made(
     for i, j in combinations_with_replacement(range(len(own)), 2):
         parts = [slopes[f"{axis}|{own[i]}"] * slopes[f"{axis}|{own[j]}"] for axis in "xy"]
         outputs[_product(i, j)] = parts[0] + parts[1]
-    means = {name: Reduction(name, "mean") for name in outputs if name != VALID}
-    stage = Stage(Program.of(replay.trace, outputs), means, valid=VALID, complete=True)
-    known = {**traced.solver.nominal.parameters, **constants(traced)}
-    return PathCurvature(own, CycleProgram((stage,)), positions.arrays, known, backend)
+    means = [Reduction(name, "mean") for name in outputs if name != VALID]
+    found = Summaries(Program.of(replay.trace, outputs), means, VALID)
+    return PathCurvature(own, found, positions.arrays, traced.solver.nominal.parameters, backend)
 
 
 def _product(i: int, j: int) -> str:

@@ -127,13 +127,22 @@ class Gradient:
         return reduced(sums, numbers, _own(sums, fields), None, run)
 
     def _columns(self, numbers: Floats, results: Results) -> Columns:
-        known: Columns = dict(zip(self.parameters, numbers.T, strict=True))
-        return {**known, **results}
+        return {**dict(zip(self.parameters, numbers.T, strict=True)), **results}
+
+    @cached_property
+    def _alone(self) -> str | None:
+        """The summary that the value is; None for a formula of some."""
+        ((_, line),) = self.total.outputs
+        name = self.total.nodes[line].name if not self.total.nodes[line].args else None
+        return name if name in self.read else None
 
     def _value(self, numbers: Floats, results: Results, run: Run) -> Floats:
-        columns = self._columns(numbers, results)
-        given = {name: np.asarray(columns[name], dtype=np.float64) for name in self._values.positions}
-        value: Floats = over_designs(self._values, given, len(numbers), run)[0].copy()
+        if self._alone is not None:
+            value: Floats = np.array(results[self._alone], dtype=np.float64)
+        else:
+            columns = self._columns(numbers, results)
+            given = {name: np.asarray(columns[name], dtype=np.float64) for name in self._values.positions}
+            value = over_designs(self._values, given, len(numbers), run)[0].copy()
         if self.complete:
             value[results[VALID_COUNT] != run.length] = np.nan
         return value
@@ -180,11 +189,22 @@ class Gradient:
     def _back(self, numbers: Floats, results: Results, fields: Arrays, run: Run) -> dict[str, Floats]:
         """Derivatives of the value by the parameters, (designs,) by name."""
         columns = self._columns(numbers, results)
+        if self._alone is not None:
+            return self._from_summaries({self._alone: np.ones(len(numbers))}, columns, fields, run)
         found = self._through(
             self.total, self.total.output_names, (*self.wrt, *self.read),
             {**columns, bar(self.total.output_names[0]): np.ones(len(numbers))}, len(numbers), run,
         )  # fmt: skip
         bars = {name: each for name, each in found.items() if name in self.wrt}
+        _add(bars, self._from_summaries(found, columns, fields, run))
+        return bars
+
+    def _from_summaries(
+        self, found: Mapping[str, Floats], columns: Columns, fields: Arrays, run: Run
+    ) -> dict[str, Floats]:
+        """From derivatives by the summaries those by the parameters."""
+        bars: dict[str, Floats] = {}
+        count = len(np.asarray(columns[VALID_COUNT]))
         weights: dict[Reduction, Floats] = {}
         for name, reduction in self.read.items():
             if name in found and reduction.kind not in _STEPWISE:
@@ -199,11 +219,11 @@ class Gradient:
                 there = places.setdefault(place, {})
                 there[each.output] = there.get(each.output, 0.0) + weight
         for place, outputs in places.items():
-            there_columns = {**columns, **self._there(results[place.name], fields, run)}
+            there_columns = {**columns, **self._there(columns[place.name], fields, run)}
             there_columns |= {bar(name): weight for name, weight in outputs.items()}
             _add(
                 bars,
-                self._through(self.program, tuple(outputs), self.wrt, there_columns, len(numbers), run),
+                self._through(self.program, tuple(outputs), self.wrt, there_columns, count, run),
             )
         return bars
 

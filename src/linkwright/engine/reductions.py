@@ -247,11 +247,10 @@ _START = {"min": np.inf, "max": -np.inf, "argmin": -1.0, "argmax": -1.0, "at_min
 def _result(kind: str, accumulated: Floats, valid: Floats) -> Floats | Whole:
     if kind in ("argmin", "argmax", "count"):
         return accumulated.astype(np.int64)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        if kind == "mean":
-            return np.asarray(accumulated / valid)
-        if kind == "rms":
-            return np.sqrt(accumulated / valid)
+    if kind in ("mean", "rms"):
+        with np.errstate(invalid="ignore", divide="ignore"):
+            mean = np.asarray(accumulated / valid)
+            return mean if kind == "mean" else np.sqrt(mean)
     if kind in ("min", "max"):
         accumulated[accumulated == _START[kind]] = np.nan
     return accumulated
