@@ -41,7 +41,7 @@ class PathCurvature:
         pass its cycle."""
         table = design_table(self.means.parameters, self.known, columns)
         found = self.means.evaluate(table, self.arrays, threads=1, backend=self.backend)
-        count = len(next(iter(self.arrays.values())))
+        count = len(np.asarray(next(iter(self.arrays.values()))))
         bent = np.full((len(table), len(self.names), len(self.names)), np.nan)
         passed = found[VALID_COUNT] == count
         for i, j in combinations_with_replacement(range(len(self.names)), 2):

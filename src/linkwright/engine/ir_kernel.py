@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from linkwright.engine.ir_accumulators import AccumulatorWriter
-from linkwright.engine.ir_after_cycle import following_lines
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.ir_module import ENTRY, Shape, in_blocks, load_block, module_text, optimisation
 from linkwright.engine.ir_states import StateKernel
@@ -204,7 +203,7 @@ class PositionKernel:
             code += self._store_result(k, f"%r{k}")
         return [
             "finish:",
-            *in_blocks("finish", [*code, *self._follow()])[0],
+            *in_blocks("finish", code)[0],
             "br label %advance",
             "advance:",
             "%d.next = add i64 %d, 1",
@@ -220,21 +219,3 @@ class PositionKernel:
             f"%z{place} = getelementptr double, ptr %out.row, i64 {place}",
             f"store double {value}, ptr %z{place}, align 8",
         ]
-
-    def _follow(self) -> list[str]:
-        if self.accumulation is None or self.accumulation.following is None:
-            return []
-        names = [f"%r{k}" for k in range(len(self.accumulation.steps))]
-        code, outputs = following_lines(
-            self.accumulation, self.accumulation.following, self.width, names, _load_parameter, wide=False
-        )
-        for place, value in enumerate(outputs, start=len(names)):
-            code += self._store_result(place, value)
-        return code
-
-
-def _load_parameter(name: str, place: int) -> list[str]:
-    return [
-        f"{name}.at = getelementptr double, ptr %p.row, i64 {place}",
-        f"{name} = load double, ptr {name}.at, align 8",
-    ]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from linkwright.engine.ir_accumulators import AccumulatorWriter
-from linkwright.engine.ir_after_cycle import following_lines
 from linkwright.engine.ir_lines import LineWriter
 from linkwright.engine.ir_module import ENTRY, Shape, in_blocks, load_block, module_text
 from linkwright.engine.lines import Lines
@@ -137,11 +136,6 @@ class StateKernel:
             converted, value = self.sums.as_double(k)
             code += converted
             values.append(value)
-        if self.accumulation is not None and self.accumulation.following is not None:
-            more, outputs = following_lines(
-                self.accumulation, self.accumulation.following, self.width, values, self._parameter, wide=True
-            )
-            code, values = code + more, values + outputs
         for k, value in enumerate(values):
             code.append(f"%z{k} = getelementptr double, ptr %out, i64 {k}")
             code += self.writer.scatter(value, f"%z{k}", "%out.offset", f"%z{k}")

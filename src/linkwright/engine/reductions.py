@@ -12,8 +12,7 @@ import numpy as np
 from linkwright.core.arrays import EQUAL, Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.engine.program import Program
-from linkwright.engine.replay import along_input, inlined
-from linkwright.engine.trace import Scalar, Trace
+from linkwright.engine.replay import along_input
 
 Kind = Literal[
     "min", "max", "mean", "sum", "rms", "argmin", "argmax", "count", "first", "last", "at_min", "at_max"
@@ -83,40 +82,22 @@ class Reduction:
             return Step(side, self.of), Step(f"arg{side}", self.of), Step(kind, output, self.of)
         return (Step({"mean": "sum", "rms": "square"}.get(kind, kind), output),)
 
-    def value(self, t: Trace, accumulated: Scalar, count: Scalar) -> Scalar:
-        """The summary from its accumulator and the number of valid positions."""
-        if self.kind == "mean":
-            return t.div(accumulated, count)
-        if self.kind == "rms":
-            return t.function("sqrt", t.div(accumulated, count))
-        if self.kind == "min":
-            return t.select(t.compare("less", accumulated, np.inf), accumulated, np.nan)
-        if self.kind == "max":
-            return t.select(t.compare("less", -np.inf, accumulated), accumulated, np.nan)
-        return accumulated
-
 
 @dataclass(frozen=True)
 class Accumulation:
     """The accumulators that a set of reductions of a program needs.
 
-    ``steps``: the accumulators, each once. ``valid``: the truth output that says which
-    positions enter, or None for all of them. ``after``: a program per design, evaluated after
-    the last position; its parameters are parameters of ``program``, names of reductions as
-    ``output.mean`` or ``output.at_max.other``, or ``valid.count``, or in ``more``.
+    ``steps``: the accumulators, each once. ``valid``: the truth output that says which positions enter, or None for
+    all of them.
     """
 
     program: Program
     reductions: tuple[Reduction, ...]
     valid: str | None = None
-    after: Program | None = None
-    more: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         names = set(self.program.output_names)
-        if self.after is not None and _has_positions(self.after):
-            raise ValueError("only a program per design, without states, can follow the positions")
-        for reduction in (*self.reductions, *self.read.values()):
+        for reduction in self.reductions:
             if reduction.kind not in KINDS:
                 raise ValueError(f"there is no reduction '{reduction.kind}': use one of {', '.join(KINDS)}")
             elsewhere = reduction.kind in _ELSEWHERE
@@ -131,31 +112,11 @@ class Accumulation:
             raise ValueError(f"the program has no output '{self.valid}' that says which positions are valid")
 
     @cached_property
-    def read(self) -> dict[str, Reduction]:
-        """The reductions that ``after`` takes, by name."""
-        own = {*self.program.parameters, *self.more, VALID_COUNT}
-        following = self.after.parameters if self.after is not None else ()
-        return {name: Reduction.named(name) for name in following if name not in own}
-
-    @cached_property
     def steps(self) -> tuple[Step, ...]:
-        wanted = [step for r in (*self.reductions, *self.read.values()) for step in r.steps]
+        wanted = [step for r in self.reductions for step in r.steps]
         if self.valid is not None:
             wanted.append(Step("count", self.valid))
         return tuple(dict.fromkeys(wanted))
-
-    @cached_property
-    def following(self) -> Program | None:
-        """``after`` as formulas of the accumulators, named by their places, instead of the reductions."""
-        if self.after is None:
-            return None
-        t = Trace()
-        count = t.parameter(VALID_COUNT)
-        found = {
-            name: reduction.value(t, t.parameter(f"{PLACE}{self.steps.index(reduction.steps[-1])}"), count)
-            for name, reduction in self.read.items()
-        }
-        return Program.of(t, inlined(self.after, t, found))
 
     @cached_property
     def apart(self) -> tuple[Program, Accumulation] | None:
@@ -165,18 +126,15 @@ class Accumulation:
             return None
         return parted[0], replace(self, program=parted[1])
 
-    @cached_property
+    @property
     def parameters(self) -> tuple[str, ...]:
-        """The parameters that the reduced outputs and what follows depend on."""
-        following = self.after.parameters if self.after is not None else ()
-        own = [name for name in following if name in (*self.program.parameters, *self.more)]
-        return tuple(dict.fromkeys([*self.needed.parameters, *own]))
+        """The parameters that the reduced outputs depend on."""
+        return self.needed.parameters
 
-    @cached_property
+    @property
     def tables(self) -> tuple[str, ...]:
-        """The tables that are looked up along the positions and after them."""
-        following = self.after.tables if self.after is not None else ()
-        return tuple(dict.fromkeys([*self.needed.tables, *following]))
+        """The tables that are looked up along the positions."""
+        return self.needed.tables
 
     @cached_property
     def column(self) -> dict[Step, int]:
@@ -185,16 +143,8 @@ class Accumulation:
 
     @property
     def width(self) -> int:
-        """Numbers of one design: accumulators, then the outputs of what follows."""
-        return len(self.steps) + (len(self.after.outputs) if self.after is not None else 0)
-
-    def source(self, name: str) -> tuple[str, int]:
-        """Where a parameter of ``following`` comes from: ("parameter" or "step", place), or ("count", 0)."""
-        if name in self.parameters:
-            return "parameter", self.parameters.index(name)
-        if name == VALID_COUNT:
-            return ("count", 0) if self.valid is None else ("step", self.column[Step("count", self.valid)])
-        return "step", int(name.removeprefix(PLACE))
+        """Numbers of one design."""
+        return len(self.steps)
 
     @cached_property
     def needed(self) -> Program:
@@ -208,14 +158,13 @@ class Accumulation:
     @property
     def key(self) -> str:
         """What decides the code, apart from the program."""
-        return f"{self.steps} {self.valid} {'' if self.after is None else self.after.key}"
+        return f"{self.steps} {self.valid} "
 
     def start(self, designs: int) -> Floats:
         """Accumulators before the first position, shape (designs, width)."""
         table = np.zeros((designs, self.width))
         for column, step in enumerate(self.steps):
             table[:, column] = _START.get(step.kind, 0.0)
-        table[:, len(self.steps) :] = np.nan
         return table
 
     def finish(self, table: Floats, n: int) -> Results:
@@ -231,14 +180,8 @@ class Accumulation:
         for reduction in self.reductions:
             accumulated = rows[self.column[reduction.steps[-1]]]
             results[reduction.name] = _result(reduction.kind, accumulated, valid)
-        for place, (name, _) in enumerate(self.after.outputs if self.after is not None else ()):
-            results[name] = rows[len(self.steps) + place]
         results[VALID_COUNT] = valid.astype(np.int64)
         return results
-
-
-def _has_positions(program: Program) -> bool:
-    return bool(program.positions or program.fields or program.states)
 
 
 _START = {"min": np.inf, "max": -np.inf, "argmin": -1.0, "argmax": -1.0, "at_min": np.nan, "at_max": np.nan}

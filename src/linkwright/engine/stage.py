@@ -21,8 +21,7 @@ from linkwright.engine.summaries import Run, code_for, over_designs, reduced
 class Stage:
     """A program over the positions; its results are cycle values, which later stages take as parameters.
 
-    ``reductions``: by the name of the result. ``after``: a program per design behind them, whose outputs
-    are results (see :class:`~linkwright.engine.reductions.Accumulation`). ``valid``: the truth output that
+    ``reductions``: by the name of the result. ``valid``: the truth output that
     says which positions enter; without an output of this name all do. ``count``: the name of the result
     that is the number of valid positions, if wanted. ``complete``: a design with a position that is not
     valid has no results from here on: NaN, or -1 for position numbers and counts.
@@ -36,7 +35,6 @@ class Stage:
 
     program: Program
     reductions: Mapping[str, Reduction] = field(default_factory=dict)
-    after: Program | None = None
     valid: str | None = "valid"
     count: str = ""
     complete: bool = False
@@ -49,7 +47,7 @@ class Stage:
     def accumulation(self) -> Accumulation:
         """The accumulators of the stage. Raises ValueError for outputs and kinds that do not exist."""
         judged = self.valid if self.valid in self.program.output_names else None
-        return Accumulation(self.program, tuple(self.reductions.values()), judged, self.after)
+        return Accumulation(self.program, tuple(self.reductions.values()), judged)
 
     @cached_property
     def kept(self) -> Program:
@@ -65,8 +63,7 @@ class Stage:
     @property
     def results(self) -> tuple[str, ...]:
         """Names of the results."""
-        following = self.after.output_names if self.after is not None else ()
-        return (*self.reductions, *following, *([self.count] if self.count else []))
+        return (*self.reductions, *([self.count] if self.count else []))
 
     @property
     def parameters(self) -> tuple[str, ...]:
@@ -88,7 +85,6 @@ class Stage:
         own = {name: fields[name] for name in self.accumulation.needed.fields if name in fields}
         found = reduced(self.accumulation, table, own, start, run)
         results = {name: found[r.name] for name, r in self.reductions.items()}
-        results |= {name: found[name] for name in (self.after.output_names if self.after else ())}
         if self.count:
             results[self.count] = found[VALID_COUNT]
         valid = np.asarray(found[VALID_COUNT])
@@ -99,7 +95,7 @@ class Stage:
         """The program over the designs, where it is nothing but formulas of each design's numbers."""
         accumulation = self.accumulation
         needed = accumulation.needed
-        plain = not (needed.positions or needed.fields or needed.states or self.after or accumulation.valid)
+        plain = not (needed.positions or needed.fields or needed.states or accumulation.valid)
         taken = all(reduction.kind in _OF_ONE and not reduction.of for reduction in accumulation.reductions)
         return across_designs(needed) if self.steps == 1 and plain and taken and not self.count else None
 

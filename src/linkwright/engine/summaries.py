@@ -116,7 +116,7 @@ def blocks(
     tables: Tables | None,
     threads: int | None,
     backend: Backend,
-    size: int = _BLOCK,
+    size: int | None = None,
 ) -> Iterator[tuple[Floats, dict[str, Floats], Run]]:
     """Some designs after another: their numbers (designs, parameters), their fields, and how they are evaluated;
     ``size``: most configurations of one block."""
@@ -132,7 +132,9 @@ def blocks(
         raise ValueError(f"inputs over the positions must have one length, but have {sorted(lengths)}")
     n = lengths.pop()
     run = Run(positions or {}, n, tables, cores() if threads is None else threads, backend)
-    for first, end in chunks(len(numbers), max(1, size // max(n, 1))) if len(numbers) else [(0, 0)]:
+    for first, end in (
+        chunks(len(numbers), max(1, (size or _BLOCK) // max(n, 1))) if len(numbers) else [(0, 0)]
+    ):
         yield numbers[first:end], {name: array[first:end] for name, array in given.items()}, run
 
 
@@ -220,19 +222,4 @@ def _by_numpy(
                 accumulate(accumulation, part[designs], outputs, names, columns.start)
 
     spread_over(len(table), max(1, _NUMPY_CHUNK // max(n, 1)), run.threads, work)
-    if accumulation.following is not None:
-        _follow(accumulation, accumulation.following, table, sums, run)
     return accumulation.finish(sums, n)
-
-
-def _follow(accumulation: Accumulation, following: Program, table: Floats, sums: Floats, run: Run) -> None:
-    """Evaluate what follows the positions into its columns of ``sums``."""
-    inputs = np.empty((len(table), len(following.parameters)))
-    for column, name in enumerate(following.parameters):
-        origin, place = accumulation.source(name)
-        if origin == "count":
-            inputs[:, column] = run.length
-        else:
-            inputs[:, column] = (table if origin == "parameter" else sums)[:, place]
-    outputs = numpy_program(following).run_designs(inputs, {}, length=1, tables=run.tables)
-    sums[:, len(accumulation.steps) :] = outputs[:, :, 0]

@@ -24,7 +24,6 @@ def sweep(
     length: int | None = None,
     tables: Tables | None = None,
     valid: str | None = "valid",
-    after: Program | None = None,
     threads: int | None = None,
     backend: Backend = "auto",
 ) -> Results:
@@ -41,6 +40,6 @@ def sweep(
     steps = None if positions or fields else length
     starts = {name: f"start:{name}" for name in program.states if start is not None}
     named = {r.name: r for r in wanted}
-    stage = Stage(program, named, after, valid, VALID_COUNT, steps=steps, starts=starts)
+    stage = Stage(program, named, valid, VALID_COUNT, steps=steps, starts=starts)
     cycle = CycleProgram((stage,), (*program.parameters, *starts.values()))
     return cycle.evaluate(table, positions, fields, tables=tables, threads=threads, backend=backend)

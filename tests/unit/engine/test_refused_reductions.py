@@ -12,10 +12,8 @@ from linkwright.engine.trace import Trace
 def test_a_sum_over_what_is_not_there_is_refused() -> None:
     t = Trace()
     program = Program.of(t, {"y": t.position("x") * 2.0})
-    along = Program.of(t, {"z": t.position("x")})
     for more, named in (
         ({"valid": "nope"}, "'nope'"),
-        ({"after": along}, "program"),
         ({"reductions": (Reduction("y", "max", "y"),)}, r"'y\.max\.y'"),
         ({"reductions": (Reduction("y", "at_max"),)}, r"'y\.at_max'"),
         ({"reductions": (Reduction("q", "max"),)}, "'q'"),

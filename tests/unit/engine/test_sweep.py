@@ -163,36 +163,6 @@ def test_values_are_taken_where_another_output_has_its_extreme(backend: str, n: 
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
-@pytest.mark.parametrize("carried", [False, True])
-def test_what_follows_the_positions_takes_any_reduction_by_name(backend: str, carried: bool) -> None:
-    t = Trace()
-    x, a = t.position("x"), t.parameter("a")
-    y = x * a + (t.state("s") if carried else 0.0)
-    program = Program.of(t, {"y": y, "z": y * y, "valid": x < 0.9}, {"s": y} if carried else None)
-    names = [f"y.{kind}" for kind in PLAIN] + ["y.at_max.z", "z.at_min.y", VALID_COUNT]
-    f = Trace()
-    after = Program.of(
-        f, {f"twice {name}": f.parameter(name) * 2.0 for name in names} | {"own": f.parameter("a")}
-    )
-    xs = np.random.default_rng(2).uniform(-1.0, 1.0, 29)
-    reductions = [Reduction.named(name) for name in names[:-1]]
-    assert [r.name for r in reductions] == names[:-1]
-    got = sweep(
-        program,
-        np.array([[1.0], [-2.0], [math.nan]]),
-        {"x": xs},
-        reductions,
-        start=[[0.25]] * 3 if carried else None,
-        after=after,
-        backend=backend,
-    )
-    for name in names:
-        np.testing.assert_allclose(got[f"twice {name}"], 2.0 * got[name], rtol=1e-15)
-    np.testing.assert_array_equal(got["own"], [1.0, -2.0, math.nan])
-    assert math.isnan(got["y.max"][2])
-
-
-@pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("designs", [1, 8, 21])
 def test_an_iteration_without_inputs_over_the_positions_finds_roots(backend: str, designs: int) -> None:
     """Newton's steps for x eˣ = a, kept between bounds; against mpmath's function of Lambert."""
@@ -227,9 +197,6 @@ def test_what_does_not_exist_is_refused() -> None:
         sweep(chord(), [[1.0]], x, [Reduction("y", "at_max")])
     with pytest.raises(ValueError, match="'w'"):
         sweep(chord(), [[1.0]], x, [Reduction("y", "at_max", "w")])
-    t = Trace()
-    with pytest.raises(ValueError, match="zz"):
-        sweep(chord(), [[1.0]], x, [], after=Program.of(t, {"b": t.parameter("zz")}))
     with pytest.raises(ValueError, match="gpu"):
         sweep(chord(), [[1.0]], x, [("y", "max")], backend="gpu")  # type: ignore[arg-type]
 
@@ -249,24 +216,6 @@ def test_a_program_compiled_for_storing_does_not_sweep() -> None:
     assert compiled is not None
     with pytest.raises(ValueError):  # noqa: PT011
         compiled.sweep([[1.0]], {"x": np.zeros(3)})
-
-
-@pytest.mark.parametrize("backend", BACKENDS)
-@pytest.mark.parametrize("n", [3, 40])
-@pytest.mark.parametrize("valid", ["valid", None])
-def test_what_follows_the_positions_is_evaluated_once_per_design(
-    backend: str, n: int, valid: str | None
-) -> None:
-    t = Trace()
-    high, low, count, a = (t.parameter(name) for name in ("y.max", "y.min", VALID_COUNT, "a"))
-    after = Program.of(t, {"span": (high - low) / a, "share": count / float(n)})
-    x = np.random.default_rng(n).uniform(-1.0, 1.0, n)
-    radii = np.array([0.6, 1.2, 1.5])
-    kinds = [Reduction("y", "max"), Reduction("y", "min")]
-    got = sweep(chord(), radii[:, None], {"x": x}, kinds, valid=valid, after=after, backend=backend)
-    np.testing.assert_allclose(got["span"], (got["y.max"] - got["y.min"]) / radii, rtol=1e-14)
-    np.testing.assert_allclose(got["share"] * n, got[VALID_COUNT], rtol=1e-14)
-    assert got[VALID_COUNT][2] == n
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
