@@ -5,11 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkwright.engine.cycle import CycleProgram
 from linkwright.engine.program import Program
-from linkwright.engine.reductions import VALID_COUNT, Kind, Reduction, Results
-from linkwright.engine.stage import Stage
-from linkwright.engine.summaries import Arrays, Backend
+from linkwright.engine.reductions import Accumulation, Kind, Reduction, Results
+from linkwright.engine.summaries import Arrays, Backend, Run, Summaries, reduced
 from linkwright.engine.table import Tables
 
 
@@ -27,19 +25,19 @@ def sweep(
     threads: int | None = None,
     backend: Backend = "auto",
 ) -> Results:
-    """Reductions of a program's outputs over the positions, for every design, by a cycle program of one stage.
+    """Reductions of a program's outputs over the positions, for every design.
 
     ``parameters``: (designs, parameters); ``start``: (designs, states), where the program carries states; ``length``:
     of the positions, where no input is an array.
     """
     wanted = tuple(r if isinstance(r, Reduction) else Reduction(*r) for r in reductions)
+    if start is None:
+        sums = Summaries(program, wanted, valid)
+        return sums.evaluate(parameters, positions, fields, tables=tables, threads=threads, backend=backend)
     table = np.asarray(parameters, dtype=np.float64)
-    if start is not None:
-        begin = np.asarray(start, dtype=np.float64)
-        table = np.hstack([table, np.broadcast_to(begin, (len(table), begin.shape[-1]))])
-    steps = None if positions or fields else length
-    starts = {name: f"start:{name}" for name in program.states if start is not None}
-    named = {r.name: r for r in wanted}
-    stage = Stage(program, named, valid, VALID_COUNT, steps=steps, starts=starts)
-    cycle = CycleProgram((stage,), (*program.parameters, *starts.values()))
-    return cycle.evaluate(table, positions, fields, tables=tables, threads=threads, backend=backend)
+    accumulation = Accumulation(program, wanted, valid if valid in program.output_names else None)
+    taken = [program.parameters.index(name) for name in accumulation.parameters]
+    count = length or len(np.asarray(next(iter(positions.values()))))
+    begin = np.broadcast_to(np.asarray(start, dtype=np.float64), (len(table), len(program.states)))
+    run = Run(positions, count, tables, threads or 1, backend)
+    return reduced(accumulation, np.ascontiguousarray(table[:, taken]), fields or {}, begin, run)
