@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from linkwright.errors import LinkwrightError as LinkwrightError
     from linkwright.errors import ModelError as ModelError
     from linkwright.errors import SelfCheckError as SelfCheckError
+    from linkwright.events.limit_positions import LimitPosition as LimitPosition
+    from linkwright.events.limit_positions import limit_positions as limit_positions
     from linkwright.export.export import export as export
     from linkwright.export.sweep_parts import SweepParts as SweepParts
     from linkwright.export.sweep_parts import sweep_parts as sweep_parts
@@ -49,8 +51,6 @@ if TYPE_CHECKING:
     from linkwright.kinematics import PositionError as PositionError
     from linkwright.kinematics import solve_motion as solve_motion
     from linkwright.kinematics.input_range import input_range as input_range
-    from linkwright.kinematics.limits import LimitPosition as LimitPosition
-    from linkwright.kinematics.limits import limit_positions as limit_positions
     from linkwright.kinematics.proof import prove as prove
     from linkwright.kinetostatics.forces import Forces as Forces
     from linkwright.kinetostatics.run import solve_forces as solve_forces

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.kinematics.limits import LimitPosition, limit_positions
+from linkwright.events.limit_positions import LimitPosition, limit_positions
 
 Point = tuple[float, float]
 

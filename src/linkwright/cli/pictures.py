@@ -74,7 +74,7 @@ def refuse_unknown(find: Callable[[str], object], option: str, given: Sequence[s
 
 def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
     """The motion over a cycle; says how many positions are out of reach."""
-    from linkwright.kinematics.position_list import MOST
+    from linkwright.events.position_list import MOST
     from linkwright.kinematics.solve import solve_motion
 
     if steps > MOST:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import did_you_mean
 from linkwright.errors import LinkwrightError, RequestError, about
-from linkwright.kinematics.position_list import known_outputs, of_text, values_of
+from linkwright.events.position_list import known_outputs, of_text, values_of
 from linkwright.kinematics.positions import rotary
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words.sentence import Sentence

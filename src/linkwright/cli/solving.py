@@ -17,10 +17,10 @@ from linkwright.core.arrays import Floats, Indices, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import Finding, LinkwrightError, RequestError
+from linkwright.events.position_list import MOST
 from linkwright.kinematics.cycle import time_span
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
-from linkwright.kinematics.position_list import MOST
 from linkwright.kinematics.proof import Proof, prove
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces

@@ -8,7 +8,6 @@ width.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
 import numpy as np
@@ -57,29 +56,6 @@ def zeros(
         there = np.where(value == 0.0, here, np.where(sound, newton, 0.5 * (low + high)))
         before, here = np.abs(there - here), there
         if not (before > np.where(sound, _LAST, ACCURACY) * width).any():
-            break
-    return here
-
-
-def zero(
-    function: Callable[[float], tuple[float, float]], low: float, high: float, first: float, start: float
-) -> float:
-    """One zero by the same rule, on plain numbers."""
-    width, here = abs(high - low), start
-    before = width
-    for _ in range(_STEPS):
-        value, slope = function(here)
-        if value == 0.0:
-            return here
-        if value * first > 0.0:
-            low = here
-        else:
-            high = here
-        newton = here - value / slope if slope else math.nan
-        sound = min(low, high) <= newton <= max(low, high) and abs(newton - here) <= 0.5 * before
-        there = newton if sound else 0.5 * (low + high)
-        before, here = abs(there - here), there
-        if not before > (_LAST if sound else ACCURACY) * width:
             break
     return here
 

@@ -18,7 +18,7 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.curves.pieces import HIGH, LOW, Layout, Pieces, Wanted
 from linkwright.curves.polynomials import LOOKS, TO_LOOKS, product, turning_points
-from linkwright.events.formula import Formula, Known
+from linkwright.events.formula import Formula, Known, Pointwise
 from linkwright.events.stretches import Stretches
 
 #: Pieces of a lap to begin with, and to what share of its size they meet a signal.
@@ -29,6 +29,8 @@ NOTHING = 1e-11
 STEPS, NEAR = 60, 1e-7
 #: A turn this near to zero, as share of the signal's size in its piece, may hide two roots between two looks.
 HIDDEN = 0.02
+#: A value of a polynomial below so many times the size of its last orders may have the wrong sign.
+OPEN = 8.0
 AT = np.zeros(1)
 Designs = Mapping[str, Floats]
 #: What loads do in pieces of unit length that begin at some times of designs, as they do at a place nearby.
@@ -49,7 +51,7 @@ class Events:
     times, gathered on the way back; ``within``: a place of the piece in which it was found, s.
     """
 
-    formula: Formula
+    formula: Pointwise
     known: Known
     name: str
     designs: Designs
@@ -98,6 +100,7 @@ class Events:
             halves = np.round(2.0 * (self.time[tied] - middle) / span.period[design])
             np.add.at(span.bar, design, 0.5 * halves * self.bar[tied])
         columns = self.columns(roots)
+        assert isinstance(self.formula, Formula)
         slope = self.formula.with_slope.run(self.known, columns, AT)[0, 2 * self.formula.place[self.name] + 1]
         with np.errstate(divide="ignore", invalid="ignore"):
             weight = np.where(self.bar[roots] == 0.0, 0.0, -self.bar[roots] / slope)
@@ -105,7 +108,7 @@ class Events:
 
 
 def events(
-    formula: Formula, known: Known, designs: Designs, stretches: Stretches, loaded: Loaded | None = None
+    formula: Pointwise, known: Known, designs: Designs, stretches: Stretches, loaded: Loaded | None = None
 ) -> list[Events]:
     """All changes of sign of every output of a formula over the cycles of designs; ``loaded``: of one that takes
     loads."""
@@ -174,7 +177,7 @@ class _Search:
 
     def __init__(
         self,
-        formula: Formula,
+        formula: Pointwise,
         known: Known,
         designs: Designs,
         stretches: Stretches,
@@ -223,6 +226,7 @@ class _Search:
         or the rest, that lies between them; -1 where none does."""
         curve = self.curve
         nothing = NOTHING * np.maximum(curve.size, 0.0)
+        self._make_sure(signal, piece, looks, nothing)
         decided = np.where(np.abs(looks) > nothing[signal, curve.design[piece]], looks, 0.0)
         last = _last_decided(decided)
         columns = np.arange(len(piece))
@@ -270,6 +274,16 @@ class _Search:
         right = right + later
         return _Brackets(signal, before[0], left, right, left + (right - left) * a / (a - b), b > 0.0)
 
+    def _make_sure(self, signal: Indices, piece: Indices, looks: Floats, nothing: Floats) -> None:
+        """Values so small that the polynomials leave their signs open are replaced by those of the formula."""
+        curve, size = self.curve, np.abs(looks)
+        open_ = (size <= OPEN * curve.rough[signal, piece]) & (size > nothing[signal, curve.design[piece]])
+        look, row = np.nonzero(open_)
+        if len(row):
+            time = self.low[piece[row]] + 0.5 * self.width[piece[row]] * (1.0 + LOOKS[look])
+            there = self._at(self.formula, piece[row], time)
+            looks[look, row] = there[signal[row], np.arange(len(row))]
+
     def _following(self, owner: Indices) -> tuple[Indices, Indices, Floats]:
         """Neighbours (k,) of the same signal and design, around cycles that close, and whether the second is a lap
         on."""
@@ -311,22 +325,21 @@ class _Search:
         place, row = np.nonzero(near)
         signal, piece, above = signal[row], piece[row], here[place, row] > 0.0
         low, high = LOOKS[place], LOOKS[place + 2]
+        if not len(piece):
+            return _Brackets(signal, piece, low, high, low, above)
         x = turning_points(self.curve.values(signal, piece), low, high, LOOKS[place + 1])
         time, left, right = (
             self.low[piece] + 0.5 * self.width[piece] * (1.0 + each) for each in (x, low, high)
         )
-        if len(piece):
-            value = self._at(self.formula, piece, time)[signal, np.arange(len(piece))]
-            nothing = NOTHING * self.curve.size[signal, self.curve.design[piece]]
-            passed = np.flatnonzero(((value > 0.0) != above) & (np.abs(value) > nothing))
-        else:
-            passed = np.empty(0, dtype=np.intp)
+        value = self._at(self.formula, piece, time)[signal, np.arange(len(piece))]
+        nothing = NOTHING * self.curve.size[signal, self.curve.design[piece]]
+        passed = np.flatnonzero(((value > 0.0) != above) & (np.abs(value) > nothing))
         signal, piece, above, time = signal[passed], piece[passed], above[passed], time[passed]
         left, right = left[passed], right[passed]
         both = _Brackets(signal, piece, left, time, 0.5 * (left + time), ~above)
         return both + _Brackets(signal, piece, time, right, 0.5 * (time + right), above)
 
-    def _at(self, formula: Formula, piece: Indices, time: Floats) -> Floats:
+    def _at(self, formula: Pointwise, piece: Indices, time: Floats) -> Floats:
         """Outputs (outputs, k) of a formula at times, s, one in each of some pieces."""
         design = self.curve.design[piece]
         columns = at_times(self.designs, design, time)

@@ -69,6 +69,21 @@ class Known:
         return wanted and available()
 
 
+class Pointwise(Protocol):
+    """Signals at places of pieces: a formula, or what is solved again there."""
+
+    outputs: tuple[str, ...]
+
+    def run(self, known: Known, columns: Columns, nodes: Floats) -> Floats:
+        """The signals, (nodes, outputs, pieces), from ``columns`` (pieces,) and ``nodes`` (n,)."""
+        ...
+
+    @property
+    def with_slope(self) -> Pointwise:
+        """The same and, behind each, its derivative by the place in the piece."""
+        ...
+
+
 class Formula:
     """A program over pieces; ``columns``: what it takes of them, ``fields``: what it takes at every place."""
 

@@ -23,6 +23,7 @@ class Between:
 
     def __init__(self, motion: Motion) -> None:
         self.motion = motion
+        self._plain: dict[tuple[str, ...], Callable[[float], list[float]] | None] = {}
         if motion.positions.cycle:
             return
         if (name := off_law(motion.mechanism, motion.positions)) is not None:
@@ -90,6 +91,11 @@ class Between:
 
     def on_plain_numbers(self, names: tuple[str, ...]) -> Callable[[float], list[float]] | None:
         """The same at one time; None where more than constant speeds and closed forms decides."""
+        if names not in self._plain:
+            self._plain[names] = self._on_plain_numbers(names)
+        return self._plain[names]
+
+    def _on_plain_numbers(self, names: tuple[str, ...]) -> Callable[[float], list[float]] | None:
         motion = self.motion
         mechanism = motion.mechanism
         constant = all(driver.law.constant_speed is not None for driver in mechanism.drivers.values())

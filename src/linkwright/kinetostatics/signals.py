@@ -11,8 +11,8 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.drivers.base import Law
+from linkwright.events.limit_positions import limit_inputs, limit_positions
 from linkwright.kinematics.cycle_angles import CycleAngles
-from linkwright.kinematics.limits import limit_inputs, limit_positions
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.positions import Positions
 from linkwright.kinetostatics.friction import moving_rate

@@ -12,9 +12,9 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, speaker
-from linkwright.kinematics.limits import LimitPosition
+from linkwright.events.limit_positions import LimitPosition
+from linkwright.events.position_list import PositionList
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.position_list import PositionList
 from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import solve_motion, with_times
 from linkwright.kinetostatics.forces import Forces
@@ -237,7 +237,7 @@ class Case:
 
     def _first_limit(self) -> tuple[str, LimitPosition | None]:
         """The output that the positions are numbered by, and its limit position; none where it reverses nowhere."""
-        from linkwright.kinematics.output_limits import limits_of
+        from linkwright.events.limit_positions import limits_of
 
         chosen = self.settings.numbered_from
         name, _, kind = chosen.partition(" ")

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError, RequestError
+from linkwright.events.position_list import PositionList, known_outputs, of_value
 from linkwright.files.write import flow
 from linkwright.kinematics.names import output_of
-from linkwright.kinematics.position_list import PositionList, known_outputs, of_value
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import listed, offered

@@ -9,8 +9,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
+from linkwright.events.limit_positions import limits_of
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.output_limits import limits_of
 from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import with_times
 from linkwright.kinetostatics.forces import Forces

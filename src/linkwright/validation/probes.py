@@ -60,7 +60,7 @@ def _forces(motion: Any) -> Forces | None:
 
 def limits(given: Mapping[str, Any]) -> Find:
     """Input and angle of a link's limit positions: ``jaw max input``."""
-    from linkwright.kinematics.limits import limit_positions
+    from linkwright.events.limit_positions import limit_positions
 
     motion = _motion(_source(given), 360)
 

@@ -87,7 +87,7 @@ def _paper_scale(motion: lw.Motion) -> float:
 
 @pytest.mark.parametrize("steps", [3, 7])
 def test_rails_reach_to_the_limit_positions_that_are_drawn(steps: int) -> None:
-    from linkwright.kinematics.output_limits import limits_of
+    from linkwright.events.limit_positions import limits_of
     from linkwright.plot.drawing.draw import laid_out_beside
     from linkwright.plot.drawing.guides import travel
     from linkwright.plot.drawing.positions import Shown, with_limits

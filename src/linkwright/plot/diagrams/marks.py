@@ -11,7 +11,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.limits import limit_positions
+from linkwright.events.limit_positions import limit_positions
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.over_cycle import activity
 from linkwright.loads.phases import Always

@@ -10,8 +10,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.given import one_or_more, real, require, whole
 from linkwright.errors import LinkwrightError, RequestError, require_language
+from linkwright.events.limit_positions import limits_of
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.output_limits import limits_of
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.drawing import Drawing, bounds, document

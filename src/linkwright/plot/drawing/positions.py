@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.limits import LimitPosition
+from linkwright.events.limit_positions import LimitPosition
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import solve_motion, with_times

@@ -20,7 +20,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 
 if TYPE_CHECKING:
-    from linkwright.kinematics.limits import LimitPosition
+    from linkwright.events.limit_positions import LimitPosition
     from linkwright.kinematics.motion import Motion
 
 #: More positions than this are taken for a slip.
@@ -142,7 +142,7 @@ class PositionList:
 
 
 def _limits(cycle: Motion, entry: AtLimit, output: str) -> list[LimitPosition]:
-    from linkwright.kinematics.output_limits import limits_of
+    from linkwright.events.limit_positions import limits_of
 
     try:
         limits = limits_of(cycle, entry.output or output or None)
