@@ -19,8 +19,9 @@ from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.groups import CONVERGED, state_name
 from linkwright.kinematics.trace import MotionTrace
 
-#: Misfit of a quintic (rad, or share of the mechanism's size) that is small enough for Newton's method to begin from.
-FIT = 1e-3
+#: Misfit of a quintic (rad, or share of the mechanism's size) from which two of Newton's steps end well also near
+#: singular positions; and the largest correction that leaves no doubt of the assembly.
+FIT, NEAR = 5e-5, 2e-3
 #: Newton's steps in formulas that begin on a path; derivatives go through the last one.
 ITERATIONS = 2
 #: Degree of the polynomials.
@@ -100,7 +101,7 @@ def stays_on_path(motion: MotionTrace, signs: Mapping[str, Scalar]) -> Mask:
     for each in chain_coordinates(motion):
         for name in each.states:
             off = absolute(motion.next_states[name] - trace.state(name)) * (1.0 / each.scale)
-            kept = trace.logic("and", kept, trace.compare("less", off, 2.0 * FIT))
+            kept = trace.logic("and", kept, trace.compare("less", off, NEAR))
     return kept
 
 

@@ -147,3 +147,13 @@ def test_one_machine_is_solved_without_machine_code_as_with_it() -> None:
     one, other = (Cycle(each, parts).solve({}).values for each in (plain, compiled))
     for part in parts:
         assert one[part] == pytest.approx(other[part], rel=1e-12)
+
+
+def test_sweeps_lose_no_design_that_is_tracked() -> None:
+    """Also where a design comes so near to a singular position that Newton's method converges slowly."""
+    machine, random = stored("triad"), np.random.default_rng(5)
+    names = ("crank.A.x", "bar_3.R.x", "plate.R.x")
+    designs = {name: machine.dimension(name) * (1.0 + 0.1 * random.standard_normal(200)) for name in names}
+    swept = lw.sweep(machine, designs, outputs=["driver.effort rms"])
+    assert swept.ok.tolist() == paths_of(machine, designs).passed.tolist() and swept.ok.sum() == 180
+    assert swept.branch_margin is not None and (swept.branch_margin[swept.ok] > 0.0).all()
