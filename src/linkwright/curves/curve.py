@@ -13,6 +13,7 @@ from linkwright.curves.pieces import HIGH, LOW, NARROW, Columns, Layout, Pieces,
 from linkwright.curves.polynomials import (
     LAST,
     NODES,
+    PLACES,
     POINTS,
     SERIES,
     SLACK,
@@ -43,10 +44,11 @@ class Extreme:
 
 
 class Curve:
-    """Polynomials between ``edges`` (m + 1,) through ``values`` (POINTS, m) at the Gauss points of the pieces."""
+    """Polynomials between ``edges`` (m + 1,) through ``values`` (POINTS, m) at the Gauss points of the pieces, which
+    are met to a share ``met`` of the function's size."""
 
-    def __init__(self, edges: Floats, values: Floats) -> None:
-        self.edges, self.values = edges, values
+    def __init__(self, edges: Floats, values: Floats, met: float = MET) -> None:
+        self.edges, self.values, self.met = edges, values, met
 
     @classmethod
     def of(
@@ -81,7 +83,7 @@ class Curve:
     def smooth(self) -> Flags:
         """Which pieces are met by their polynomials, (m,)."""
         rough = np.abs(product(LAST, self.values)).max(axis=0)
-        return np.asarray(rough <= MET * np.abs(self.values).max(initial=0.0))
+        return np.asarray(rough <= self.met * np.abs(self.values).max(initial=0.0))
 
     @cached_property
     def _series(self) -> Floats:
@@ -123,7 +125,7 @@ class Curve:
         jumps = ~self.smooth & (self.width <= 2.0 * NARROW * (self.edges[-1] - self.edges[0]))
         with np.errstate(invalid="ignore"):
             may = value + SLACK * (top - bottom) >= value.max() - equal
-            place = np.where(top - bottom <= equal, -1.0, 2.0 * NODES[best] - 1.0)
+            place = np.where(top - bottom <= equal, -1.0, PLACES[best])
             may &= (top - bottom > equal) & np.isfinite(top - bottom) & ~jumps
         return _Seen(sign, equal, place, value, np.flatnonzero(may), values[:, may])
 

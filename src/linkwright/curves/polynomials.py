@@ -16,6 +16,8 @@ POINTS = 16
 _X, _W = legendre.leggauss(POINTS)
 #: Gauss points and their weights in a piece from 0 to 1.
 NODES, WEIGHTS = 0.5 * (1.0 + _X), 0.5 * _W
+#: The same points in a piece from -1 to 1.
+PLACES: Floats = _X
 #: From values at the nodes to Chebyshev coefficients, (orders, nodes); to the last three of Legendre's series.
 SERIES = np.linalg.inv(chebyshev.chebvander(_X, POINTS - 1))
 LAST = SERIES[-3:]
@@ -23,9 +25,10 @@ LAST = SERIES[-3:]
 LOOKS = -np.cos(np.pi * np.arange(33) / 32)
 TO_LOOKS = chebyshev.chebvander(LOOKS, POINTS - 1) @ SERIES
 TO_ENDS = TO_LOOKS[[0, -1]]
-#: From coefficients to those of the slope; from values to the integral from the beginning up to every node, the
-#: piece 1 long.
+#: From coefficients to those of the slope; from values to the slope at every node, the piece 2 long, and to the
+#: integral from the beginning up to it, the piece 1 long.
 SLOPE = np.vstack([chebyshev.chebder(np.eye(POINTS)), np.zeros((1, POINTS))])
+TO_SLOPE = chebyshev.chebvander(_X, POINTS - 1) @ SLOPE @ SERIES
 UP_TO = chebyshev.chebvander(_X, POINTS) @ (0.5 * chebyshev.chebint(np.eye(POINTS), lbnd=-1) @ SERIES)
 #: How much higher than at its nodes a signal may rise in a piece that is met, as share of its span there: half of
 #: the gap

@@ -9,20 +9,19 @@ from numpy.polynomial import chebyshev
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.curves.polynomials import NODES, POINTS, SERIES
+from linkwright.curves.polynomials import NODES, PLACES, POINTS, SERIES
 from linkwright.engine.recently_made import Recent
 from linkwright.laws.traced import horner, row_at
 
 if TYPE_CHECKING:
     from linkwright.engine.trace import Scalar
 
-_U = 2.0 * NODES - 1.0
 #: From coefficients of Chebyshev polynomials to those of powers of u, -1 to 1; from values at the nodes of a piece to
 #: integrals from its middle, at the nodes.
 _TO_POWERS = np.stack(
     [np.pad(chebyshev.cheb2poly([0.0] * k + [1.0]), (0, POINTS - 1 - k)) for k in range(POINTS)], axis=1
 )
-_ONCE, _TWICE = (chebyshev.chebvander(_U, POINTS - 1 + k) @ chebyshev.chebint(SERIES, k) for k in (1, 2))
+_ONCE, _TWICE = (chebyshev.chebvander(PLACES, POINTS - 1 + k) @ chebyshev.chebint(SERIES, k) for k in (1, 2))
 #: How near polynomials come to the law and its rates, as shares of the largest; what is rounding in a coefficient;
 #: the most halvings of a piece.
 _FINE, _NOTHING, _HALVINGS = 2e-14, 2e-15, 10
@@ -91,10 +90,10 @@ def _row(law: Law, a: float, b: float, sizes: list[float]) -> tuple[list[float],
     orders[np.abs(orders) <= _NOTHING * sizes[2]] = 0.0
     once, twice = half * (_ONCE @ second), half * half * (_TWICE @ second)
     middle_rate = float(np.mean(rate - once))
-    middle = float(np.mean(q - twice - middle_rate * half * _U))
+    middle = float(np.mean(q - twice - middle_rate * half * PLACES))
     misses = (
         np.abs(rate - once - middle_rate).max() / sizes[1],
-        np.abs(q - twice - middle_rate * half * _U - middle).max() / sizes[0],
+        np.abs(q - twice - middle_rate * half * PLACES - middle).max() / sizes[0],
     )
     powers, last = _TO_POWERS @ orders, np.abs(orders[-3:]).max() / sizes[2]
     return [1.0 / half, -(a + b) / (b - a), middle, middle_rate, *powers.tolist()], float(max(last, *misses))

@@ -12,9 +12,9 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import increasing, nodes
 from linkwright.core.plane import cross, crossings
 from linkwright.core.search import lowest
+from linkwright.curves.curve import increasing, nodes
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
@@ -209,7 +209,7 @@ def _speeds(analysis: Analysis, point: str, motion: Motion) -> tuple[Floats, Flo
     in order, with a point's speeds there."""
     time = motion.time
     if analysis.cycle is not None:
-        inner = nodes(analysis.cycle.curve(lambda each: each.point(point).velocity.T, "motion")[0]).ravel()
+        inner = nodes(analysis.cycle.curve(lambda each: each.point(point).velocity.T, "motion")[0]).T.ravel()
         time = increasing(np.append(time, inner[(inner > time.min()) & (inner < time.max())]))
     speed = _speed(analysis, point, time)
     return time, np.where(speed <= AT_REST * speed.max(), 0.0, speed)

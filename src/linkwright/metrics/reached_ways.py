@@ -11,7 +11,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.core.piecewise import NODES, POINTS, WEIGHTS, Piecewise, nodes, weights_at
+from linkwright.curves.curve import Curve, nodes
+from linkwright.curves.polynomials import PLACES, POINTS, WEIGHTS, weights_at
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.metrics.solved_again import Resolver
@@ -52,7 +53,7 @@ class Ways:
         for share in LEFT_OUT:
             edges = np.linspace(np.pi, 2.0 * np.pi, PIECES + 1)
             edges[[0, -1]] += share * np.pi / PIECES * np.array([1.0, -1.0])
-            turn = np.cos(nodes(edges).ravel())
+            turn = np.cos(nodes(edges).T.ravel())
             found.append(self._resolver.motion(0.5 * (start + end) + 0.5 * (end - start) * turn))
             if found[-1].ok.all():
                 return found[-1], share
@@ -76,7 +77,7 @@ class Ways:
             start, end = self._resolver.stretches[number]
             pace = np.sqrt(np.maximum((time - start) * (end - time), 0.0))
             pieces = self.to_ends(values * pace, number)
-            total += 0.5 * np.pi / PIECES * float(np.nansum(pieces @ WEIGHTS))
+            total += np.pi / PIECES * float(np.nansum(pieces @ WEIGHTS))
             span += end - start
         return total / span
 
@@ -85,9 +86,9 @@ class Ways:
         by the polynomials of the outer pieces where their ends were left out."""
         found, share = values.reshape(*values.shape[:-1], PIECES, POINTS).copy(), self._solved[number][1]
         if share:
-            weights = weights_at((NODES + 1.0 - 2.0 * share) / (1.0 - share) - 1.0)
-            found[..., 0, :] = found[..., 0, :] @ weights.T
-            found[..., -1, :] = (found[..., -1, ::-1] @ weights.T)[..., ::-1]
+            weights = weights_at((PLACES + 1.0 - 2.0 * share) / (1.0 - share) - 1.0)
+            found[..., 0, :] = found[..., 0, :] @ weights
+            found[..., -1, :] = (found[..., -1, ::-1] @ weights)[..., ::-1]
         return found
 
     @property
@@ -109,7 +110,7 @@ class Ways:
             known, exact = values[way.ok].tolist(), bool(way.ok.all())
             if exact:
                 curve = self.to_ends(values, number)
-                outer = Piecewise(np.arange(PIECES + 1.0), curve, tolerance=MET).extremes()
+                outer = Curve(np.arange(PIECES + 1.0), curve.T, MET).extremes()
                 exact = all(each.smooth for each in outer)
                 known += [each.value for each in outer]
             for time, value in ends:

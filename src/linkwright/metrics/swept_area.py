@@ -10,8 +10,9 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import row_names
-from linkwright.core.piecewise import POINTS, misses, nodes
 from linkwright.core.plane import area, convex_hull
+from linkwright.curves.curve import nodes
+from linkwright.curves.polynomials import LAST, POINTS, TO_ENDS
 from linkwright.engine.recently_made import Recent
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
@@ -125,7 +126,9 @@ def _curves(analysis: Analysis) -> tuple[Curves | None, bool]:
         ],
         axis=2,
     )
-    off = misses(values, piece[1:] != 0).max(axis=2)
+    left, right = np.moveaxis(values @ TO_ENDS.T, -1, 0)
+    gap = np.abs(left[:, :, 1:] - right[:, :, :-1]) * (piece[1:] != 0)
+    off = np.maximum(np.abs(values @ LAST.T).max(axis=(2, 3)), gap.max(axis=2))
     met = bool((off <= MET * np.ptp(values, axis=(2, 3)).max()).all())
     return Curves(values, piece == 0, piece == PIECES - 1, whole), met
 
@@ -144,7 +147,7 @@ def turned(mechanism: Mechanism, edges: Floats, closed: bool) -> tuple[Flags, Fl
 def _spans(analysis: Analysis, cycle: SolvedPieces, edges: Floats, values: Floats) -> Indices:
     """The nodes of every curve from one end of its way to the other, where it is run to and fro: of all points by the
     one driver, or by a link that turns or slides on the frame; one of a point at rest."""
-    mechanism, times = analysis.motion.mechanism, nodes(edges).ravel()
+    mechanism, times = analysis.motion.mechanism, nodes(edges).T.ravel()
     whole = (0, len(times)) if len(analysis.resolver.changes) else of_driver(mechanism, edges)
     keys, found = points(mechanism), np.tile(whole, (len(values), 1))
     for output in analysis.outputs:
@@ -161,7 +164,7 @@ def _spans(analysis: Analysis, cycle: SolvedPieces, edges: Floats, values: Float
 def of_driver(mechanism: Mechanism, edges: Floats) -> tuple[int, int]:
     """The first of the nodes between edges, s, and that behind the last one, that suffice where one driver runs the
     machine to and fro."""
-    times, laws = nodes(edges).ravel(), [driver.law for driver in mechanism.drivers.values()]
+    times, laws = nodes(edges).T.ravel(), [driver.law for driver in mechanism.drivers.values()]
     if len(laws) > 1 or laws[0].constant_speed is not None:
         return 0, len(times)
     return _between(times, _once(turns(laws[0], edges[0], edges[-1])))

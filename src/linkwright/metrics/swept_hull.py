@@ -14,8 +14,8 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.core.piecewise import NODES, POINTS, TO_SLOPE, weights_at
 from linkwright.core.plane import area, cross, hull_corners
+from linkwright.curves.polynomials import PLACES, POINTS, TO_SLOPE, weights_at
 
 #: Newton steps towards the places of contact at most, and the last one's size where they end before.
 STEPS, CLOSE = 6, 1e-7
@@ -96,7 +96,7 @@ class SweptHull:
         """Where the curve at the beginning, and that at the end of every side touches a line along it, and where
         curves come farthest to the left, the right, down and up."""
         begin, end = corners, np.concatenate([corners[1:], corners[:1]])
-        first, last = NODES[begin % POINTS], NODES[end % POINTS]
+        first, last = PLACES[begin % POINTS], PLACES[end % POINTS]
         arc = begin // POINTS == end // POINTS
         arc &= np.abs(last - first) <= 2.0 * NEAR
         first[arc] = last[arc] = 0.5 * (first + last)[arc]
@@ -109,10 +109,10 @@ class SweptHull:
         begins, ends = np.concatenate([begin[free], outer]), np.concatenate([end[free], outer])
         begun, ended = self._touching(begins, ends, np.concatenate([along, _ALONG]), near)
         first[free], last[free] = begun[:-4], ended[:-4]
-        moved = np.maximum(np.abs(first - NODES[begin % POINTS]), np.abs(last - NODES[end % POINTS]))
+        moved = np.maximum(np.abs(first - PLACES[begin % POINTS]), np.abs(last - PLACES[end % POINTS]))
         self._found = bool(moved.max(initial=0.0) < NEAR - CLOSE)
         number, place = np.concatenate([begin, end, outer]), np.concatenate([first, last, begun[-4:]])
-        point = _at(self._pieces_of(number), weights_at(place))
+        point = _at(self._pieces_of(number), _weights(place))
         ways = (slice(len(begin)), slice(len(begin), -4), slice(-4, None))
         return [Contacts(number[way], place[way], point[way]) for way in ways]
 
@@ -120,16 +120,16 @@ class SweptHull:
         """Places near some nodes where lines touch the curves, by Newton's steps: ``along`` what is given, or along
         the side between both places of contact where its square is larger than ``near``."""
         number, half = np.concatenate([begin, end]), len(begin)
-        place, piece = NODES[number % POINTS], number // POINTS % self._pieces
+        place, piece = PLACES[number % POINTS], number // POINTS % self._pieces
         low, high = np.maximum(place - NEAR, -1.0 - BEYOND), np.minimum(place + NEAR, 1.0 + BEYOND)
         low = np.where(self._curves.begins[piece], np.maximum(low, -1.0), low)
         high = np.where(self._curves.ends[piece], np.minimum(high, 1.0), high)
         # hollow curves touch in their ends alone
         bounded = (self._curves.begins | self._curves.ends)[piece].astype(float)
         values = self._pieces_of(number)
-        rates = values @ TO_SLOPE
-        every = np.concatenate([values, rates, rates @ TO_SLOPE], axis=1)
-        found = _at(every, weights_at(place))
+        rates = values @ TO_SLOPE.T
+        every = np.concatenate([values, rates, rates @ TO_SLOPE.T], axis=1)
+        found = _at(every, _weights(place))
         with np.errstate(over="ignore"):
             for _ in range(STEPS):
                 both = np.concatenate([along, along])
@@ -138,7 +138,7 @@ class SweptHull:
                 before, place = place, np.minimum(np.maximum(place + step, low), high)
                 if np.abs(place - before).max(initial=0.0) <= CLOSE:
                     break
-                found = _at(every, weights_at(place))
+                found = _at(every, _weights(place))
                 between = found[half:, :2] - found[:half, :2]
                 along = np.where((_squares(between) > near)[:, None], between, along)
         return place[:half], place[half:]
@@ -158,8 +158,8 @@ class SweptHull:
 
     def _area(self) -> float:
         number, place, width = self._arcs
-        values, at = self._pieces_of(number), weights_at(place)
-        along = width @ cross(_at(values, at), _at(values, at @ TO_SLOPE.T))
+        values, at = self._pieces_of(number), _weights(place)
+        along = width @ cross(_at(values, at), _at(values, at @ TO_SLOPE))
         return 0.5 * float(along + cross(self._first.point, self._last.point).sum())
 
     def _sampled(self) -> Contacts:
@@ -170,10 +170,10 @@ class SweptHull:
         beside = [(pieces + k) % self._pieces for k in (-1, 0, 1)]
         numbers = np.unique(np.concatenate([curves * self._pieces + each for each in beside]))
         curves, pieces = np.divmod(numbers, self._pieces)
-        point = np.einsum("kjp,np->knj", self._values[curves, :, pieces], weights_at(_DENSE)).reshape(-1, 2)
+        point = np.einsum("kjp,np->knj", self._values[curves, :, pieces], _weights(_DENSE)).reshape(-1, 2)
         point = np.concatenate([point, self._nodes[self._corners]])
         number = np.append(np.repeat(numbers * POINTS, len(_DENSE)), self._corners)
-        place = np.append(np.tile(_DENSE, len(numbers)), NODES[self._corners % POINTS])
+        place = np.append(np.tile(_DENSE, len(numbers)), PLACES[self._corners % POINTS])
         outer = hull_corners(np.ascontiguousarray(point).view(np.complex128)[:, 0])
         return Contacts(number[outer], place[outer], point[outer])
 
@@ -189,13 +189,13 @@ class SweptHull:
         found = np.zeros((curves * pieces, 2, POINTS))
         if (polygon := self._polygon) is not None:
             beside = np.roll(polygon.point, 1, axis=0) - np.roll(polygon.point, -1, axis=0)
-            _add(found, polygon.number, weights_at(polygon.place), 0.5 * _turned(beside))
+            _add(found, polygon.number, _weights(polygon.place), 0.5 * _turned(beside))
             return found.reshape(curves, pieces, 2, POINTS).transpose(0, 2, 1, 3)
         for contacts, other, sign in ((self._first, self._last, -0.5), (self._last, self._first, 0.5)):
-            _add(found, contacts.number, weights_at(contacts.place), sign * _turned(other.point))
+            _add(found, contacts.number, _weights(contacts.place), sign * _turned(other.point))
         number, place, width = self._arcs
-        values, at, half = self._pieces_of(number), weights_at(place), 0.5 * width[:, None]
-        slope = at @ TO_SLOPE.T
+        values, at, half = self._pieces_of(number), _weights(place), 0.5 * width[:, None]
+        slope = at @ TO_SLOPE
         _add(found, number, at, -half * _turned(_at(values, slope)))
         _add(found, number, slope, half * _turned(_at(values, at)))
         return found.reshape(curves, pieces, 2, POINTS).transpose(0, 2, 1, 3)
@@ -209,6 +209,11 @@ def _add(found: Floats, number: Indices, weights: Floats, factor: Floats) -> Non
 def _at(values: Floats, weights: Floats) -> Floats:
     """Polynomials (k, j, POINTS) with weights (k, POINTS) of their values, (k, j)."""
     return np.asarray(np.einsum("kjp,kp->kj", values, weights))
+
+
+def _weights(place: Floats) -> Floats:
+    """Weights (k, POINTS) of the values at the nodes in those at places (k,)."""
+    return weights_at(place).T
 
 
 def _squares(vectors: Floats) -> Floats:

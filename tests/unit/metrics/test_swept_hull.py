@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from linkwright.core.piecewise import nodes
+from linkwright.curves.curve import nodes
 from linkwright.metrics.swept_hull import Curves, SweptHull
 
 
@@ -24,7 +24,7 @@ def test_areas_and_gradients_of_curves_that_turn_back_within_a_way(pieces: int, 
         both = np.concatenate(bent(np.linspace(-1.2, 1.2, 40_001), share), axis=1)
         return float(ConvexHull(both.T).volume)
 
-    angle = 1.2 * np.sin(2.0 * pi * nodes(np.linspace(0.0, 1.0, pieces + 1)) + phase)
+    angle = 1.2 * np.sin(2.0 * pi * nodes(np.linspace(0.0, 1.0, pieces + 1)).T + phase)
     never, step = np.zeros(pieces, dtype=bool), 1e-4
     values, ahead, behind = (np.stack(bent(angle, share)) for share in (0.0, step, -step))
     found = SweptHull(Curves(values, never, never, np.tile([0, angle.size], (2, 1))), [0, 1])
