@@ -16,7 +16,6 @@ from linkwright.cycle_programs.traced_outputs import Traced, design_table
 from linkwright.engine.reductions import VALID_COUNT, Results
 from linkwright.engine.trace import Scalar, select
 from linkwright.errors import LinkwrightError
-from linkwright.kinetostatics.friction import FrictionTerm, Swinging, moving_rate
 from linkwright.kinetostatics.friction_stage import can_be_traced
 from linkwright.kinetostatics.load_site import turns_steadily
 from linkwright.kinetostatics.signals import MotionSignals
@@ -112,10 +111,8 @@ def along_input(
     terms = traced.forces.friction.terms if rubbing else ()
     if len(names) + len(terms) < len(given) or (rubbing and not can_be_traced(traced.forces.friction)):
         return None
-    swinging = dict.fromkeys(_swinging(term) for term in terms if _swings(traced, term))
-    plain = AlongInput(frozenset(), rubbing=rubbing, swinging=tuple(swinging))
     if not names:
-        return plain
+        return AlongInput(frozenset(), rubbing=rubbing)
     loads = [mechanism.loads[name] for name in sorted(names)]
     sizes = [load.magnitude for load in loads]
     if not all(each.traceable(mechanism) for each in sizes):
@@ -131,7 +128,7 @@ def along_input(
     if middles is None:
         return None
     constants = {**known.constants, **middles}
-    return replace(known, constants=constants, rubbing=rubbing, swinging=plain.swinging)
+    return replace(known, constants=constants, rubbing=rubbing)
 
 
 def _needs_turns(size: Magnitude, mechanism: Mechanism, over_time: bool) -> bool:
@@ -145,20 +142,6 @@ def _moves_phases(loads: Iterable[Load], varied: Iterable[str], mechanism: Mecha
     """Whether the laws of drivers vary, which give the times, or the ends of intervals."""
     begins = (*(f"{name}." for name in mechanism.drivers), *(f"loads.{load.name}.phase." for load in loads))
     return any(address.startswith(begins) for address in varied)
-
-
-def _swinging(term: FrictionTerm) -> Swinging:
-    """What comes and goes with a joint, the motion of a link where that tells it."""
-    if term.slides:
-        return Output("displacement", term.joint)
-    moving = [link for link in (term.a, term.b) if link != "frame"]
-    return Output("angle", moving[0]) if len(moving) == 1 else term
-
-
-def _swings(traced: Traced, term: FrictionTerm) -> bool:
-    """Whether the parts of a joint move both ways."""
-    rate = moving_rate(traced.nominal, term)
-    return bool(np.nanmin(rate) < 0.0 < np.nanmax(rate))
 
 
 def friction_doubt(traced: Traced) -> Scalar:

@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.inputs import driven, mode_inputs, turned
+from linkwright.core.inputs import mode_inputs
 from linkwright.core.outputs import row_name
 from linkwright.engine.program import Program
-from linkwright.engine.replay import inlined
-from linkwright.engine.trace import Mask, Scalar, Trace, absolute, cos, select, sin
+from linkwright.engine.trace import Mask, Scalar, absolute, select
 from linkwright.errors import RequestError
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.change_points import nearness
@@ -106,11 +104,6 @@ class Traced:
         """How near the dyads are to a change point or a gap, as a traced value."""
         return nearness(self.solver)
 
-    def numbers(self, program: Program) -> Floats:
-        """The nominal values of the program's parameters."""
-        nominal = self.solver.nominal.parameters
-        return np.array([nominal[name] for name in program.parameters])
-
     def table(
         self, program: Program, columns: Mapping[str, Floats], known: Mapping[str, float] | None = None
     ) -> Floats:
@@ -118,44 +111,6 @@ class Traced:
         no dimensions."""
         numbers = {**self.solver.nominal.parameters, **(known or {})}
         return design_table(program.parameters, numbers, columns)
-
-    # one driver that turns ------------------------------------------------------------------------------
-    def at_input(
-        self, program: Program, trace: Trace, x: Scalar, more: Mapping[str, Scalar] | None = None
-    ) -> dict[str, Any]:
-        """The outputs of a program of the motion at the input x, rad, of the only driver; ``more`` inputs by name."""
-        (driver,) = self.mechanism.drivers
-        lines = {name: first + turns * x for name, (first, turns) in self.lines.items()}
-        return inlined(program, trace, {**turned(driver, x, cos, sin), **lines, **(more or {})})
-
-    # drivers that follow laws ---------------------------------------------------------------------------
-    def at_time(
-        self, program: Program, trace: Trace, time: Scalar, span: tuple[float, float]
-    ) -> dict[str, Any]:
-        """The outputs of a program of the motion at a time, s, within a ``span`` of the drivers' laws."""
-        found: dict[str, Scalar] = {"time": time}
-        for name, driver in self.mechanism.drivers.items():
-            course = driver.law.traced(time, *span)
-            found |= driven(name, self.positions.rotary[name], course, cos, sin)
-            found.setdefault("input", course[0])
-        return inlined(program, trace, found)
-
-    @cached_property
-    def lines(self) -> dict[str, tuple[float, float]]:
-        """Lines near which the rotations run that pairs count, by the names of their states: rad where the input is
-        zero, and turns in a turn of the only driver; the rotations nearest to them are those with the right turns."""
-        counted = self.solver.motion.angles.carried
-        known, found = self.nominal.states if counted else {}, {}
-        for name in counted:
-            line = _line_near(known[name], next(iter(self.positions.coordinates.values()))[0])
-            if line is not None:
-                found[name] = line
-        return found
-
-    @property
-    def countable(self) -> bool:
-        """Whether there are such lines for all of them."""
-        return self.lines.keys() == self.solver.motion.angles.carried.keys()
 
     @property
     def counted_for_certain(self) -> Mask:

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import Output, RelativeAngle, row_name
+from linkwright.core.outputs import RelativeAngle, row_name
 from linkwright.engine.trace import Scalar
 from linkwright.engine.vector import Vec
 from linkwright.kinematics.motion import Motion
@@ -41,10 +41,6 @@ class FrictionTerm:
 
     def __str__(self) -> str:
         return self.field
-
-
-#: What comes and goes: an output, or the angle between two links, as of a pin with friction.
-Swinging = Output | RelativeAngle | FrictionTerm
 
 
 class FrictionTerms:

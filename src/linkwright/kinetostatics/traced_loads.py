@@ -15,7 +15,6 @@ from linkwright.engine.table import Table
 from linkwright.engine.trace import Scalar
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.kinetostatics.friction import Swinging
 from linkwright.kinetostatics.load_site import (
     LAP,
     TracedSite,
@@ -40,23 +39,20 @@ CLOSE = 1e-9
 class AlongInput:
     """Loads whose magnitudes are traced, and what these take.
 
-    ``outputs``: those whose limit positions they need; ``valued``: of which also the values there; ``moving``: those
-    by the signs of whose rates they act; ``angles``: of which pairs of links (see ``Magnitude.angles``);
+    ``outputs``: those whose limit positions they need; ``valued``: of which also the values there; ``angles``: of
+    which pairs of links (see ``Magnitude.angles``);
     ``constants`` and ``tables`` by name: numbers of the loads that are no dimensions; ``fallible``: loads that may
-    have no value for some designs; ``rubbing``: friction of joints is traced as well; ``swinging``: what turns round
-    at two positions, where friction and loads against velocities change their signs.
+    have no value for some designs; ``rubbing``: friction of joints is traced as well.
     """
 
     names: frozenset[str]
     outputs: tuple[Output, ...] = ()
     valued: tuple[Output, ...] = ()
-    moving: tuple[Output, ...] = ()
     angles: Mapping[tuple[str, str], float | None] = field(default_factory=dict)
     constants: Mapping[str, float] = field(default_factory=dict)
     tables: Mapping[str, Table] = field(default_factory=dict)
     fallible: tuple[str, ...] = ()
     rubbing: bool = False
-    swinging: tuple[Swinging, ...] = ()
 
     def sizes(self, motion: MotionTrace) -> Scalar:
         """Sum of the magnitudes of the fallible loads: not finite where one has no value."""
@@ -98,7 +94,6 @@ def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
         frozenset(given),
         tuple(dict.fromkeys(each.output for each in limits)),
         tuple(dict.fromkeys(each.output for each in limits if each.in_part)),
-        tuple(dict.fromkeys(each.rate for each in sizes if each.rate is not None)),
         {pair: near for each in sizes for pair, near in each.angles(mechanism).items()},
         {
             constant_name(name, key): value
