@@ -33,7 +33,7 @@ from tests.mutation.trial import killed, preload
 
 PACKAGES = (
     "kinematics", "groups", "structure", "kinetostatics", "loads", "drivers", "joints", "metrics", "machine",
-    "engine", "cycle_programs", "study", "units.py",
+    "engine", "study", "units.py",
 )  # fmt: skip
 EQUIVALENT = Path(__file__).parent / "equivalent_mutants.txt"
 WANTED = 0.9

@@ -38,7 +38,6 @@ STAGES = (
     ("dyads",),
     ("cycle",),
     ("metrics", "machine", "worked"),
-    ("cycle_programs",),
     ("study", "optimisation", "synthesis", "cams", "gears", "parts", "tolerance"),
     ("report", "plot", "export", "page", "validation", "course", "sheets"),
     ("cli", "server", "__main__"),

@@ -10,11 +10,11 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.expressions import amount
-from linkwright.cycle_programs.path_curvature import path_curvature
 from linkwright.engine.summaries import Backend
 from linkwright.errors import QuantityError
 from linkwright.files.write import flow
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.optimisation.path_curvature import path_curvature
 from linkwright.study.objective import Part, of_path
 from linkwright.study.objective_terms import PathError
 from linkwright.words.sentence import Sentence

@@ -9,13 +9,13 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.cycle_programs.one_by_one import changes_of, sentence_of
-from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.program import Program
 from linkwright.engine.reductions import Reduction
 from linkwright.engine.summaries import summaries
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.study.one_by_one import changes_of, sentence_of
+from linkwright.study.traced_outputs import Traced
 from linkwright.words.sentence import Sentence
 
 

@@ -12,13 +12,6 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.cycle.load_limits import FoundLimits
 from linkwright.cycle.summary import KINDS, Summary
-from linkwright.cycle_programs.loaded_cycle import (
-    LoadedCycle,
-    along_input,
-    friction_doubt,
-    with_limits,
-)
-from linkwright.cycle_programs.traced_outputs import CLEAR, VALID, Traced
 from linkwright.engine.gradient import Gradient
 from linkwright.engine.program import Program
 from linkwright.engine.states import inputs_as_fields, states_as_fields
@@ -37,7 +30,14 @@ from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.wanted import wanted
+from linkwright.study.loaded_cycle import (
+    LoadedCycle,
+    along_input,
+    friction_doubt,
+    with_limits,
+)
 from linkwright.study.objective_terms import PathError
+from linkwright.study.traced_outputs import CLEAR, VALID, Traced
 from linkwright.units import LARGEST
 
 VALUE = "objective"

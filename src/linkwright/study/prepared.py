@@ -15,8 +15,6 @@ from linkwright.core.arrays import Floats
 from linkwright.core.given import one_of, require
 from linkwright.core.outputs import Output, row_name
 from linkwright.cycle.load_limits import NearLimits
-from linkwright.cycle_programs.loaded_cycle import LoadedCycle, along_input, with_limits
-from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.llvm_backend import compile_program
 from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import numpy_program
@@ -39,6 +37,8 @@ from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import AlongInput, traced_magnitude
 from linkwright.loads.strokes import turned
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.study.loaded_cycle import LoadedCycle, along_input, with_limits
+from linkwright.study.traced_outputs import Traced
 from linkwright.study.varied_dimensions import checked_addresses
 
 #: The row of how near a group is to a change point or a gap; 0 where it cannot be assembled, where a load has no

@@ -15,16 +15,16 @@ from linkwright.core.given import one_of, one_or_more, require
 from linkwright.core.html import html_table
 from linkwright.core.read_only import Frozen, locked
 from linkwright.cycle.summary import Summary
-from linkwright.cycle_programs.known_loads import known_loads
-from linkwright.cycle_programs.slopes import Slopes
-from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.summaries import BACKENDS, Backend
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.friction_stage import MOST
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.study.known_loads import known_loads
 from linkwright.study.objective import of_metrics
+from linkwright.study.slopes import Slopes
+from linkwright.study.traced_outputs import Traced
 from linkwright.study.varied_dimensions import checked_addresses, refuse_misfits
 
 if TYPE_CHECKING:

@@ -13,10 +13,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input, mode_groups
 from linkwright.core.progress import Progress, current_progress, paced
 from linkwright.cycle.summary import Summary, finished, reductions
-from linkwright.cycle_programs.change_points import ChangePoints, near_enough
-from linkwright.cycle_programs.loaded_cycle import LoadedCycle, doubts, loaded_cycle
-from linkwright.cycle_programs.one_by_one import OneByOne, changes_of
-from linkwright.cycle_programs.traced_outputs import NEAREST, VALID, Traced
 from linkwright.engine.llvm_backend import compile_program
 from linkwright.engine.machine_code import available
 from linkwright.engine.numpy_backend import NumpyProgram
@@ -37,7 +33,11 @@ from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.study.change_points import ChangePoints, near_enough
 from linkwright.study.finished_parts import identity, once
+from linkwright.study.loaded_cycle import LoadedCycle, doubts, loaded_cycle
+from linkwright.study.one_by_one import OneByOne, changes_of
+from linkwright.study.traced_outputs import NEAREST, VALID, Traced
 
 #: The result that says whether a design passes its cycle.
 PASSED = "passed"

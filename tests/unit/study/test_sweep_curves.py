@@ -11,10 +11,10 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.cycle_programs.one_by_one import OneByOne
 from linkwright.engine.summaries import Backend
 from linkwright.study import sweep
 from linkwright.study.designs import sweep_curves
+from linkwright.study.one_by_one import OneByOne
 
 Floats = NDArray[np.float64]
 

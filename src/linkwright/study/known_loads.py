@@ -15,8 +15,6 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import kind_of, owners_of
-from linkwright.cycle_programs.loaded_cycle import whole_turns, with_limits
-from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.table import Tables
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.friction_stage import MOST, can_be_traced
@@ -28,6 +26,8 @@ from linkwright.loads.base import Load
 from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.over_cycle import activity
 from linkwright.loads.phases import Always
+from linkwright.study.loaded_cycle import whole_turns, with_limits
+from linkwright.study.traced_outputs import Traced
 
 
 @dataclass(frozen=True)

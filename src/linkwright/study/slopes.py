@@ -8,9 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.cycle_programs.known_loads import KnownLoads
-from linkwright.cycle_programs.loaded_cycle import RUBBING, friction_doubt
-from linkwright.cycle_programs.traced_outputs import VALID, Traced
 from linkwright.engine.derivative import forward, reverse
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
@@ -19,6 +16,9 @@ from linkwright.engine.summaries import Backend
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.load_site import middle_name
 from linkwright.kinetostatics.named_outputs import Quantity
+from linkwright.study.known_loads import KnownLoads
+from linkwright.study.loaded_cycle import RUBBING, friction_doubt
+from linkwright.study.traced_outputs import VALID, Traced
 
 
 class Slopes:

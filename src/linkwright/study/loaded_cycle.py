@@ -12,7 +12,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, kind_of, owners_of
 from linkwright.cycle.load_limits import FoundLimits, LoadLimits
 from linkwright.cycle.machine import Machine, NotTogether
-from linkwright.cycle_programs.traced_outputs import Traced, design_table
 from linkwright.engine.reductions import VALID_COUNT, Results
 from linkwright.engine.trace import Scalar, select
 from linkwright.errors import LinkwrightError
@@ -24,6 +23,7 @@ from linkwright.loads.base import Load
 from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.strokes import TURN
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.study.traced_outputs import Traced, design_table
 
 #: The output that is the sum of magnitudes which may not exist, and that is 1 where friction is not certain.
 SIZES, RUBBING = "sizes of loads", "doubt of friction"

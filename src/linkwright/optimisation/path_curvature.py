@@ -9,7 +9,6 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.cycle_programs.traced_outputs import VALID, Traced, design_table
 from linkwright.engine.derivative import forward
 from linkwright.engine.program import Program
 from linkwright.engine.recently_made import Recent
@@ -20,6 +19,7 @@ from linkwright.engine.trace import Scalar
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.names import point_key
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.study.traced_outputs import VALID, Traced, design_table
 
 
 @dataclass(frozen=True, eq=False)

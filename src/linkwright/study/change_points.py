@@ -14,7 +14,6 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.inputs import Input, turned
 from linkwright.core.search import lowest
-from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.numpy_backend import NumpyProgram
 from linkwright.engine.program import Program
 from linkwright.engine.summaries import Backend, Run, code_for
@@ -22,6 +21,7 @@ from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.change_points import MEETING, TOUCH
 from linkwright.kinematics.passing_proof import NEAR
 from linkwright.kinematics.positions import Positions
+from linkwright.study.traced_outputs import Traced
 
 #: Designs whose positions are evaluated together.
 BLOCK = 4096

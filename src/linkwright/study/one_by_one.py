@@ -8,7 +8,6 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.inputs import mode_inputs
-from linkwright.cycle_programs.traced_outputs import Traced
 from linkwright.engine.trace import Mask
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle_angles import STEPS
@@ -17,6 +16,7 @@ from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.run import run_forces
+from linkwright.study.traced_outputs import Traced
 from linkwright.words.sentence import Sentence
 
 #: The field that is 1 at the positions that a design reaches on its way through change points, else 0.

@@ -1,1 +1,0 @@
-"""Forces and design numbers of many designs at once: cycle programs and their gradients."""
