@@ -13,7 +13,7 @@ from linkwright.loads.base import Load
 from linkwright.loads.phases import Always
 from linkwright.loads.signals import BetweenLimits, Signals, column, named_column
 from linkwright.loads.sizes import OverCycle
-from linkwright.loads.strokes import NEAR, TURN, Stretch, strokes
+from linkwright.loads.strokes import ALIKE, TURN, Stretch, strokes
 from linkwright.words.sentence import Sentence
 
 
@@ -145,7 +145,7 @@ class CycleCourse:
         count = len(self.signals.time)
         where, share = np.zeros(count, dtype=bool), np.zeros(count)
         for each in strokes(phase, self.signals):
-            if ramp and abs(each.rise) < NEAR * (1.0 + abs(each.end.input)):
+            if ramp and abs(each.rise) < ALIKE * (1.0 + abs(each.end.input)):
                 raise LinkwrightError("loads.ramp_without_length", output=phase.output)
             inside, passed = each.place(self.signals)
             where, share = where | inside, np.where(inside, passed, share)

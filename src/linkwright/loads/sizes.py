@@ -17,11 +17,15 @@ from linkwright.engine.trace import Mask, Scalar, absolute, floor, maximum, sele
 from linkwright.loads.faults import formula_fault, table_fault
 from linkwright.loads.signals import Course, Signals, output_named, times_of_inputs
 from linkwright.loads.site import Mechanism
-from linkwright.loads.strokes import NEAR, TURN
+from linkwright.loads.strokes import TURN
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
+
+
+#: Beyond its ends by this share of its length, or rad, a table still holds.
+COVERED = 1e-9
 
 
 class Size(ABC):
@@ -163,9 +167,9 @@ class Table(Size):
         if (over.dimension if isinstance(over, Output) else self.across) == "angle" and over != "time":
             whole = TURN * maximum(1.0, floor(span / TURN + 0.5))
             gone = x - first - whole * floor((x - first) / whole)
-            moved = first + select(gone > whole - NEAR, gone - whole, gone)
-            x = select(span > TURN, select(absolute(span - whole) > NEAR, x, moved), moved)
-        slack = NEAR * span
+            moved = first + select(gone > whole - COVERED, gone - whole, gone)
+            x = select(span > TURN, select(absolute(span - whole) > COVERED, x, moved), moved)
+        slack = COVERED * span
         return x, (x < first - slack) | (x > last + slack)
 
     def outputs(self, mechanism: Mechanism) -> tuple[Output | None, ...]:

@@ -19,8 +19,10 @@ if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
 
 TURN = 2 * math.pi
-#: Positions this near to the end of a phase (rad, m, or share of the cycle's time) belong to it.
-NEAR = 1e-9
+#: Positions this near to the end of a phase (rad, m, or share of the cycle's time) are at it but for rounding.
+NEAR = 1e-12
+#: Limits nearer to the outermost ones than this share of the way are outermost, too.
+ALIKE = 1e-9
 PartWord = Literal["first", "last", "free"]
 
 
@@ -90,7 +92,7 @@ def strokes(phase: BetweenLimits, signals: Signals) -> list[Stretch]:
 def outermost(limits: Sequence[Limit]) -> list[Limit]:
     """Of all reversals those with the largest and the smallest value of the output."""
     values = [each.value for each in limits]
-    slack = NEAR * (max(values) - min(values))
+    slack = ALIKE * (max(values) - min(values))
     best = {
         "max": max((each.value for each in limits if each.kind == "max"), default=np.inf) - slack,
         "min": min((each.value for each in limits if each.kind == "min"), default=-np.inf) + slack,
