@@ -308,10 +308,13 @@ class Analysis(PartlyReached):
     def ranges(self, output: Output) -> list[tuple[float, bool]]:
         """The ways of an output on all stretches of what is partly reached, and whether these are exact; none where
         nothing is solved on one of them."""
-        if not self.partial or not self.ways.known:
-            return []
-        limits = self.ends.limits(lambda solved: solved.read(output), "motion")
-        return list(self.ways.ranges(output, zip(self.ends.times, limits, strict=True)))
+        found = []
+        for way in self.ways:
+            high, low = (way.extreme(lambda each: each.read(output), sign, "motion") for sign in (1.0, -1.0))
+            if high is None or low is None:
+                return []
+            found.append((high.value - low.value, not np.isnan(high.value - low.value)))
+        return found
 
     @property
     def _of(self) -> str:
@@ -327,8 +330,8 @@ class Analysis(PartlyReached):
                 cuts = SolvedCuts(self.motion, self.forces, self.resolver).times
             else:
                 cuts = Cycle(self._machine, ()).solve({}).stretches.begin
-            found = SolvedPieces(self.motion, self.resolver, cuts)
-            return found if found.reached(self._of) else None
+            found = SolvedPieces.of_cycle(self.motion, self.resolver, cuts)
+            return found if found.reached else None
         except LinkwrightError:
             return None
 
@@ -341,14 +344,10 @@ class Analysis(PartlyReached):
         then, if it does not grow without bound; of the positions where nothing can be solved between these.
         """
         if self.cycle is not None:
-            return self.cycle.mean(signal, self._of, square=square)
-
-        def power(solved: Any) -> Floats:
-            return np.asarray(signal(solved) ** (2 if square else 1))
-
+            return self.cycle.integral(signal, self._of, square=square) / self.cycle.duration
         if self.partial:
-            return self.mean_of_part(power, self._of)
-        return self.mean(power(self.forces or self.motion))
+            return self.mean_of_part(signal, self._of, square=square)
+        return self.mean(np.asarray(signal(self.forces or self.motion)) ** (2 if square else 1))
 
     def rms_of(self, signal: Callable[..., Floats]) -> float:
         """Root of the mean square over the time of the cycle, found in the same way."""

@@ -46,12 +46,6 @@ _ALL = weights(AWAY, _MIDDLE)[0]
 _BUT_ONE = np.append(weights(AWAY[:-1], _MIDDLE)[0], 0.0)
 
 
-def towards(length: Floats, slowed: float) -> Floats:
-    """Distances (..., k) from ends of range, the nearest first, of stretches of some lengths: squares, nearly, of
-    distances as :func:`limit` takes them."""
-    return 0.5 * np.asarray(length)[..., None] * (1.0 - np.cos(slowed * AWAY))
-
-
 def limit(values: Floats, steepest: int = 2) -> float:
     """The limit of a signal at a change point from the values (k,) of one side; infinite where it grows as the
     inverse of the distance or of a power of it up to ``steepest``, NaN where no polynomial tells."""

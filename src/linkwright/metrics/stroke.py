@@ -31,7 +31,7 @@ class Stroke(Metric):
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         """Those of a machine that reaches several stretches are of each of them."""
         stretches = analysis.resolver.stretches if analysis.partial else ()
-        if len(stretches) < 2 or not analysis.ways.known:
+        if len(stretches) < 2 or not analysis.ways:
             yield from super().values(analysis)
             return
         for output in self._swinging(analysis):

@@ -12,7 +12,7 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import row_names
 from linkwright.core.plane import area, convex_hull
 from linkwright.curves.curve import nodes
-from linkwright.curves.polynomials import LAST, POINTS, TO_ENDS
+from linkwright.curves.polynomials import POINTS
 from linkwright.engine.recently_made import Recent
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
@@ -22,12 +22,13 @@ from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
 from linkwright.metrics.range_of_motion import turns
-from linkwright.metrics.reached_ways import MET, PIECES
 from linkwright.metrics.solved_pieces import SolvedPieces
 from linkwright.metrics.swept_hull import Curves, SweptHull
 
 #: Ends of ways nearer to each other than this share of the way are the same.
 SAME = 1e-9
+#: Pieces of a lap: the hull is looked for among their nodes.
+HULL_PIECES = 24
 
 
 class HullArea(Metric):
@@ -45,13 +46,7 @@ class HullArea(Metric):
         (curves, met), keys = _curves(analysis), points(motion.mechanism)
         for subject, own in self.swept(motion.mechanism).items():
             if curves is None:
-                places = np.concatenate(
-                    [
-                        each.vector("position", key)[each.ok]
-                        for each in (motion, *analysis.ways.motions)
-                        for key in own
-                    ]
-                )
+                places = np.concatenate([motion.vector("position", key)[motion.ok] for key in own])
                 corners = convex_hull(places.view(np.complex128)[:, 0])
                 size, sides = area(corners), np.ptp(corners.view(float).reshape(-1, 2), axis=0)
             else:
@@ -110,27 +105,19 @@ def _curves(analysis: Analysis) -> tuple[Curves | None, bool]:
     cycle, mechanism = analysis.cycle, analysis.motion.mechanism
     keys = points(mechanism)
     if cycle is not None:
-        edges, rows = cycle.curve(lambda motion: _rows(motion, keys), "motion")
+        edges, rows = cycle.curve(lambda motion: _rows(motion, keys), "motion", HULL_PIECES)
         values = np.moveaxis(rows, 1, 2).reshape(len(keys), 2, -1, POINTS)
         spans = _spans(analysis, cycle, edges, values)
         return Curves(values, *turned(mechanism, edges, analysis.closed), spans), True
-    if not analysis.ways.whole:
+    if not analysis.ways:
         return None, False
-    ways = analysis.ways.motions
-    piece = np.arange(PIECES * len(ways)) % PIECES
-    whole = np.tile([0, len(piece) * POINTS], (len(keys), 1))
-    values = np.concatenate(
-        [
-            analysis.ways.to_ends(_rows(way, keys).reshape(len(keys), 2, -1), number)
-            for number, way in enumerate(ways)
-        ],
-        axis=2,
-    )
-    left, right = np.moveaxis(values @ TO_ENDS.T, -1, 0)
-    gap = np.abs(left[:, :, 1:] - right[:, :, :-1]) * (piece[1:] != 0)
-    off = np.maximum(np.abs(values @ LAST.T).max(axis=(2, 3)), gap.max(axis=2))
-    met = bool((off <= MET * np.ptp(values, axis=(2, 3)).max()).all())
-    return Curves(values, piece == 0, piece == PIECES - 1, whole), met
+    parts = [way.curve(lambda motion: _rows(motion, keys), "motion", HULL_PIECES) for way in analysis.ways]
+    values = np.concatenate([np.moveaxis(rows, 1, 2) for _, rows in parts], axis=1)
+    values = values.reshape(len(keys), 2, -1, POINTS)
+    counts = [len(edges) - 1 for edges, _ in parts]
+    begins = np.isin(np.arange(sum(counts)), np.cumsum([0, *counts[:-1]]))
+    whole = np.tile([0, len(begins) * POINTS], (len(keys), 1))
+    return Curves(values, begins, np.roll(begins, -1), whole), True
 
 
 def turned(mechanism: Mechanism, edges: Floats, closed: bool) -> tuple[Flags, Flags]:

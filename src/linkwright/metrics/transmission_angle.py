@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from math import radians
+from math import nan, radians
 from typing import ClassVar
 
 from linkwright.core.outputs import Output
@@ -85,7 +85,8 @@ def on_strokes(parts: Sequence[Summary], analysis: Analysis) -> list[Extreme]:
     for part in parts:
         assert analysis.cycle is not None
         spans = _strokes(part, analysis, period)
-        found.append(analysis.cycle.extreme(analysis.signal(signal_of(part)), -1.0, of, spans))
+        lowest = analysis.cycle.extreme(analysis.signal(signal_of(part)), -1.0, of, spans)
+        found.append(lowest or Extreme(nan, nan, nan, False))
     return found
 
 
