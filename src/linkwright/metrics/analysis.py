@@ -74,6 +74,7 @@ class Analysis(PartlyReached):
         self._asked: dict[Summary, Extreme | None] = {}
         self._parts: dict[str, Extreme] = {}
         self._texts: dict[str, None] = {}
+        self._solved: list[Solved] = []
 
     @classmethod
     def of(cls, result: Motion | Forces | Analysis) -> Analysis:
@@ -193,6 +194,7 @@ class Analysis(PartlyReached):
             parts = [each for each in parts if one(each).kind not in TRUE_SPEED]
             limited = [output for output in self.outputs if self.limits(output)] if self.closed else ()
             solved = Cycle(self._machine, parts, limited).solve({})
+            self._solved.append(solved)
             self._together |= {each: self._read_of(solved, each) for each in parts}
         return self._together[text]
 
@@ -200,9 +202,8 @@ class Analysis(PartlyReached):
         """A part of one machine's cycle; None of one that is not passed."""
         if not solved.passed[0]:
             return None
-        value, time = float(solved.values[text][0]), float(solved.time_of(text)[0])
-        place = float(solved.input_at(solved.time_of(text))[0])
-        return Extreme(value, time, place, True)
+        time = solved.time_of(text)
+        return Extreme(float(solved.values[text][0]), float(time[0]), float(solved.input_at(time)[0]), True)
 
     @cached_property
     def _together(self) -> dict[str, Extreme | None]:
@@ -329,7 +330,8 @@ class Analysis(PartlyReached):
             if self._machine is None:
                 cuts = SolvedCuts(self.motion, self.forces, self.resolver).times
             else:
-                cuts = Cycle(self._machine, ()).solve({}).stretches.begin
+                known = self._solved if not self._machine.traces.programs.signed else []
+                cuts = (known or [Cycle(self._machine, ()).solve({})])[0].stretches.begin
             found = SolvedPieces.of_cycle(self.motion, self.resolver, cuts)
             return found if found.reached else None
         except LinkwrightError:

@@ -46,7 +46,9 @@ class EnergyFluctuation(Metric):
         steady = np.ptp(rate) <= 1e-9 * abs(rate[0]) and abs(turns - round(turns)) <= 1e-9
         if not steady:
             return False
-        analysis.ask(("equivalent_inertia mean",))  # of flywheels, found together with the mean torque
+        analysis.ask(
+            ("equivalent_inertia mean", "input_torque excess", "input_torque peak")
+        )  # found together
         mean = float(analysis.part("input_torque mean").value)
         return abs(mean) > NOTHING * float(np.abs(analysis.forces.input_torque).max())
 
