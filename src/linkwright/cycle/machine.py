@@ -40,7 +40,7 @@ from linkwright.kinetostatics.load_site import ACTS, angle_between, guide_state,
 from linkwright.kinetostatics.named_outputs import Named, Quantity
 from linkwright.kinetostatics.programs import ForcePrograms, force_programs
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
+from linkwright.kinetostatics.traced_loads import TURNING, AlongInput, numbers_of_loads
 from linkwright.loads.base import Load
 from linkwright.loads.phases import Always, MovingPhase
 from linkwright.loads.sizes import Formula as Expression
@@ -323,6 +323,14 @@ class Machine:
                 self._numbers[name] = self._number(name)
         return found
 
+    def tells(self, words: str) -> bool:
+        """Whether a formula gives an output: not the angle of a link that turns through."""
+        try:
+            self.formula(("output", words), lambda: {words: self.traces.quantity(words).value})
+        except NotTogether:
+            return False
+        return True
+
     @property
     def known(self) -> Known:
         """The numbers that formulas take beside columns."""
@@ -351,6 +359,8 @@ class Machine:
             link = name.removeprefix(middle_name("frame", ""))
             angle = self.nominal.link(link).angle
             low, high = float(np.nanmin(angle)), float(np.nanmax(angle))
+            if high - low > TURNING:
+                raise NotTogether
             return 0.5 * (low + high)
         if name.startswith(SIGN):
             assert self.tracker is not None

@@ -10,7 +10,6 @@ from collections.abc import Callable
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import row_name, row_names
 from linkwright.curves.pieces import HIGH, LOW, Columns
 from linkwright.events.formula import Known
@@ -37,7 +36,7 @@ class SolvedAgain:
         """The signals, (nodes, signals, pieces)."""
         return self._both(columns, nodes)[0]
 
-    @cached_property
+    @property
     def with_slope(self) -> _WithSlope:
         """The signals and, behind each, its derivative by the place in the piece."""
         return _WithSlope(self)

@@ -192,11 +192,21 @@ class Analysis(PartlyReached):
         if text not in self._together:
             parts = [each for each in {**self._texts, text: None} if each not in self._together]
             parts = [each for each in parts if one(each).kind not in TRUE_SPEED]
-            limited = [output for output in self.outputs if self.limits(output)] if self.closed else ()
+            told = {each: self._tells(one(each)) for each in parts}
+            swinging = self.outputs if self.closed else ()
+            limited = [each for each in swinging if self.limits(each) and self._machine.tells(each.name)]
+            parts = [each for each in parts if told[each]]
+            self._together |= dict.fromkeys(told)
             solved = Cycle(self._machine, parts, limited).solve({})
             self._solved.append(solved)
             self._together |= {each: self._read_of(solved, each) for each in parts}
         return self._together[text]
+
+    def _tells(self, part: Summary) -> bool:
+        """Whether the cycle's formulas give the output of a part."""
+        words = signal_of(part) if part.kind in STROKES.values() else part.output
+        assert self._machine is not None
+        return not self._meant(words).of_course or self._machine.tells(words)
 
     def _read_of(self, solved: Solved, text: str) -> Extreme | None:
         """A part of one machine's cycle; None of one that is not passed."""

@@ -143,12 +143,22 @@ class NumbersOfDesigns:
             solved = cycle.solve({address: column[first:end] for address, column in columns.items()})
             parts, certain[first:end] = self._parts(solved)
             found = _of(self._formulas, parts)
-            for name, row in found.items():
-                values[name][first:end] = row
+            for each in self.terms:
+                row = self._of_two_limits(each, found[each.name], solved)
+                values[each.name][first:end] = row
                 certain[first:end] &= np.isfinite(row)
 
         spread_over(designs, BLOCK, cores() if threads is None else threads, work)
         return Found(values, certain)
+
+    def _of_two_limits(self, each: Term, values: Floats, solved: Solved) -> Floats:
+        """A number (designs,); NaN for one of the way between both limits where these are not the only outermost
+        ones."""
+        for number in each.numbers:
+            ways = [self.cycle.limited.get(part) for part in number.parts if one(part).kind.startswith("arg")]
+            if len(ways) == 2 and ways[0] is not None and ways[0] in solved.limits:
+                values = np.where(solved.limits[ways[0]].tied, np.nan, values)
+        return values
 
     def _compiled(self, designs: int, backend: Backend) -> Cycle:
         """The cycle by code that is compiled where that pays."""
@@ -160,9 +170,6 @@ class NumbersOfDesigns:
         """All summaries, (designs,) each, and of which designs these are certain."""
         certain = solved.passed & ~solved.turned_round
         found = dict(solved.values)
-        for text, output in self.cycle.limited.items():
-            if self.cycle.parts[text].kind.startswith("arg") and output in solved.limits:
-                found[text] = np.where(solved.limits[output].tied, np.nan, found[text])
         if self.running:
             steady = self._steady(solved)
             for text, part in self.running.items():
