@@ -76,6 +76,10 @@ class Analysis(PartlyReached):
         self._texts: dict[str, None] = {}
         self._solved: list[Solved] = []
 
+    def __getstate__(self) -> dict[str, Any]:
+        """All but the formulas of its cycle, which every process makes for itself."""
+        return {**self.__dict__, "_machine": None, "_solved": []}
+
     @classmethod
     def of(cls, result: Motion | Forces | Analysis) -> Analysis:
         """The analysis of a result, the same one as long as the result is of use.
