@@ -45,8 +45,10 @@ def test_a_sweep_tells_of_its_designs_and_finds_the_same_bits(
     count = len(next(iter(vary.values())))
     found, calls = told(lambda: lw.sweep(mechanism, vary, outputs=outputs))
     alone = columns_of(lw.sweep(mechanism, vary, outputs=outputs))
+    near = 1e-13 if "flywheel" in outputs else 0.0  # blocks of other sizes, sums by other instructions
     assert all(
-        np.array_equal(alone[key], each, equal_nan=True) for key, each in every(columns_of(found).items())
+        np.allclose(alone[key], each, rtol=near, atol=0.0, equal_nan=True)
+        for key, each in every(columns_of(found).items())
     )
     together = outputs == ["driver.effort rms"] and name != "kite"  # one piece of so few
     assert len(calls) > (0 if together else 1) and {total for _, total in calls} == {count}

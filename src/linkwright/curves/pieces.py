@@ -269,17 +269,21 @@ class Pieces:
     def excess(self, k: int, mean: Floats) -> Floats:
         """The integral over time of what a signal lacks of its mean, up to every node, (POINTS, pieces)."""
         lack = (self.each(mean) - self.values(k)) * self.width
-        whole = np.where(self.each(self.passed), WEIGHTS @ lack, 0.0)
-        before = np.cumsum(whole) - whole
-        return np.asarray(before - self.each(before[self.starts]) + product(UP_TO, lack))
+        return np.asarray(self._before(WEIGHTS @ lack) + product(UP_TO, lack))
+
+    def _before(self, of_pieces: Floats) -> Floats:
+        """Sums over the pieces of the same design before each, (pieces,)."""
+        number = np.arange(len(of_pieces)) - self.starts[self.design]
+        rows = np.zeros((self.designs, int(number.max(initial=0)) + 1))
+        rows[self.design, number] = of_pieces
+        return np.asarray((np.cumsum(rows, axis=1) - rows)[self.design, number])
 
     def through_excess(self, k: int, mean: Floats, weight: Floats) -> tuple[Floats, Floats]:
         """From derivatives (POINTS, pieces) by the excess at the nodes those by the signal there, and by the widths
         of the pieces; the mean changes with both."""
-        whole = np.where(self.each(self.passed), weight.sum(axis=0), 0.0)
-        after = np.cumsum(whole[::-1])[::-1] - whole
-        last = np.append(self.starts[1:], len(whole)) - 1
-        upto = product(UP_TO.T, weight) + WEIGHTS[:, None] * (after - self.each(after[last]))
+        whole = weight.sum(axis=0)
+        after = self.each(self.total(whole)) - self._before(whole) - whole
+        upto = product(UP_TO.T, weight) + WEIGHTS[:, None] * after
         lack = self.each(mean) - self.values(k)
         by_mean = self.total((upto * self.width).sum(axis=0))
         share = self.each(by_mean / self.period)

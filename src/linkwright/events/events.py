@@ -351,7 +351,7 @@ class _Search:
     def _polished(self, brackets: _Brackets) -> Floats:
         """Roots by Newton's steps within their brackets, all at once."""
         left, right, time, rising = brackets.left, brackets.right, brackets.guess, brackets.rising
-        width, rows = right - left, np.arange(len(left))
+        width, rows, open_ = right - left, np.arange(len(left)), np.ones(len(left), dtype=np.bool_)
         for _ in range(STEPS if len(left) else 0):
             found = self._at(self.formula.with_slope, brackets.piece, time)
             g, slope = found[2 * brackets.signal, rows], found[2 * brackets.signal + 1, rows]
@@ -360,8 +360,10 @@ class _Search:
             with np.errstate(divide="ignore", invalid="ignore"):
                 newton = time - g / slope
             newton = np.where((newton >= left) & (newton <= right), newton, 0.5 * (left + right))
+            newton = np.where(open_, newton, time)
             moved, time = np.abs(newton - time), newton
-            if (moved <= NEAR * width).all():
+            open_ &= ~(moved <= NEAR * width)
+            if not open_.any():
                 break
         return time
 

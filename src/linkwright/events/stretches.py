@@ -97,13 +97,10 @@ class Stretches:
                 setattr(self, name, getattr(self, name)[kept])
 
     def first_pieces(self, each: float) -> tuple[Indices, Floats, Floats]:
-        """Stretch and shares of pieces of about equal length, ``each`` of a lap of the input; stretches that have
-        the same number in their designs are cut into as many."""
+        """Stretch and shares of pieces of equal length in their stretches, ``each`` of a lap of the input."""
         design = self.design
-        place = np.arange(len(design)) - np.searchsorted(design, design)
-        share, longest = self.length / self.span.period[design], np.zeros(int(place.max()) + 1)
-        np.maximum.at(longest, place, share)
-        count = np.maximum(1, np.ceil(each * self.span.course.laps * longest)).astype(np.intp)[place]
+        share = self.length / self.span.period[design]
+        count = np.maximum(1, np.ceil(each * self.span.course.laps * share - 1e-9)).astype(np.intp)
         stretch = np.repeat(np.arange(len(design)), count)
         k = np.arange(len(stretch)) - np.repeat(np.cumsum(count) - count, count)
         return stretch, k / count[stretch], (k + 1) / count[stretch]

@@ -34,7 +34,7 @@ class TrackedStates:
     """
 
     def __init__(self, nominal: Motion, solver: MotionSolver, compiled: bool | None = None) -> None:
-        self.motion, positions = solver.motion, nominal.positions
+        self.programs, self.motion, positions = solver.programs, solver.motion, nominal.positions
         self.course = Course.of(nominal.mechanism, positions)
         self.known = Known(solver.nominal.parameters, compiled=compiled)
         step = PathStep(self.motion, self.course, solver.manner.free)
@@ -80,7 +80,7 @@ class TrackedStates:
 
 def tracked_states(nominal: Motion, solver: MotionSolver, compiled: bool | None) -> TrackedStates:
     """What tracks the designs of a mechanism over some positions; what was made lately serves again."""
-    key = (solver.manner, nominal.positions.key, compiled)
+    key = (id(solver.programs), nominal.positions.key, compiled)  # which lives as long as what was made
     return _tracked.get(nominal.mechanism, key, lambda: TrackedStates(nominal, solver, compiled))
 
 

@@ -18,7 +18,9 @@ from linkwright.machine.torque_curve import TorqueCurve
 
 #: A machine whose kinetic energy falls below this share of that at its mean speed stops, and one whose inertia falls
 #: below this share of the largest has none.
-STOPPED = 1e-9
+STOPPED, NO_INERTIA = 1e-8, 1e-9
+#: Widths, as shares of the period, of pieces beside the place of least energy, where a machine almost stops.
+BESIDE = 0.25 * 0.25 ** np.arange(12)
 #: A coefficient of speed fluctuation below this is rounding.
 ROUNDING = 1e-12
 #: How often pieces are halved where the speed that was found is not smooth, and it is found again.
@@ -101,9 +103,8 @@ class SteadyCycle:
         self.work, self.own, self.speed = work, own, speed
         inertia = at_nodes(own, work.edges)
         curves = (work, Curve(work.edges, inertia))
-        self._least, self._lightest = (
-            each.value for each in extremes_of([(curve, "min") for curve in curves])
-        )
+        lowest, lightest = extremes_of([(curve, "min") for curve in curves])
+        self._least, self._slowest_place, self._lightest = lowest.value, lowest.place, lightest.value
         self._first = self._cycles(work.edges, work.values, inertia)
         self._known: dict[float, _Solved] = {}
 
@@ -144,10 +145,16 @@ class SteadyCycle:
         return self._known[flywheel]
 
     def _found(self, flywheel: float) -> _Solved:
-        edges, cycles = self.work.edges, self._first
+        edges, cycles, graded = self.work.edges, self._first, False
         for _ in range(ROUNDS):
             found = cycles.at(np.array([flywheel]))
             energy = self._energy(found, flywheel)
+            if self._stops(energy, found):
+                if graded:
+                    raise LinkwrightError("running.would_stop")
+                edges, graded = self._graded(edges), True
+                cycles = self._at_edges(edges)
+                continue
             curve = Curve(edges, self.speed * found.values)
             if curve.smooth.all():
                 break
@@ -162,12 +169,20 @@ class SteadyCycle:
     def _energy(self, found: Speeds, flywheel: float) -> float:
         """The energy at the period's begin, J."""
         most, unit = float(found.inertia.max()), 0.5 * self.speed * self.speed
-        if not min(float(found.inertia.min()), flywheel + self._lightest) > STOPPED * most:
+        if not min(float(found.inertia.min()), flywheel + self._lightest) > NO_INERTIA * most:
             raise LinkwrightError("running.no_inertia")
-        energy = unit * float(found.energy[0])
-        if energy + self._least <= STOPPED * unit * most:
-            raise LinkwrightError("running.would_stop")
-        return energy
+        return unit * float(found.energy[0])
+
+    def _stops(self, energy: float, found: Speeds) -> bool:
+        """Whether next to nothing is left of the energy somewhere."""
+        most = 0.5 * self.speed * self.speed * float(found.inertia.max())
+        return not energy + self._least > STOPPED * most
+
+    def _graded(self, edges: Floats) -> Floats:
+        """Edges with those of pieces that are the shorter the nearer they are to the place of least energy."""
+        start, end = edges[[0, -1]].tolist()
+        more = self._slowest_place + np.concatenate([[0.0], BESIDE, -BESIDE]) * (end - start)
+        return np.unique(np.concatenate([edges, more[(more > start) & (more < end)]]))
 
     def _at_edges(self, edges: Floats) -> SteadyCycles:
         return self._cycles(edges, at_nodes(self.work, edges), at_nodes(self.own, edges))
