@@ -133,3 +133,28 @@ def test_an_objective_under_any_law_has_its_gradient(law: str, load: str) -> Non
         size = 2e-5 * mechanism.dimension(address)
         difference = (alone(address, 1.0 + 1e-5) - alone(address, 1.0 - 1e-5)) / size
         assert slope == pytest.approx(difference, rel=1e-7)
+
+
+SWINGING = """
+format: 1
+name: crank that swings over an interval
+frame: {points: {O: [0 m, 0 m]}}
+links: {crank: {points: [O, A], length: 0.3 m, mass: 1 kg, inertia: 0.02 kg·m²}}
+driver: {turn: crank, about: O, position: "1.8 rad + 3 rad*sin(2*pi*t/(0.5 s))"}
+cycle: {duration: 0.5 s}
+gravity: [0, -9.81 m/s²]
+loads: {work: {kind: torque, on: crank, ramp: [5 N·m, -9 N·m], phase: {input: [120 deg, 395 deg]}}}
+"""
+
+
+def test_an_input_that_swings_enters_an_interval_of_its_turn_from_both_sides() -> None:
+    """Means of samples, which miss each jump of the torque by one step of 40 000."""
+    machine = lw.loads(SWINGING)
+    sampled = lw.solve_forces(machine, steps=40_000).input_torque
+    table = lw.metrics(lw.solve_forces(machine), ["rms_input_torque", "peak_input_torque"])
+    assert table.value("rms_input_torque") == pytest.approx(float(np.sqrt(np.mean(sampled**2))), rel=1e-4)
+    assert table.value("peak_input_torque") == pytest.approx(float(np.abs(sampled).max()), rel=1e-6)
+    objective = lw.objective(machine, "rms_input_torque", vary=["loads.work.phase.input.1"])
+    beside = [objective(objective.start + k * 1e-3)[0] for k in (-2, -1, 1, 2)]
+    expected = (beside[0] - 8.0 * beside[1] + 8.0 * beside[2] - beside[3]) / 12e-3
+    assert objective(objective.start)[1][0] == pytest.approx(expected, rel=1e-7)

@@ -17,7 +17,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.curves.pieces import HIGH, LOW, Layout, Pieces, Wanted
 from linkwright.curves.polynomials import NODES, best_of, climbed, largest
-from linkwright.cycle.loads import Acting, InPart, OnStrokes
+from linkwright.cycle.loads import Acting, InPart, OnStrokes, WithinInput
 from linkwright.cycle.machine import VALID, Machine, Swing
 from linkwright.cycle.summary import STROKES, TRUE_SPEED, Summary, one, output_of, signal_of
 from linkwright.engine.trace import Scalar, Trace, absolute, sin
@@ -244,6 +244,7 @@ class Solved:
         self.reversals = [found[each] for each in cycle.turning if each in found]
         self.reached: list[tuple[Events, InPart, int]] = []
         self.inputs: list[AtInput | Events] = []
+        self.reached_inputs: dict[int, str] = {}
         self.repeated: list[Repeated] = []
         self.lacking = np.zeros(self.count, dtype=np.bool_)
         self.acting = [self._acting(name) for name in self.machine.phases]
@@ -344,7 +345,7 @@ class Solved:
             (found,) = self._events(formula, self.base, {REACH: np.nan_to_num(part.reach(which))})
             self.reached.append((found, part, which))
 
-    def _between_inputs(self, name: str, phase: InputPhase) -> OnStrokes:
+    def _between_inputs(self, name: str, phase: InputPhase) -> Acting:
         """Between two values of the input."""
         course, load = self.machine.course, self.machine.mechanism.loads[name]
         ends = [
@@ -352,19 +353,17 @@ class Solved:
             for k, x in enumerate((phase.start, phase.end))
         ]
         self.inputs += ends
+        if not course.turns:
+            values = self._dimension(name, phase, 0), self._dimension(name, phase, 1)
+            return WithinInput(load, self.span, values, MotionSignals(self.machine.nominal).heading, [*ends])
         grows = bool((self.speed > 0.0).all())
         start, finish = ends
-        backwards = (
-            (not grows and phase.end > phase.start)
-            if course.first.law.rotary
-            else grows != (phase.end > phase.start)
-        )
+        backwards = not grows and phase.end > phase.start
         if backwards:
             start, finish = finish, start
         gap = np.abs(self._dimension(name, phase, 1) - self._dimension(name, phase, 0))
-        fits = gap <= 2.0 * pi + NEAR if course.first.law.rotary else gap < np.inf
-        strokes, by_time = between(start, finish, self.span), bool(course.turns)
-        return OnStrokes(load, strokes, by_time=by_time, backwards=backwards, fits=fits)
+        fits, strokes = gap <= 2.0 * pi + NEAR, between(start, finish, self.span)
+        return OnStrokes(load, strokes, by_time=True, backwards=backwards, fits=fits)
 
     def _dimension(self, name: str, phase: InputPhase, which: int) -> Floats:
         """The value of the input at which a phase begins or ends, (designs,)."""
@@ -388,6 +387,7 @@ class Solved:
 
         formula = self.machine.formula(("input", every), dict, beyond)
         (found,) = self._events(formula, self.base, {REACH: x})
+        self.reached_inputs[id(found)] = address
         return found
 
     @cached_property

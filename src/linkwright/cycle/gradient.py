@@ -16,6 +16,7 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.curves.pieces import HIGH, LOW
 from linkwright.curves.polynomials import NODES, WEIGHTS, weights_at
 from linkwright.cycle.cycle import REACH, Signal, Solved
+from linkwright.cycle.loads import WithinInput
 from linkwright.events.events import Events
 
 #: Derivatives by the values of signals at the nodes, (POINTS, pieces), and by the widths of the pieces.
@@ -52,9 +53,18 @@ class Backward:
             roots, by_columns = self._through_events(events)
             if REACH in by_columns:
                 part.pull_reach(which, events.design[roots], by_columns[REACH])
+        for acting in self.solved.acting:
+            if isinstance(acting, WithinInput):
+                for which, bar in enumerate(acting.by_ends):
+                    address = f"loads.{acting.name}.phase.input.{which}"
+                    if address in self.found:
+                        self.found[address] += bar
         for inputs in self.solved.inputs:
             if isinstance(inputs, Events):
-                self._through_events(inputs)
+                roots, by_columns = self._through_events(inputs)
+                address = self.solved.reached_inputs[id(inputs)]
+                if REACH in by_columns and address in self.found:
+                    np.add.at(self.found[address], inputs.design[roots], by_columns[REACH])
             else:
                 self._gather(*inputs.pull(self.solved.machine.course.first.name))
         for repeated in self.solved.repeated:
@@ -83,6 +93,9 @@ class Backward:
             each.bar[:] = 0.0
         for limits in every:
             limits.bar[:] = 0.0
+        for acting in solved.acting:
+            if isinstance(acting, WithinInput):
+                acting.by_ends[:] = 0.0
         self.found = {name: np.zeros(self.solved.count) for name in self.solved.designs}
 
     def _gather(self, design: Indices, by_columns: Mapping[str, Floats]) -> None:

@@ -22,6 +22,7 @@ from linkwright.events.strokes import Ends, Strokes
 from linkwright.kinetostatics.load_site import ACTS
 from linkwright.loads.base import Load
 from linkwright.loads.phases import SwingPhase
+from linkwright.loads.strokes import NEAR, TURN
 
 Columns = dict[str, Floats]
 
@@ -128,6 +129,48 @@ class OnStrokes(Acting):
             np.add.at(events.bar, place, bar)
             if self.span.course.turns:
                 np.add.at(self.span.bar, design, bar * np.round((time - events.time[place]) / period))
+
+
+class WithinInput(Acting):
+    """While an input that follows a law, or goes a part of a turn, is within an interval, angles modulo one turn.
+
+    ``ends``: the values (designs,) of the input at both ends; ``heading``: 1 where it only grows, -1 where it only
+    falls, else 0; ``by_ends`` (2, designs): derivatives by these values, gathered on the way back.
+    """
+
+    def __init__(
+        self, load: Load, span: Span, ends: tuple[Floats, Floats], heading: int, events: list[Ends]
+    ) -> None:
+        super().__init__(load, span)
+        self.start, last = ends
+        gap, self._rotary = last - self.start, span.course.first.law.rotary
+        self.fits = (np.abs(gap) <= TURN + NEAR) | (not self._rotary)
+        through = gap - TURN * np.floor(gap / TURN)
+        around = (gap < 0.0) & (heading > 0) & self._rotary
+        self.length = np.where(around, np.where(through <= 0.0, TURN, through), gap)
+        self.events, self.by_ends = events, np.zeros((2, span.count))
+
+    @property
+    def missing(self) -> Flags:
+        return np.asarray(~self.fits)
+
+    def columns(self, design: Indices, middle: Floats) -> Columns:
+        start, length = self.start[design], self.length[design]
+        course = self.span.course
+        inside = middle
+        if course.closed:
+            inside = middle - np.floor((middle - course.begin) / course.duration) * course.duration
+        gone = course.first.law.coordinate(inside)[0] - np.minimum(start, start + length)
+        laps = TURN * np.floor(gone / TURN) if self._rotary else np.zeros(len(design))
+        acts = (gone >= laps) & (gone - laps < np.abs(length))
+        return self._named(acts, start + laps, np.where(length == 0.0, 1.0, length))
+
+    def pull(self, design: Indices, middle: Floats, by_columns: Mapping[str, Floats]) -> None:
+        acts = self.columns(design, middle)[f"{ACTS}:{self.name}"] > 0.5
+        bars = self._bars(acts, by_columns)
+        if bars is not None:
+            np.add.at(self.by_ends[0], design, bars[0] - bars[1])
+            np.add.at(self.by_ends[1], design, bars[1])
 
 
 class InPart(Acting):
