@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from benchmarks.cases import FOURBAR_OUTPUTS, SIXBAR_OUTPUTS, Floats, Work
-from linkwright.engine.llvm_backend import compile_program
-from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.formula.llvm_backend import compile_program
+from linkwright.formula.numpy_backend import NumpyProgram
 
 DIGITS = 50
 Number = Any

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import linkwright as lw
-from linkwright.engine.program import Program
-from linkwright.engine.trace import Scalar
+from linkwright.formula.program import Program
+from linkwright.formula.trace import Scalar
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.positions import Positions

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from linkwright.engine.threads import cores
+from linkwright.formula.threads import cores
 from linkwright.synthesis.free_curve import search as searching
 from linkwright.synthesis.free_curve.atlas import LEVELS, atlas
 from linkwright.synthesis.free_curve.linkages import Placed

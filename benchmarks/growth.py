@@ -10,14 +10,14 @@ import numpy as np
 
 import linkwright as lw
 from benchmarks.timing import Candidate, Rounds, in_turns
-from linkwright.engine import machine_code
-from linkwright.engine.ir_kernel import kernel
-from linkwright.engine.ir_module import ENTRY
-from linkwright.engine.lines import Lines
-from linkwright.engine.llvm_backend import available
-from linkwright.engine.program import Program
-from linkwright.engine.reductions import Accumulation, Reduction
-from linkwright.engine.summaries import summaries
+from linkwright.formula import machine_code
+from linkwright.formula.ir_kernel import kernel
+from linkwright.formula.ir_module import ENTRY
+from linkwright.formula.lines import Lines
+from linkwright.formula.llvm_backend import available
+from linkwright.formula.program import Program
+from linkwright.formula.reductions import Accumulation, Reduction
+from linkwright.formula.summaries import summaries
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace, trace_motion

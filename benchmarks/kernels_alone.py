@@ -10,10 +10,10 @@ import numpy as np
 from benchmarks import by_c, by_numpy
 from benchmarks.cases import Floats, Work
 from benchmarks.timing import Candidate
-from linkwright.engine.call_block import address_of, aligned
-from linkwright.engine.llvm_backend import CompiledProgram, compile_program
-from linkwright.engine.machine_code import OF_ONE_ADDRESS
-from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.formula.call_block import address_of, aligned
+from linkwright.formula.llvm_backend import CompiledProgram, compile_program
+from linkwright.formula.machine_code import OF_ONE_ADDRESS
+from linkwright.formula.numpy_backend import NumpyProgram
 
 COMPILED, NUMPY_ROUTE, C, HAND = "linkwright, compiled", "linkwright, NumPy route", "C", "NumPy by hand"
 CHECKED = "linkwright, compiled, arguments checked"

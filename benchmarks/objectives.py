@@ -9,7 +9,7 @@ import numpy as np
 import linkwright as lw
 from benchmarks.cases import Floats
 from benchmarks.timing import Candidate
-from linkwright.engine.llvm_backend import available
+from linkwright.formula.llvm_backend import available
 
 OURS, HAND = "lw.objective, value and gradient", "NumPy by hand, complex step"
 ALONE, BOTH = "value alone", "lw.objective, value and gradient of many"

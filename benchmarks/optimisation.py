@@ -21,9 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import linkwright as lw
-from linkwright.optimisation.optimum import hypervolume
-from linkwright.optimisation.problem import problem
-from linkwright.optimisation.task import Judged, Task
+from linkwright.designs.optimise.optimum import hypervolume
+from linkwright.designs.optimise.problem import problem
+from linkwright.designs.optimise.task import Judged, Task
 
 CRUSHER = "gallery:jaw_crusher_sixbar"
 VARY = {

@@ -11,8 +11,8 @@ from benchmarks import by_numpy
 from benchmarks.cases import Work
 from benchmarks.kernels_alone import HAND, C, c_run
 from benchmarks.timing import Candidate
-from linkwright.engine.llvm_backend import available
-from linkwright.study.prepared import Prepared, prepare
+from linkwright.designs.prepared import Prepared, prepare
+from linkwright.formula.llvm_backend import available
 
 COMPILED, NUMPY_ROUTE = "prepare(…).solve, compiled", "prepare(…).solve, NumPy"
 VARIED = ("pitman.length", "rocker.length", "toggle.length", "jaw.length")

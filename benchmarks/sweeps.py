@@ -10,10 +10,10 @@ from benchmarks import by_c, by_numpy
 from benchmarks.cases import Floats, Work, fourbar_designs, fourbar_metrics, sixbar_designs, sixbar_metrics
 from benchmarks.kernels_alone import COMPILED, HAND, C
 from benchmarks.timing import Candidate
-from linkwright.engine.llvm_backend import available
-from linkwright.engine.program import Program
-from linkwright.engine.reductions import Reduction
-from linkwright.engine.summaries import Backend, summaries
+from linkwright.formula.llvm_backend import available
+from linkwright.formula.program import Program
+from linkwright.formula.reductions import Reduction
+from linkwright.formula.summaries import Backend, summaries
 
 TWO, NUMPY_ROUTE = "linkwright, compiled, two threads", "linkwright, NumPy route"
 #: The share of the designs that slow candidates do.

@@ -25,6 +25,25 @@ if TYPE_CHECKING:
     from linkwright.course.grade import grade as grade
     from linkwright.course.variants import Variants as Variants
     from linkwright.course.variants import variants as variants
+    from linkwright.designs.cluster import on_cluster as on_cluster
+    from linkwright.designs.compare import Comparison as Comparison
+    from linkwright.designs.compare import compare as compare
+    from linkwright.designs.designs import Sweep as Sweep
+    from linkwright.designs.designs import sweep as sweep
+    from linkwright.designs.finished_parts import Interrupted as Interrupted
+    from linkwright.designs.finished_parts import kept_in as kept_in
+    from linkwright.designs.objective import Objective as Objective
+    from linkwright.designs.objective import objective as objective
+    from linkwright.designs.objective_terms import PathError as PathError
+    from linkwright.designs.optimise.optimize import optimize as optimize
+    from linkwright.designs.optimise.optimum import OptimizeError as OptimizeError
+    from linkwright.designs.optimise.optimum import Optimum as Optimum
+    from linkwright.designs.prepared import Prepared as Prepared
+    from linkwright.designs.prepared import prepare as prepare
+    from linkwright.designs.sensitivity import Sensitivity as Sensitivity
+    from linkwright.designs.sensitivity import sensitivity as sensitivity
+    from linkwright.designs.study import Study as Study
+    from linkwright.designs.study import study as study
     from linkwright.errors import Finding as Finding
     from linkwright.errors import LinkwrightError as LinkwrightError
     from linkwright.errors import ModelError as ModelError
@@ -69,9 +88,6 @@ if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism as Mechanism
     from linkwright.metrics import MetricsTable as MetricsTable
     from linkwright.metrics import metrics as metrics
-    from linkwright.optimisation.optimize import optimize as optimize
-    from linkwright.optimisation.optimum import OptimizeError as OptimizeError
-    from linkwright.optimisation.optimum import Optimum as Optimum
     from linkwright.page.living import LivingPage as LivingPage
     from linkwright.page.living import living_page as living_page
     from linkwright.pictures.diagram import Diagram as Diagram
@@ -87,22 +103,6 @@ if TYPE_CHECKING:
     from linkwright.structure import Structure as Structure
     from linkwright.structure import StructureError as StructureError
     from linkwright.structure import structure as structure
-    from linkwright.study.cluster import on_cluster as on_cluster
-    from linkwright.study.compare import Comparison as Comparison
-    from linkwright.study.compare import compare as compare
-    from linkwright.study.designs import Sweep as Sweep
-    from linkwright.study.designs import sweep as sweep
-    from linkwright.study.finished_parts import Interrupted as Interrupted
-    from linkwright.study.finished_parts import kept_in as kept_in
-    from linkwright.study.objective import Objective as Objective
-    from linkwright.study.objective import objective as objective
-    from linkwright.study.objective_terms import PathError as PathError
-    from linkwright.study.prepared import Prepared as Prepared
-    from linkwright.study.prepared import prepare as prepare
-    from linkwright.study.sensitivity import Sensitivity as Sensitivity
-    from linkwright.study.sensitivity import sensitivity as sensitivity
-    from linkwright.study.study import Study as Study
-    from linkwright.study.study import study as study
     from linkwright.synthesis.free_curve.generate import free_curve as free_curve
     from linkwright.synthesis.function_generation.generate import function_generation as function_generation
     from linkwright.synthesis.motion_generation.generate import motion_generation as motion_generation
@@ -126,9 +126,9 @@ ATTACHED.update(
         "CamDesign.draw": "linkwright.plot.cams:draw_cam",
         "CamDesign.save_profile": "linkwright.export.dxf.cams:save_profile",
         "CamDesign.steps": "linkwright.cams.report:steps",
-        "Comparison._repr_html_": "linkwright.study.evaluation:shown_in_notebooks",
-        "Comparison.evaluation": "linkwright.study.evaluation:evaluation",
-        "Comparison.text": "linkwright.study.evaluation:text",
+        "Comparison._repr_html_": "linkwright.designs.evaluation:shown_in_notebooks",
+        "Comparison.evaluation": "linkwright.designs.evaluation:evaluation",
+        "Comparison.text": "linkwright.designs.evaluation:text",
         "Forces._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
         "Forces.balance_residual": "linkwright.kinetostatics.link_balance:balance_residual",
         "Forces.columns": "linkwright.kinetostatics.table:force_columns",
@@ -142,12 +142,12 @@ ATTACHED.update(
         "Motion.outcomes": "linkwright.kinematics.reach_sentences:explain",
         "Motion.refusal": "linkwright.kinematics.refusal:refusal",
         "Motion.to_dataframe": "linkwright.kinematics.table:motion_frame",
-        "Optimum.text": "linkwright.optimisation.report:text",
+        "Optimum.text": "linkwright.designs.optimise.report:text",
         "Plotted.plot": "linkwright.plot.diagrams.diagram_by_name:plot",
         "Problem.sketch": "linkwright.plot.sketches.base:sketch",
         "Rack.draw": "linkwright.plot.gears:draw_rack",
         "Rack.save_dxf": "linkwright.export.dxf.gears:save_rack",
-        "Study.text": "linkwright.study.study_text:text",
+        "Study.text": "linkwright.designs.study_text:text",
         "Synthesis.worked": "linkwright.synthesis.steps.solution:worked",
         "Variants.files": "linkwright.course.questions:files_of",
     }

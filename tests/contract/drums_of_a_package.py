@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import sqrt as sqrt_of
 from typing import ClassVar
 
-from linkwright.engine.trace import reciprocal, sqrt
+from linkwright.formula.trace import reciprocal, sqrt
 from linkwright.fields.base import Quantities
 from linkwright.fields.references import LinkName, LinkNames, PointPair
 from linkwright.joints.base import HigherPair

@@ -21,7 +21,7 @@ STAGES = (
         "words",
         "gallery",
         "core",
-        "engine",
+        "formula",
         "pictures",
     ),
     ("curves",),
@@ -38,7 +38,7 @@ STAGES = (
     ("dyads",),
     ("cycle",),
     ("metrics", "machine", "worked"),
-    ("study", "optimisation", "synthesis", "cams", "gears", "parts", "tolerance"),
+    ("designs", "synthesis", "cams", "gears", "parts"),
     ("report", "plot", "export", "page", "validation", "course", "sheets"),
     ("cli", "server", "__main__"),
 )
@@ -60,14 +60,14 @@ def dotted(module: Path) -> str:
     return ".".join(("linkwright", *module.with_suffix("").parts)).removesuffix(".__init__")
 
 
-KNOWN_TO_ENGINE = (
-    "linkwright.engine",
+KNOWN_TO_FORMULAS = (
+    "linkwright.formula",
     "linkwright.errors",
     "linkwright.core.arrays",
     "linkwright.core.dataclass",
     "linkwright.core.spline",
 )
-ENGINE = [module for module in MODULES if package_of(module) == "engine"]
+FORMULA = [module for module in MODULES if package_of(module) == "formula"]
 ANALYSIS = [
     module
     for module in MODULES
@@ -147,10 +147,10 @@ def test_no_files_import_each_other_in_a_circle() -> None:
     assert circle(arrows) == []
 
 
-@pytest.mark.parametrize("module", ENGINE, ids=str)
+@pytest.mark.parametrize("module", FORMULA, ids=str)
 def test_engine_knows_no_mechanism(module: Path) -> None:
     own = [name for _, name in imports_of(module) if name.startswith("linkwright.")]
-    assert all(name.startswith(KNOWN_TO_ENGINE) for name in own), own
+    assert all(name.startswith(KNOWN_TO_FORMULAS) for name in own), own
 
 
 def test_dataclasses_are_those_that_start_at_once() -> None:

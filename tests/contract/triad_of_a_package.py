@@ -2,8 +2,8 @@
 
 #: The module ``trammels``: a plate whose three pins slide along three guides that are known.
 PACKAGE = '''
-from linkwright.engine.trace import sqrt
-from linkwright.engine.vector import Vec
+from linkwright.formula.trace import sqrt
+from linkwright.formula.vector import Vec
 from linkwright.groups.base import Solved
 from linkwright.joints.pose import UNTURNED, Rotor
 from linkwright.kinematics.closure import pair_of

@@ -11,7 +11,7 @@ from tests import store
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.study import study
+from linkwright.designs import study
 
 
 def six() -> lw.Mechanism:

@@ -12,8 +12,8 @@ from tests.refusals import refused
 
 import linkwright as lw
 from linkwright.cli import main
+from linkwright.designs import compare, sensitivity, study, sweep
 from linkwright.errors import RequestError
-from linkwright.study import compare, sensitivity, study, sweep
 
 SIX, FOUR = "gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"
 

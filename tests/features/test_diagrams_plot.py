@@ -258,8 +258,8 @@ def test_a_plot_imports_nothing_that_it_does_not_write() -> None:
     code = (
         "import sys, linkwright as lw; from linkwright.plot import plot;"
         "plot(lw.load('gallery:crank_rocker'), 'sva').svg();"
-        "print(*(set(sys.modules) & {'fontTools.subset', 'matplotlib.pyplot', 'scipy', 'ezdxf', 'linkwright.study',"
-        "'linkwright.parts', 'linkwright.synthesis', 'linkwright.tolerance'}))"
+        "print(*(set(sys.modules) & {'fontTools.subset', 'matplotlib.pyplot', 'scipy', 'ezdxf', 'linkwright.designs',"
+        "'linkwright.parts', 'linkwright.synthesis', 'linkwright.designs.tolerance'}))"
     )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.split() == []

@@ -17,11 +17,11 @@ from tests.refusals import refused
 
 import linkwright as lw
 from linkwright.cli import main
+from linkwright.designs import Comparison, Study, compare, sensitivity, study, sweep
 from linkwright.errors import RequestError
 from linkwright.machine import Balancing, TorqueCurve, balance
 from linkwright.metrics import coupler_curve, metrics
 from linkwright.plot import Diagram
-from linkwright.study import Comparison, Study, compare, sensitivity, study, sweep
 
 Floats = NDArray[np.float64]
 

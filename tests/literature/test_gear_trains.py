@@ -10,8 +10,8 @@ from tests import store
 from tests.refusals import refused
 
 import linkwright as lw
+from linkwright.designs import sensitivity
 from linkwright.mechanism.wheel_sizes import wheel_sizes
-from linkwright.study import sensitivity
 
 RPM = np.pi / 30.0
 ALPHA = np.radians(20.0)

@@ -8,7 +8,7 @@ from tests import store
 
 import linkwright as lw
 from linkwright import parts
-from linkwright.tolerance import Clearance, Tolerance, ToleranceStudy
+from linkwright.designs.tolerance import Clearance, Tolerance, ToleranceStudy
 
 FOURBAR = {"crank.length": 1.0, "coupler.length": 3.5, "rocker.length": 2.5, "frame.O2.x": 4.0}
 SLIDER = """

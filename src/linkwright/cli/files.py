@@ -13,7 +13,7 @@ from linkwright.words.characters import cell_text
 
 if TYPE_CHECKING:
     from linkwright.core.attached import Plotted
-    from linkwright.study.compare import Comparison
+    from linkwright.designs.compare import Comparison
 
 
 PICTURES = (".svg", ".pdf", ".png")

@@ -19,7 +19,7 @@ def kept(
     state: str | None, name: str, asked: Iterable[object], session: Session
 ) -> Iterator[Progress | None]:
     """``kept_in`` of a command, with a bar; an interruption names the file that is left."""
-    from linkwright.study.finished_parts import Interrupted, kept_in
+    from linkwright.designs.finished_parts import Interrupted, kept_in
 
     try:
         with (

@@ -28,14 +28,14 @@ from linkwright.core.expression_tree import (
     functions_of,
     scalar_functions,
 )
-from linkwright.engine import trace
-from linkwright.engine.late_import import numpy as np
-from linkwright.engine.recently_made import Recent
 from linkwright.errors import QuantityError
+from linkwright.formula import trace
+from linkwright.formula.late_import import numpy as np
+from linkwright.formula.recently_made import Recent
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.engine.numpy_backend import NumpyProgram
+    from linkwright.formula.numpy_backend import NumpyProgram
 
 MAX_LENGTH = 1000
 #: Names of the language itself.
@@ -98,7 +98,7 @@ class Expression:
     def along(self, values: Mapping[str, Any], name: str, order: int) -> list[trace.Scalar]:
         """Value and derivatives, see ``derivatives``, over numbers and traced values of the free names, of which that
         of ``name`` is traced; NaN where a number in the text is divided by zero."""
-        from linkwright.engine.tangent import slope
+        from linkwright.formula.tangent import slope
 
         found: list[trace.Scalar] = [math.nan] * (order + 1)
         with suppress(ZeroDivisionError):
@@ -125,8 +125,8 @@ class Expression:
 
     def _traced(self, name: str, order: int) -> NumpyProgram:
         """A program of the free names whose outputs are the derivatives."""
-        from linkwright.engine.numpy_backend import NumpyProgram
-        from linkwright.engine.program import Program
+        from linkwright.formula.numpy_backend import NumpyProgram
+        from linkwright.formula.program import Program
 
         lines = trace.Trace()
         names = {each: lines.position(each) for each in {*self.names, name}}

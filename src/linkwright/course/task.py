@@ -11,12 +11,12 @@ from linkwright.core.expressions import amount
 from linkwright.core.outputs import Output
 from linkwright.course.calculation_chain import Line
 from linkwright.course.mistakes import Sheet
+from linkwright.designs.ranges import dimension_of
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
 from linkwright.files.write import flow
 from linkwright.kinematics.names import result_meant
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.study.ranges import dimension_of
 from linkwright.units import DIMENSIONS, not_a_number
 from linkwright.words.sentence import Sentence
 

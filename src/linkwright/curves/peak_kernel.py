@@ -13,10 +13,10 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from linkwright.core.arrays import Floats
-from linkwright.engine.call_block import address_of
-from linkwright.engine.kernel import Kernels, Reals, Vector, higher, load, lower, root, spread, store
-from linkwright.engine.kernel_writer import LANES
-from linkwright.engine.machine_code import available
+from linkwright.formula.call_block import address_of
+from linkwright.formula.kernel import Kernels, Reals, Vector, higher, load, lower, root, spread, store
+from linkwright.formula.kernel_writer import LANES
+from linkwright.formula.machine_code import available
 
 POINTS, HALF, HALF_LOOKS = 16, 8, 12
 LOOKED = POINTS * HALF

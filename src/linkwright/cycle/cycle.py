@@ -20,13 +20,13 @@ from linkwright.curves.polynomials import NODES, best_of, climbed, largest
 from linkwright.cycle.loads import Acting, InPart, OnStrokes, WithinInput
 from linkwright.cycle.machine import VALID, Machine, Swing
 from linkwright.cycle.summary import STROKES, TRUE_SPEED, Summary, one, output_of, signal_of
-from linkwright.engine.trace import Scalar, Trace, absolute, sin
 from linkwright.events.events import AT, Events, events
 from linkwright.events.formula import NODE, ROW, Formula
 from linkwright.events.inputs import AtInput
 from linkwright.events.limits import Limits
 from linkwright.events.stretches import Cuts, Span, Stretches
 from linkwright.events.strokes import Repeated, between, of_limits
+from linkwright.formula.trace import Scalar, Trace, absolute, sin
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
 from linkwright.loads.phases import InputPhase, MovingPhase, SwingPhase

@@ -13,11 +13,11 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import Output
 from linkwright.curves.pieces import HIGH, LOW
 from linkwright.cycle.machine import Machine
-from linkwright.engine.trace import Scalar
 from linkwright.events.events import AT, events
 from linkwright.events.formula import NODE, ROW, Formula
 from linkwright.events.limits import Limits
 from linkwright.events.stretches import Span, Stretches
+from linkwright.formula.trace import Scalar
 from linkwright.kinetostatics.load_site import (
     DRIFT,
     LAP,

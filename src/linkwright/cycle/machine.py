@@ -13,11 +13,6 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.curves.pieces import HIGH, LOW
-from linkwright.engine.program import Program
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.replay import inlined
-from linkwright.engine.trace import Mask, Scalar, Trace, Value, absolute, cos, nearest_turn, select, sin
-from linkwright.engine.trace import angle as angle_of
 from linkwright.events.course import Course
 from linkwright.events.following import (
     ITERATIONS,
@@ -29,6 +24,11 @@ from linkwright.events.following import (
 from linkwright.events.formula import NODE, Formula, Known
 from linkwright.events.path_step import PathStep
 from linkwright.events.path_tracker import PathTracker
+from linkwright.formula.program import Program
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.replay import inlined
+from linkwright.formula.trace import Mask, Scalar, Trace, Value, absolute, cos, nearest_turn, select, sin
+from linkwright.formula.trace import angle as angle_of
 from linkwright.kinematics.groups import iterated
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant, program_names

@@ -9,8 +9,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.reductions import Reduction
 from linkwright.errors import RequestError
+from linkwright.formula.reductions import Reduction
 from linkwright.kinetostatics.named_outputs import Quantity
 
 #: Kinds of summaries, and the engine's reductions they need.

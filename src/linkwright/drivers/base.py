@@ -9,13 +9,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.late_import import numpy as np
+from linkwright.formula.late_import import numpy as np
 from linkwright.registry import Registry
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Floats
-    from linkwright.engine.trace import Scalar
     from linkwright.fields.base import Field
+    from linkwright.formula.trace import Scalar
 
     Array = Floats
 

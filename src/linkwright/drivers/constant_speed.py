@@ -13,7 +13,7 @@ from linkwright.fields.base import Field, Quantity
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array
-    from linkwright.engine.trace import Scalar
+    from linkwright.formula.trace import Scalar
 
 
 @LAWS.register("speed")

@@ -14,7 +14,7 @@ from linkwright.fields.base import Field, Formula
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags
     from linkwright.drivers.base import Array
-    from linkwright.engine.trace import Scalar
+    from linkwright.formula.trace import Scalar
 
 #: Places between which an expression goes over to another formula once at most.
 LOOKS = 721

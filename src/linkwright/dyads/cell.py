@@ -12,11 +12,11 @@ from collections.abc import Mapping
 from functools import lru_cache
 
 from linkwright.core.cached_property import cached_property
-from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.program import Program
-from linkwright.engine.trace import Scalar, Trace, Value
-from linkwright.engine.vector import ZERO, Vec
 from linkwright.files.model_file import loads
+from linkwright.formula.numpy_backend import NumpyProgram
+from linkwright.formula.program import Program
+from linkwright.formula.trace import Scalar, Trace, Value
+from linkwright.formula.vector import ZERO, Vec
 from linkwright.groups.base import Dyad
 from linkwright.joints.pose import FRAME_POSE, FRAME_STATE, UNTURNED, Pose, Rotor, State
 from linkwright.kinematics.angles import Angles

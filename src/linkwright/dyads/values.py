@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.vector import Vec
 from linkwright.errors import RequestError
+from linkwright.formula.vector import Vec
 from linkwright.joints import pose
 from linkwright.joints.pose import Pose, Rotor
 

@@ -12,8 +12,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import driven, turned
 from linkwright.drivers.base import Driver
-from linkwright.engine.trace import Scalar, Trace, cos, sin
 from linkwright.errors import LinkwrightError
+from linkwright.formula.trace import Scalar, Trace, cos, sin
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.positions import Positions
 from linkwright.mechanism.mechanism import Mechanism

@@ -13,8 +13,8 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.curves.pieces import HIGH, LOW, Columns
-from linkwright.engine.trace import Mask, Scalar, Trace, absolute, angle, cos, sin
 from linkwright.events.formula import PLACE, ROW
+from linkwright.formula.trace import Mask, Scalar, Trace, absolute, angle, cos, sin
 from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.groups import CONVERGED, state_name
 from linkwright.kinematics.trace import MotionTrace

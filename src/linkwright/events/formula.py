@@ -17,17 +17,17 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.curves.pieces import LOW, Columns
-from linkwright.engine.adjoint import Adjoints
-from linkwright.engine.derivative import forward
-from linkwright.engine.machine_code import available
-from linkwright.engine.numpy_backend import numpy_program
-from linkwright.engine.program import Program
-from linkwright.engine.replay import Replay, depending
-from linkwright.engine.scalar_backend import ScalarProgram
-from linkwright.engine.table import Tables
+from linkwright.formula.adjoint import Adjoints
+from linkwright.formula.derivative import forward
+from linkwright.formula.machine_code import available
+from linkwright.formula.numpy_backend import numpy_program
+from linkwright.formula.program import Program
+from linkwright.formula.replay import Replay, depending
+from linkwright.formula.scalar_backend import ScalarProgram
+from linkwright.formula.table import Tables
 
 if TYPE_CHECKING:
-    from linkwright.engine.llvm_backend import CompiledProgram
+    from linkwright.formula.llvm_backend import CompiledProgram
 
 #: Place in a piece, 0 to 1; the number of its design.
 NODE, ROW = "node", "row"
@@ -130,7 +130,7 @@ class Formula:
 
     @cached_property
     def _code(self) -> CompiledProgram | None:
-        from linkwright.engine.llvm_backend import compile_program  # slow to load, for many places alone
+        from linkwright.formula.llvm_backend import compile_program  # slow to load, for many places alone
 
         return compile_program(self.program)
 

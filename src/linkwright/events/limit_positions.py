@@ -15,7 +15,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.search import first_largest
-from linkwright.engine.recently_made import Recent
 from linkwright.errors import RequestError
 from linkwright.events.course import Course
 from linkwright.events.events import events
@@ -29,6 +28,7 @@ from linkwright.events.solved_again import (
     solved_at,
 )
 from linkwright.events.stretches import Span, Stretches
+from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import output_of, program_names

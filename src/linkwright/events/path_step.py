@@ -13,12 +13,12 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.curves.pieces import LOW, Columns
-from linkwright.engine.program import Program
-from linkwright.engine.replay import inlined
-from linkwright.engine.trace import Scalar, Trace, absolute, maximum, select
 from linkwright.events.course import Course
 from linkwright.events.following import ChainCoordinate, chain_coordinates
 from linkwright.events.formula import Formula, Known
+from linkwright.formula.program import Program
+from linkwright.formula.replay import inlined
+from linkwright.formula.trace import Scalar, Trace, absolute, maximum, select
 from linkwright.kinematics.groups import CONVERGED
 from linkwright.kinematics.step_rule import LARGEST, doubt
 from linkwright.kinematics.trace import MotionTrace

@@ -9,15 +9,15 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.curves.pieces import HIGH, LOW
-from linkwright.engine.program import Program
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.threads import spread_over
-from linkwright.engine.trace import Mask, Trace
 from linkwright.events.course import Course
 from linkwright.events.following import path_states, stays_on_path
 from linkwright.events.formula import ROW, Formula, Known
 from linkwright.events.path_step import PathStep
 from linkwright.events.path_tracker import PathTracker
+from linkwright.formula.program import Program
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.threads import spread_over
+from linkwright.formula.trace import Mask, Trace
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism

@@ -18,15 +18,15 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require, whole
 from linkwright.core.progress import Progress, current_progress, reporting
+from linkwright.designs.cluster import connected, current, in_turn
+from linkwright.designs.designs import sweep
+from linkwright.designs.ranges import Range
+from linkwright.designs.varied_dimensions import varied_ranges
 from linkwright.errors import RequestError
 from linkwright.export.base import package
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import METRICS
 from linkwright.metrics.wanted import wanted
-from linkwright.study.cluster import connected, current, in_turn
-from linkwright.study.designs import sweep
-from linkwright.study.ranges import Range
-from linkwright.study.varied_dimensions import varied_ranges
 from linkwright.whole_files import make_folder, write_whole
 
 Sampling = Literal["grid", "sobol"]

@@ -14,8 +14,8 @@ from dataclasses import field
 from typing import TYPE_CHECKING, Protocol
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Scalar
-from linkwright.engine.vector import Vec
+from linkwright.formula.trace import Scalar
+from linkwright.formula.vector import Vec
 from linkwright.joints.pose import Pose, Rotor
 from linkwright.registry import Registry
 from linkwright.units import number

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from linkwright.engine.trace import Scalar, reciprocal
+from linkwright.formula.trace import Scalar, reciprocal
 from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.words.sentence import Sentence
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import sqrt as root_of
 
-from linkwright.engine.trace import Scalar, reciprocal, sqrt
+from linkwright.formula.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Solved, shown_length
 from linkwright.joints.pose import Rotor
 from linkwright.words.sentence import Sentence

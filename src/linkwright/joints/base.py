@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, PairType
-from linkwright.engine.trace import Scalar
-from linkwright.engine.vector import Vec
 from linkwright.errors import LinkwrightError, Severity
 from linkwright.fields.base import Field, Schema
+from linkwright.formula.trace import Scalar
+from linkwright.formula.vector import Vec
 from linkwright.joints.ends import Ends, Hung
 from linkwright.registry import Registry
 from linkwright.words import has
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
     from linkwright.elements.model import Drawing, Model, ModelLink, Sizes
     from linkwright.elements.topology import Group, TreeJoint
-    from linkwright.engine.trace import Mask, Scalar
-    from linkwright.engine.vector import Vec
     from linkwright.fields.nodes import Mapping as MappingNode
     from linkwright.fields.nodes import Node
     from linkwright.fields.reading import Place as Where
     from linkwright.fields.reading import Reader
+    from linkwright.formula.trace import Mask, Scalar
+    from linkwright.formula.vector import Vec
 
 #: The size of a joint's force, from that force.
 Size = Callable[[Scalar], Scalar]

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Drawing, Model, Sizes
-from linkwright.engine.trace import Scalar, acos, asin, select, sqrt
-from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.fields.references import LinkName, PointName
+from linkwright.formula.trace import Scalar, acos, asin, select, sqrt
+from linkwright.formula.vector import Vec
 from linkwright.joints.base import (
     JOINTS,
     Bends,

@@ -8,8 +8,8 @@ from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Sizes
-from linkwright.engine.trace import Scalar
 from linkwright.fields.base import Field, Quantity
+from linkwright.formula.trace import Scalar
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.belt import BeltPair
 from linkwright.joints.toothed import Numbers

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Sizes
-from linkwright.engine.trace import Scalar, Value, angle
-from linkwright.engine.vector import Vec
+from linkwright.formula.trace import Scalar, Value, angle
+from linkwright.formula.vector import Vec
 from linkwright.joints.pose import Pose, State
 
 Poses = Mapping[str, Pose]

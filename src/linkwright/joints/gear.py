@@ -9,8 +9,8 @@ from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Model, Sizes
-from linkwright.engine.trace import Mask, Scalar, absolute, cos, maximum, reciprocal, select, sqrt, stop, tan
 from linkwright.fields.base import Field, Quantity
+from linkwright.formula.trace import Mask, Scalar, absolute, cos, maximum, reciprocal, select, sqrt, stop, tan
 from linkwright.joints.base import JOINTS, Entry, Joint, Size
 from linkwright.joints.ends import Ends
 from linkwright.joints.rolling import RollingPair

@@ -7,8 +7,8 @@ from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Drawing, Model
-from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
+from linkwright.formula.trace import Scalar
 from linkwright.joints.base import Joint
 from linkwright.joints.ends import Ends
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Scalar
-from linkwright.engine.vector import ZERO, Vec
+from linkwright.formula.trace import Scalar
+from linkwright.formula.vector import ZERO, Vec
 
 
 @dataclass(frozen=True)

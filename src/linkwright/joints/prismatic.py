@@ -8,10 +8,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Scalar, reciprocal, sqrt
-from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
+from linkwright.formula.trace import Scalar, reciprocal, sqrt
+from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower import SlidingJoint

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Drawing, Guide, Model, Sizes
-from linkwright.engine.trace import Mask, Scalar, absolute, tan
-from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
+from linkwright.formula.trace import Mask, Scalar, absolute, tan
+from linkwright.formula.vector import Vec
 from linkwright.joints.base import (
     JOINTS,
     Entry,

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Scalar
-from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity
+from linkwright.formula.trace import Scalar
+from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower import TurningJoint

@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Drawing, Model, Sizes
-from linkwright.engine.trace import Scalar, reciprocal, sqrt
-from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantities, Quantity, pair_schema
 from linkwright.fields.references import LinkName, LinkNames
+from linkwright.formula.trace import Scalar, reciprocal, sqrt
+from linkwright.formula.vector import Vec
 from linkwright.joints.base import Entry, HigherPair, Joint
 from linkwright.joints.ends import Ends
 from linkwright.units import number

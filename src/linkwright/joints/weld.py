@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Sizes
-from linkwright.engine.trace import Scalar
-from linkwright.engine.vector import Vec
 from linkwright.fields.base import Field, Quantity, Text
 from linkwright.fields.references import LinkNames
+from linkwright.formula.trace import Scalar
+from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower import RigidJoint

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from linkwright.core.inputs import Input
 from linkwright.elements.topology import Group, TreeJoint
-from linkwright.engine.trace import Scalar, angle, nearest_turn
+from linkwright.formula.trace import Scalar, angle, nearest_turn
 from linkwright.joints.pose import Pose
 from linkwright.kinematics.dimensions import Dimensions
 

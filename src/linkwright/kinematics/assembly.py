@@ -10,11 +10,11 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input, mode_inputs, turned
 from linkwright.core.outputs import row_names
 from linkwright.elements.topology import Group
-from linkwright.engine.program import Program
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.scalar_backend import ScalarProgram
-from linkwright.engine.trace import Scalar
 from linkwright.errors import LinkwrightError
+from linkwright.formula.program import Program
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.scalar_backend import ScalarProgram
+from linkwright.formula.trace import Scalar
 from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.groups import counted, dyad_shape, iterated, state_name
 from linkwright.kinematics.trace import MotionTrace, trace_motion

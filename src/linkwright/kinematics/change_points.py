@@ -21,8 +21,8 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.outputs import row_name
 from linkwright.core.search import edge, ends, lowest
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.trace import Scalar, minimum
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.trace import Scalar, minimum
 from linkwright.kinematics.followed_way import Followed
 from linkwright.kinematics.groups import upstream
 from linkwright.kinematics.passage import Kind, Passage

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from linkwright.elements.topology import Connection, Group, TreeJoint
-from linkwright.engine.trace import Scalar
+from linkwright.formula.trace import Scalar
 from linkwright.joints.ends import Angles
 from linkwright.joints.pose import Pose, Rotor
 from linkwright.kinematics.dimensions import Dimensions

@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright.core.given import whole
 from linkwright.drivers.base import Driver, Law
-from linkwright.engine.recently_made import Recent
+from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.positions import CycleError, Positions, at_times, rotary
 from linkwright.kinematics.whole_turns import MOST, whole_turns
 from linkwright.mechanism.mechanism import Mechanism

@@ -10,9 +10,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.drivers.base import Driver
 from linkwright.elements.topology import TreeJoint
-from linkwright.engine.symbols import Symbols
-from linkwright.engine.trace import Scalar, Trace, cos, sin, sqrt
-from linkwright.engine.vector import Vec
+from linkwright.formula.symbols import Symbols
+from linkwright.formula.trace import Scalar, Trace, cos, sin, sqrt
+from linkwright.formula.vector import Vec
 from linkwright.kinematics.equation import ChainPair
 from linkwright.mechanism.link import Link, centre, local_points
 from linkwright.mechanism.mechanism import Mechanism

@@ -8,10 +8,10 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.inputs import Input, Kind
-from linkwright.engine.program import Program
-from linkwright.engine.scalar_backend import ScalarProgram
-from linkwright.engine.tangent import Slopes
-from linkwright.engine.trace import Scalar, Value
+from linkwright.formula.program import Program
+from linkwright.formula.scalar_backend import ScalarProgram
+from linkwright.formula.tangent import Slopes
+from linkwright.formula.trace import Scalar, Value
 from linkwright.kinematics.followed_formula import FollowedGroups, state_places
 from linkwright.kinematics.groups import counted
 from linkwright.kinematics.trace import MotionTrace, trace_motion

@@ -17,12 +17,12 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import driven
 from linkwright.elements.topology import Group, TreeJoint
-from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.program import Program
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.scalar_backend import ScalarProgram
-from linkwright.engine.states import inputs_as_fields
-from linkwright.engine.trace import Mask, Scalar
+from linkwright.formula.numpy_backend import NumpyProgram
+from linkwright.formula.program import Program
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.scalar_backend import ScalarProgram
+from linkwright.formula.states import inputs_as_fields
+from linkwright.formula.trace import Mask, Scalar
 from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.groups import counted, in_one_step, iterated, state_name, upstream
 from linkwright.kinematics.programs import MotionPrograms

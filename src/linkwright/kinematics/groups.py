@@ -8,10 +8,10 @@ from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Group, TreeJoint
-from linkwright.engine.linear import Matrix, determinant, inverse, product
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.trace import Mask, Scalar, cos, sin, stop
-from linkwright.engine.vector import Vec
+from linkwright.formula.linear import Matrix, determinant, inverse, product
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.trace import Mask, Scalar, cos, sin, stop
+from linkwright.formula.vector import Vec
 from linkwright.groups.base import DYADS, Chain, Dyad, Solved, WholeGroup
 from linkwright.joints.base import JOINTS
 from linkwright.joints.pose import UNTURNED, Pose, Rotor

@@ -15,12 +15,12 @@ from linkwright.core.arrays import Floats
 from linkwright.core.expression_tree import denominators, evaluate
 from linkwright.core.expressions import ON_VALUES
 from linkwright.core.outputs import NAMED, Output
-from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.program import Program
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.replay import inlined
-from linkwright.engine.tangent import slope
-from linkwright.engine.trace import Scalar, Trace, absolute, minimum
+from linkwright.formula.numpy_backend import NumpyProgram
+from linkwright.formula.program import Program
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.replay import inlined
+from linkwright.formula.tangent import slope
+from linkwright.formula.trace import Scalar, Trace, absolute, minimum
 from linkwright.kinematics.cycle_angles import CycleAngles
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant

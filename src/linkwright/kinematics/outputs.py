@@ -7,8 +7,8 @@ from functools import cached_property
 from typing import Any
 
 from linkwright.core.outputs import KINDS, POINT, SLIDE, Output, row_name, row_names
-from linkwright.engine.trace import Scalar
-from linkwright.engine.vector import ZERO, Vec
+from linkwright.formula.trace import Scalar
+from linkwright.formula.vector import ZERO, Vec
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.kinematics.trace import MotionTrace
 

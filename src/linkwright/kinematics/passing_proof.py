@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from linkwright.core.inputs import mode_inputs, turned
 from linkwright.core.outputs import Output, kind_of, row_name
-from linkwright.engine.program import Program
-from linkwright.engine.scalar_backend import ScalarProgram
+from linkwright.formula.program import Program
+from linkwright.formula.scalar_backend import ScalarProgram
 from linkwright.kinematics.assembly import assemble
 from linkwright.kinematics.names import program_names
 from linkwright.kinematics.outputs import MotionOutputs

@@ -9,7 +9,7 @@ from typing import Any
 
 from linkwright.core.expressions import Expression
 from linkwright.drivers.base import Driver
-from linkwright.engine.recently_made import Recent
+from linkwright.formula.recently_made import Recent
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
 

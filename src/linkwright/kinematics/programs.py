@@ -8,10 +8,10 @@ from collections.abc import Callable, Mapping
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.program import Program
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.scalar_backend import ScalarProgram
+from linkwright.formula.numpy_backend import NumpyProgram
+from linkwright.formula.program import Program
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.scalar_backend import ScalarProgram
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.program_shape import Form, shape
 from linkwright.kinematics.structure_with_rank import analysed

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from linkwright.elements.topology import TreeJoint
-from linkwright.engine.linear import product
-from linkwright.engine.trace import Scalar
+from linkwright.formula.linear import product
+from linkwright.formula.trace import Scalar
 from linkwright.joints.pose import Pose, State
 from linkwright.kinematics.closure import pair_of
 from linkwright.kinematics.dimensions import Dimensions, DriverInput

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from linkwright.drivers.base import Driver
-from linkwright.engine.late_import import numpy as np
-from linkwright.engine.trace import Scalar, absolute, select
 from linkwright.errors import LinkwrightError
+from linkwright.formula.late_import import numpy as np
+from linkwright.formula.trace import Scalar, absolute, select
 from linkwright.mechanism.mechanism import Mechanism
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
-from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.recently_made import Recent
+from linkwright.formula.numpy_backend import NumpyProgram
+from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.assembly import Assembly, assemble
 from linkwright.kinematics.continuation import Follower
 from linkwright.kinematics.design import Design

@@ -13,8 +13,8 @@ from dataclasses import field
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.elements.topology import TreeJoint
-from linkwright.engine.trace import Mask, Scalar, absolute, maximum, minimum, reciprocal, select
-from linkwright.engine.vector import Vec
+from linkwright.formula.trace import Mask, Scalar, absolute, maximum, minimum, reciprocal, select
+from linkwright.formula.vector import Vec
 from linkwright.joints.pose import Rotor
 from linkwright.kinematics.closure import Coordinate
 from linkwright.kinematics.groups import Placed, carried, moved, state_name

@@ -8,8 +8,8 @@ from dataclasses import field
 from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.elements.topology import Group
-from linkwright.engine.trace import Mask, Scalar, Trace, select
-from linkwright.engine.vector import Vec
+from linkwright.formula.trace import Mask, Scalar, Trace, select
+from linkwright.formula.vector import Vec
 from linkwright.joints.pose import FRAME_POSE, FRAME_STATE, Pose, State
 from linkwright.kinematics.angles import Angles
 from linkwright.kinematics.dimensions import Dimensions, DriverInput, driver_input

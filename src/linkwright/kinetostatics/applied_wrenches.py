@@ -6,9 +6,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.program import Program
-from linkwright.engine.trace import Scalar
+from linkwright.formula.numpy_backend import NumpyProgram
+from linkwright.formula.program import Program
+from linkwright.formula.trace import Scalar
 from linkwright.kinetostatics.forces import Forces
 
 

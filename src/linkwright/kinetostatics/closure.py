@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from linkwright.elements.topology import Group, TreeJoint
-from linkwright.engine.linear import determinant
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.trace import Scalar, absolute, angle, sqrt
-from linkwright.engine.vector import Vec
+from linkwright.formula.linear import determinant
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.trace import Scalar, absolute, angle, sqrt
+from linkwright.formula.vector import Vec
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinetostatics.load_site import guide_state
 from linkwright.structure.analysis import Structure

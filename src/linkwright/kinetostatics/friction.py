@@ -10,8 +10,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import RelativeAngle, row_name
-from linkwright.engine.trace import Scalar
-from linkwright.engine.vector import Vec
+from linkwright.formula.trace import Scalar
+from linkwright.formula.vector import Vec
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace

@@ -14,10 +14,10 @@ from typing import Protocol
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection
-from linkwright.engine.linear import product, solution
-from linkwright.engine.tangent import slope
-from linkwright.engine.trace import Mask, Scalar, Value, absolute, maximum, select, sqrt, stop
-from linkwright.engine.vector import ZERO, Vec
+from linkwright.formula.linear import product, solution
+from linkwright.formula.tangent import slope
+from linkwright.formula.trace import Mask, Scalar, Value, absolute, maximum, select, sqrt, stop
+from linkwright.formula.vector import ZERO, Vec
 from linkwright.kinetostatics.friction import FrictionTerm, FrictionTerms, traced_rate
 from linkwright.kinetostatics.load_site import guide_state
 from linkwright.kinetostatics.trace import ForceTrace, Size

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from linkwright.core.outputs import Output, row_name
-from linkwright.engine.trace import Mask, Scalar, angle, cos, select, sign, sin, sqrt
-from linkwright.engine.vector import Vec
+from linkwright.formula.trace import Mask, Scalar, angle, cos, select, sign, sin, sqrt
+from linkwright.formula.vector import Vec
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 
 from linkwright.core.outputs import Output, row_name, row_names
-from linkwright.engine.trace import Scalar
-from linkwright.engine.vector import ZERO, Vec
+from linkwright.formula.trace import Scalar
+from linkwright.formula.vector import ZERO, Vec
 from linkwright.kinetostatics.trace import ForceTrace
 from linkwright.loads.site import Wrench
 

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, NoReturn
 
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import SLIDE, Output, row_name, row_names
-from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.program import Program
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.repeated_program import InTurn
-from linkwright.engine.trace import Scalar
+from linkwright.formula.numpy_backend import NumpyProgram
+from linkwright.formula.program import Program
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.repeated_program import InTurn
+from linkwright.formula.trace import Scalar
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinetostatics.friction import FrictionTerms
 from linkwright.kinetostatics.load_site import of_cycle

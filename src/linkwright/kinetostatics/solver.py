@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
-from linkwright.engine.numpy_backend import NumpyProgram
+from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.friction import FrictionTerms

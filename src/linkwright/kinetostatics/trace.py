@@ -14,9 +14,9 @@ from functools import partial
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, TreeJoint
-from linkwright.engine.linear import product, transposed
-from linkwright.engine.trace import Scalar, absolute
-from linkwright.engine.vector import ZERO, Vec
+from linkwright.formula.linear import product, transposed
+from linkwright.formula.trace import Scalar, absolute
+from linkwright.formula.vector import ZERO, Vec
 from linkwright.joints.pose import Pose
 from linkwright.kinematics.closure import pair_of
 from linkwright.kinematics.equation import Equation

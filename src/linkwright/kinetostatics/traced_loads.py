@@ -10,9 +10,9 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, row_name
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.table import Table
-from linkwright.engine.trace import Scalar
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.table import Table
+from linkwright.formula.trace import Scalar
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.load_site import (

@@ -10,11 +10,11 @@ from numpy.polynomial import chebyshev
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.curves.polynomials import NODES, PLACES, POINTS, SERIES
-from linkwright.engine.recently_made import Recent
+from linkwright.formula.recently_made import Recent
 from linkwright.laws.traced import horner, row_at
 
 if TYPE_CHECKING:
-    from linkwright.engine.trace import Scalar
+    from linkwright.formula.trace import Scalar
 
 #: From coefficients of Chebyshev polynomials to those of powers of u, -1 to 1; from values at the nodes of a piece to
 #: integrals from its middle, at the nodes.

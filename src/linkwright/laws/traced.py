@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from scipy.interpolate import PPoly
 
-    from linkwright.engine.trace import Scalar
+    from linkwright.formula.trace import Scalar
 
 #: Order of the polynomials; how near they come to lift and acceleration, as shares of the largest.
 _ORDER, _FINE, _BENT = 15, 1e-13, 1e-9
@@ -143,7 +143,7 @@ class LiftCurve:
 def row_at(x: Scalar, edges: Floats, rows: Floats) -> list[Scalar]:
     """The row of the piece between edges (m + 1,) that holds a traced place, of rows (m, k), by halving; beyond the
     ends that of the first or the last piece."""
-    from linkwright.engine.trace import select
+    from linkwright.formula.trace import select
 
     def chosen(first: int, last: int) -> list[Scalar]:
         if last - first == 1:

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import select
-from linkwright.engine.vector import choose
+from linkwright.formula.trace import select
+from linkwright.formula.vector import choose
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load
 from linkwright.loads.site import Site, Wrench

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal
 from linkwright.core.expression_tree import Node, Number, denominators, evaluate, scalar_functions
 from linkwright.core.expressions import ON_VALUES, Expression
 from linkwright.core.outputs import Output
-from linkwright.engine.late_import import numpy as np
 from linkwright.errors import QuantityError
+from linkwright.formula.late_import import numpy as np
 from linkwright.loads.signals import Signals, column, input_dimension, named_column, output_named, shown
 from linkwright.loads.strokes import NEAR, TURN, StrokePart
 from linkwright.units import LARGEST

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.vector import Vec
 from linkwright.errors import LinkwrightError
+from linkwright.formula.vector import Vec
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load, Magnitude, Output
 from linkwright.loads.site import Mechanism, Site, Wrench

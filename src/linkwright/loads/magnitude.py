@@ -7,7 +7,7 @@ from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.engine.trace import Scalar, select
+from linkwright.formula.trace import Scalar, select
 from linkwright.loads.phases import Always, InputPhase, MovingPhase, Phase, SwingPhase
 from linkwright.loads.signals import Course
 from linkwright.loads.site import Mechanism

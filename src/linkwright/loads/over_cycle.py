@@ -7,8 +7,8 @@ from typing import Any
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.engine.late_import import numpy as np
 from linkwright.errors import LinkwrightError, with_remedy
+from linkwright.formula.late_import import numpy as np
 from linkwright.loads.base import Load
 from linkwright.loads.phases import Always
 from linkwright.loads.signals import BetweenLimits, Signals, column, named_column

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.engine.late_import import numpy as np
-from linkwright.engine.trace import Mask, Scalar, absolute, maximum, minimum, select, sign
+from linkwright.formula.late_import import numpy as np
+from linkwright.formula.trace import Mask, Scalar, absolute, maximum, minimum, select, sign
 from linkwright.loads.faults import interval_fault, part_fault
 from linkwright.loads.signals import Course, LimitKind, Signals, times_of_inputs
 from linkwright.loads.strokes import NEAR, TURN, StrokePart, share_of, turned, within

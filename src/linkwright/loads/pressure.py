@@ -6,7 +6,7 @@ import math
 from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Scalar
+from linkwright.formula.trace import Scalar
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load, Magnitude
 from linkwright.loads.site import Site, Wrench

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.engine.late_import import numpy as np
-from linkwright.engine.trace import Mask, Scalar
 from linkwright.errors import LinkwrightError
 from linkwright.fields.references import resolve_output
+from linkwright.formula.late_import import numpy as np
+from linkwright.formula.trace import Mask, Scalar
 from linkwright.loads.site import Mechanism
 from linkwright.registry import offered
 

@@ -7,8 +7,8 @@ from typing import Protocol
 
 from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import Driver
-from linkwright.engine.trace import Scalar
-from linkwright.engine.vector import ZERO, Vec
+from linkwright.formula.trace import Scalar
+from linkwright.formula.vector import ZERO, Vec
 from linkwright.joints.base import Joint
 from linkwright.joints.lower import SlidingJoint
 

@@ -11,9 +11,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.expression_tree import Number, denominators
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output
-from linkwright.engine.late_import import numpy as np
-from linkwright.engine.table import Table as Curve
-from linkwright.engine.trace import Mask, Scalar, absolute, floor, maximum, select
+from linkwright.formula.late_import import numpy as np
+from linkwright.formula.table import Table as Curve
+from linkwright.formula.trace import Mask, Scalar, absolute, floor, maximum, select
 from linkwright.loads.faults import formula_fault, table_fault
 from linkwright.loads.signals import Course, Signals, output_named, times_of_inputs
 from linkwright.loads.site import Mechanism

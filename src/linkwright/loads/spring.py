@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import select, sqrt
+from linkwright.formula.trace import select, sqrt
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load
 from linkwright.loads.site import Site, Wrench

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Literal, Protocol
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.engine.late_import import numpy as np
-from linkwright.engine.trace import Mask, Scalar, floor, maximum, minimum, select
 from linkwright.errors import LinkwrightError
+from linkwright.formula.late_import import numpy as np
+from linkwright.formula.trace import Mask, Scalar, floor, maximum, minimum, select
 from linkwright.loads.signals import BetweenLimits, Limit, Signals, Whole, input_dimension, shown
 from linkwright.words.sentence import Sentence
 

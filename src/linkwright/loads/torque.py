@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import RelativeAngle
-from linkwright.engine.trace import select
+from linkwright.formula.trace import select
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load, Magnitude, Output
 from linkwright.loads.site import Mechanism, Site, Wrench

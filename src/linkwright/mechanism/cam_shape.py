@@ -7,7 +7,7 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.late_import import numpy as np
+from linkwright.formula.late_import import numpy as np
 from linkwright.joints.cam_geometry import Geometry
 
 if TYPE_CHECKING:

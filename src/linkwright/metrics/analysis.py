@@ -17,9 +17,9 @@ from linkwright.core.search import first_largest
 from linkwright.cycle.cycle import Cycle, Solved
 from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.cycle.summary import STROKES, TRUE_SPEED, Extreme, Summary, one, signal_of
-from linkwright.engine.recently_made import Recent
 from linkwright.errors import LinkwrightError
 from linkwright.events.limit_positions import limit_positions
+from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
 from linkwright.kinetostatics.forces import Forces

@@ -13,7 +13,7 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.cycle.summary import Extreme
-from linkwright.engine.trace import Scalar
+from linkwright.formula.trace import Scalar
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Result
 from linkwright.metrics.quantities import number as in_unit

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
-from linkwright.engine.trace import Scalar, absolute, select
+from linkwright.formula.trace import Scalar, absolute, select
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
 

@@ -9,8 +9,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from linkwright.engine.trace import Scalar, maximum, select
 from linkwright.errors import LinkwrightError
+from linkwright.formula.trace import Scalar, maximum, select
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.metrics.analysis import Analysis

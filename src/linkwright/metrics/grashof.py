@@ -9,7 +9,7 @@ from itertools import combinations
 from math import hypot
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.trace import Scalar, maximum, minimum
+from linkwright.formula.trace import Scalar, maximum, minimum
 from linkwright.joints.lower import TurningJoint
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis

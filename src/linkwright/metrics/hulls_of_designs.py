@@ -13,9 +13,9 @@ from linkwright.curves.pieces import HIGH, LOW
 from linkwright.cycle.cycle import Cycle, Signal, Solved
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine, NotTogether
-from linkwright.engine.summaries import Backend
-from linkwright.engine.threads import cores, spread_over
 from linkwright.events.course import moves
+from linkwright.formula.summaries import Backend
+from linkwright.formula.threads import cores, spread_over
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.of_designs import Found

@@ -15,17 +15,17 @@ from linkwright.cycle.cycle import Cycle, Signal, Solved
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.cycle.summary import TRUE_SPEED, one
-from linkwright.engine.derivative import forward
-from linkwright.engine.machine_code import available
-from linkwright.engine.numpy_backend import numpy_program
-from linkwright.engine.program import Program
-from linkwright.engine.recently_made import Recent
-from linkwright.engine.replay import inlined
-from linkwright.engine.summaries import Backend
-from linkwright.engine.threads import cores, spread_over
-from linkwright.engine.trace import Scalar, Trace
 from linkwright.errors import RequestError
 from linkwright.events.course import moves
+from linkwright.formula.derivative import forward
+from linkwright.formula.machine_code import available
+from linkwright.formula.numpy_backend import numpy_program
+from linkwright.formula.program import Program
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.replay import inlined
+from linkwright.formula.summaries import Backend
+from linkwright.formula.threads import cores, spread_over
+from linkwright.formula.trace import Scalar, Trace
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.machine.steady_designs import SteadyDesigns

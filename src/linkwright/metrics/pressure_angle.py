@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import pi, radians
 from typing import ClassVar
 
-from linkwright.engine.trace import Scalar
+from linkwright.formula.trace import Scalar
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number, Remark

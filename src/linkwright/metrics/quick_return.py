@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright.core.outputs import Output
 from linkwright.cycle.summary import Extreme
-from linkwright.engine.trace import Scalar, floor, maximum
+from linkwright.formula.trace import Scalar, floor, maximum
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, Number
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.search import zeros
 from linkwright.drivers.base import Law
-from linkwright.engine.trace import Scalar, floor
+from linkwright.formula.trace import Scalar, floor
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark

@@ -16,11 +16,11 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.curves.pieces import HIGH, LOW
 from linkwright.cycle.machine import Traces
-from linkwright.engine.summaries import Backend
-from linkwright.engine.trace import select
 from linkwright.events.course import Course, moves
 from linkwright.events.events import AT, at_times
 from linkwright.events.formula import Formula, Known
+from linkwright.formula.summaries import Backend
+from linkwright.formula.trace import select
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.programs import Manner

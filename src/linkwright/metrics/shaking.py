@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
-from linkwright.engine.trace import Scalar, sqrt
+from linkwright.formula.trace import Scalar, sqrt
 from linkwright.kinematics.names import HARMONIC
 from linkwright.kinetostatics.load_site import turns_steadily
 from linkwright.metrics.analysis import Analysis

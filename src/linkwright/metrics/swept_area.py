@@ -13,7 +13,7 @@ from linkwright.core.outputs import row_names
 from linkwright.core.plane import area, convex_hull
 from linkwright.curves.curve import nodes
 from linkwright.curves.polynomials import POINTS
-from linkwright.engine.recently_made import Recent
+from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.mechanism import Mechanism

@@ -11,8 +11,8 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.search import first_largest
 from linkwright.cycle.summary import Extreme
-from linkwright.engine.trace import Scalar, absolute, minimum, select
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.formula.trace import Scalar, absolute, minimum, select
 from linkwright.kinematics.names import find_point
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import METRICS, Analysis

@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.cycle.summary import Extreme
-from linkwright.engine.trace import Scalar, absolute, select
+from linkwright.formula.trace import Scalar, absolute, select
 from linkwright.kinetostatics.named_outputs import RATIO
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number

@@ -17,11 +17,11 @@ from linkwright.core.given import require
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
-from linkwright.engine.javascript import javascript
-from linkwright.engine.wasm import wasm_module
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.files.write import dump
+from linkwright.formula.javascript import javascript
+from linkwright.formula.wasm import wasm_module
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
 from linkwright.kinematics.solve import solve_motion

@@ -10,15 +10,7 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
-from linkwright.errors import LinkwrightError
-from linkwright.files.check_mechanism import guides_at_odds
-from linkwright.files.document import Document
-from linkwright.joints.toothed import Numbers
-from linkwright.kinematics.cycle import time_span
-from linkwright.kinematics.motion import Motion
-from linkwright.mechanism.drawing import Drawing
-from linkwright.mechanism.mechanism import Mechanism
-from linkwright.study.changed_text import (
+from linkwright.designs.changed_text import (
     Written,
     drawn_dimensions,
     drawn_places,
@@ -27,6 +19,14 @@ from linkwright.study.changed_text import (
     usual_unit,
     written,
 )
+from linkwright.errors import LinkwrightError
+from linkwright.files.check_mechanism import guides_at_odds
+from linkwright.files.document import Document
+from linkwright.joints.toothed import Numbers
+from linkwright.kinematics.cycle import time_span
+from linkwright.kinematics.motion import Motion
+from linkwright.mechanism.drawing import Drawing
+from linkwright.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True)

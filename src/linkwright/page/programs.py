@@ -13,10 +13,10 @@ from linkwright.core.inputs import mode_groups
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import SLIDE, Output, row_name, row_names
 from linkwright.elements.topology import Group
-from linkwright.engine.program import Program
-from linkwright.engine.states import inputs_as_fields
-from linkwright.engine.table import Tables
-from linkwright.engine.trace import Scalar, select
+from linkwright.formula.program import Program
+from linkwright.formula.states import inputs_as_fields
+from linkwright.formula.table import Tables
+from linkwright.formula.trace import Scalar, select
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, program_names
 from linkwright.kinematics.programs import Manner

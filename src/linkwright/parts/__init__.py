@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING
 from linkwright.lazy import offer
 
 if TYPE_CHECKING:
+    from linkwright.designs.tolerance.problem import Clearance as Clearance
+    from linkwright.designs.tolerance.problem import Tolerance as Tolerance
+    from linkwright.designs.tolerance.study import ToleranceStudy as ToleranceStudy
     from linkwright.parts.base import Problem as Problem
     from linkwright.parts.base import Result as Result
     from linkwright.parts.beams.beam import Beam as Beam
@@ -48,8 +51,5 @@ if TYPE_CHECKING:
     from linkwright.parts.vibration.system import Start as Start
     from linkwright.parts.vibration.system import Tie as Tie
     from linkwright.parts.vibration.system import VibratingSystem as VibratingSystem
-    from linkwright.tolerance.problem import Clearance as Clearance
-    from linkwright.tolerance.problem import Tolerance as Tolerance
-    from linkwright.tolerance.study import ToleranceStudy as ToleranceStudy
 
 offer(__name__)

@@ -43,7 +43,7 @@ KINDS: Mapping[str, str] = {
     "mounts": "linkwright.parts.vibration.mounts.Mounts",
     "statistics": "linkwright.parts.statistics.samples.Samples",
     "program": "linkwright.parts.programs.program.Program",
-    "tolerance": "linkwright.tolerance.study.ToleranceStudy",
+    "tolerance": "linkwright.designs.tolerance.study.ToleranceStudy",
     "trajectory": "linkwright.parts.trajectories.particle.Particle",
     "throw": "linkwright.parts.trajectories.conveyor.Conveyor",
 }

@@ -85,7 +85,7 @@ Slopes = dict[str, tuple[float, Sequence[float]]]
 
 def _slopes(mechanism: Mechanism, names: Sequence[str], travel: str, lengths: Sequence[str]) -> Slopes:
     """Of all numbers that have derivatives; together where that goes, for they share a program."""
-    from linkwright.study.sensitivity import sensitivity
+    from linkwright.designs.sensitivity import sensitivity
 
     found: Slopes = {}
     for asked in _tries([*names, travel]):

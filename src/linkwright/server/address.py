@@ -9,8 +9,8 @@ from dataclasses import asdict
 from pathlib import Path
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.cache import folder as cache_folder
 from linkwright.errors import RequestError
+from linkwright.formula.cache import folder as cache_folder
 from linkwright.whole_files import make_folder, write_whole
 
 

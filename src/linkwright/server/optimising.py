@@ -7,6 +7,11 @@ from contextlib import suppress
 from functools import partial
 
 from linkwright.core.json_data import Plain
+from linkwright.designs.criteria import criterion
+from linkwright.designs.optimise.optimize import optimize
+from linkwright.designs.optimise.optimum import OptimizeError, Optimum
+from linkwright.designs.optimise.problem import problem
+from linkwright.designs.optimise.report import comparison
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
@@ -14,12 +19,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.metrics import METRICS, metrics
 from linkwright.metrics.outputs import mechanism_outputs
-from linkwright.optimisation.optimize import optimize
-from linkwright.optimisation.optimum import OptimizeError, Optimum
-from linkwright.optimisation.problem import problem
-from linkwright.optimisation.report import comparison
 from linkwright.server.background import Job
-from linkwright.study.criteria import criterion
 
 #: Designs of a front that are shown.
 SHOWN = 8

@@ -112,7 +112,7 @@ def test_an_interruption_before_the_first_population_leaves_a_file_to_go_on_from
     asked = [*SEARCH, "--minimize", "flywheel", "--evaluations", "100"]
     with monkeypatch.context() as patched:
         patched.setattr(
-            "linkwright.optimisation.optimize.Task", interrupt
+            "linkwright.designs.optimise.optimize.Task", interrupt
         )  # before anything has been measured
         assert main(asked) == 130
         (left,) = tmp_path.iterdir()
@@ -122,7 +122,7 @@ def test_an_interruption_before_the_first_population_leaves_a_file_to_go_on_from
         assert main([*asked, "--state", left.name, "--lang", "zh"]) == 130
         assert left.name in capsys.readouterr().err
         assert left.read_bytes() == kept  # a file that is there already stays
-        patched.setattr("linkwright.optimisation.optimize.read_document", interrupt)
+        patched.setattr("linkwright.designs.optimise.optimize.read_document", interrupt)
         assert main(asked) == 130
         assert capsys.readouterr().err == words.say("optimize.nothing_yet") + f"\n{INTERRUPTED}"
     assert main([*asked, "--json"]) == 0

@@ -9,9 +9,9 @@ from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.drivers.expression import ExpressionLaw
 from linkwright.drivers.program import ProgramLaw
 from linkwright.drivers.table import TableLaw
-from linkwright.engine.numpy_backend import numpy_program
-from linkwright.engine.program import Program
-from linkwright.engine.trace import Trace
+from linkwright.formula.numpy_backend import numpy_program
+from linkwright.formula.program import Program
+from linkwright.formula.trace import Trace
 from linkwright.laws.program import MotionProgram, Segment
 
 TIMES, PLACES = (0.0, 0.3, 0.5, 0.9, 1.6, 2.0), (0.1, 0.4, 0.2, -0.3, 0.6, 0.1)

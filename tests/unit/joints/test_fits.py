@@ -7,7 +7,7 @@ from tests.contract.joints_of_every_kind import MODEL, WRITTEN
 from tests.unit.joints.plain_dimensions import Numbers
 
 import linkwright as lw
-from linkwright.engine.trace import Trace
+from linkwright.formula.trace import Trace
 
 FITTED = [kind for kind in WRITTEN if kind.startswith(("gear", "rolling", "belt", "chain", "rack"))]
 

@@ -8,7 +8,7 @@ from tests.every import every
 from tests.invariants.edited_machines import RUBBING
 
 import linkwright as lw
-from linkwright.engine.recently_made import Recent
+from linkwright.formula.recently_made import Recent
 from linkwright.kinematics import programs
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.program_shape import shape

@@ -4,7 +4,7 @@ import pytest
 from tests.invariants.fourbars import four_bars
 
 import linkwright as lw
-from linkwright.engine.program import Program
+from linkwright.formula.program import Program
 from linkwright.kinematics.placement import placements
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.metrics import Analysis

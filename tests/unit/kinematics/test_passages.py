@@ -12,8 +12,8 @@ from tests import store
 from tests.invariants.fourbars import fourbar
 
 import linkwright as lw
-from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.program import Program
+from linkwright.formula.numpy_backend import NumpyProgram
+from linkwright.formula.program import Program
 from linkwright.kinematics.change_points import (
     _divided,
     closes,

@@ -10,12 +10,12 @@ from tests.every import every
 from tests.unit.kinematics.slotted_triad import SLOTTED
 
 import linkwright as lw
-from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.program import Program
-from linkwright.engine.vector import Vec
+from linkwright.designs.traced_outputs import Traced
+from linkwright.formula.numpy_backend import NumpyProgram
+from linkwright.formula.program import Program
+from linkwright.formula.vector import Vec
 from linkwright.kinematics.positions import at_times
 from linkwright.kinematics.step_rule import CORRECTION, LARGEST, MISFIT, ROOM, StepRule, _angle
-from linkwright.study.traced_outputs import Traced
 
 BEGIN = 0.21
 

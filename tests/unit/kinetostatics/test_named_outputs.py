@@ -14,9 +14,9 @@ from tests.outputs_in_words import DRY, OF_THE_PUSHED, OF_THE_SHAPER, PUSHED, Re
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.engine.numpy_backend import NumpyProgram
-from linkwright.engine.program import Program
 from linkwright.errors import RequestError
+from linkwright.formula.numpy_backend import NumpyProgram
+from linkwright.formula.program import Program
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_names
 from linkwright.kinematics.programs import AS_IT_IS, motion_programs

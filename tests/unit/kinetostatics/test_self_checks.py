@@ -11,14 +11,14 @@ from tests.invariants.checked_machines import FALSIFIED, MODEL
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.engine.trace import Scalar
-from linkwright.engine.vector import Vec
+from linkwright.designs.designs import sweep_curves
 from linkwright.errors import SelfCheckError
+from linkwright.formula.trace import Scalar
+from linkwright.formula.vector import Vec
 from linkwright.kinematics.equation import Equation
 from linkwright.kinematics.motion import Evaluate, Rows
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.trace import ForceTrace
-from linkwright.study.designs import sweep_curves
 
 
 @pytest.fixture(scope="module")

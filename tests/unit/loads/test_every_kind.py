@@ -13,13 +13,13 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.engine.vector import Vec
 from linkwright.fields.base import Quantities, Quantity, Word
 from linkwright.fields.references import LinkName, PointName, PointPair, PointReference, PointReferences
 from linkwright.files.build import Model
 from linkwright.files.model_file import loads
 from linkwright.files.schema import json_schema
 from linkwright.files.write import dump
+from linkwright.formula.vector import Vec
 from linkwright.joints.base import JointName
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load

@@ -17,7 +17,7 @@ from tests.unit.loads.turning_crank import JAW, Turning
 
 from linkwright.core.expressions import parse
 from linkwright.core.outputs import Output
-from linkwright.engine.trace import Mask, Scalar
+from linkwright.formula.trace import Mask, Scalar
 from linkwright.loads.force import Force
 from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.over_cycle import evaluate

@@ -30,11 +30,11 @@ from tests.invariants.turned_cams import UNEVEN as CAM_ON_A_LINKAGE
 from tests.store import machine as stored
 
 import linkwright as lw
+from linkwright.designs.design_numbers import side_by_side
+from linkwright.designs.one_by_one import OneByOne
+from linkwright.designs.prepared import Prepared
 from linkwright.metrics import METRICS
 from linkwright.metrics.of_designs import NumbersOfDesigns, numbers_of_designs
-from linkwright.study.design_numbers import side_by_side
-from linkwright.study.one_by_one import OneByOne
-from linkwright.study.prepared import Prepared
 
 NAMES = [name for name, metric in METRICS.items() if not metric.on_request]
 #: What sweeps find of the positions of all designs at once: machines with a dimension and an output.

@@ -12,11 +12,11 @@ from tests.refusals import refused
 from tests.ui.texts import FOURBAR
 
 import linkwright as lw
+from linkwright.designs.changed_text import changed_text
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.server import edits
 from linkwright.server.work import new_text
-from linkwright.study.changed_text import changed_text
 
 NEW = new_text()
 

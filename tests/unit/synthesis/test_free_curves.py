@@ -11,7 +11,7 @@ from tests.refusals import refused
 
 import linkwright as lw
 from linkwright.core.arrays import Whole
-from linkwright.engine import machine_code
+from linkwright.formula import machine_code
 from linkwright.synthesis.free_curve import search
 from linkwright.synthesis.free_curve.atlas import STEP, Atlas, M, Matches, _draws, parts, places
 from linkwright.synthesis.free_curve.curve_file import path_points, read_curve

@@ -17,8 +17,8 @@ import pytest
 
 import linkwright as lw
 from linkwright.cli import main
-from linkwright.engine import machine_code
-from linkwright.study import finished_parts
+from linkwright.designs import finished_parts
+from linkwright.formula import machine_code
 from linkwright.synthesis.free_curve import search as free_curve
 from linkwright.synthesis.free_curve.nodes import FOUR_BAR, Design, flat
 from linkwright.synthesis.free_curve.search import Search, polished

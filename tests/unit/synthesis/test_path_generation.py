@@ -7,7 +7,7 @@ import pytest
 from tests.invariants.hidden_paths import hidden
 
 import linkwright as lw
-from linkwright.engine.machine_code import available
+from linkwright.formula.machine_code import available
 from linkwright.synthesis.crank_family import CrankFamily
 from linkwright.synthesis.path_generation import search
 from linkwright.synthesis.path_generation.compiled_starts import CompiledPaths

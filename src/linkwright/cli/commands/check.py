@@ -298,8 +298,8 @@ def _course(mechanism: Mechanism) -> None:
 
 
 def _optimize(mechanism: Mechanism, *, moves: bool) -> None:
-    from linkwright.optimisation.problem import problem
-    from linkwright.optimisation.task import Task
+    from linkwright.designs.optimise.problem import problem
+    from linkwright.designs.optimise.task import Task
 
     asked = problem(mechanism, mechanism.optimize)
     if moves:

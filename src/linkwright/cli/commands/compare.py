@@ -13,7 +13,7 @@ from linkwright.cli.session import Session
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.study.compare import Comparison
+    from linkwright.designs.compare import Comparison
 
 ENDINGS = (".csv", ".json")
 
@@ -40,7 +40,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.files import PICTURES, refuse_output
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
-    from linkwright.study.compare import compare
+    from linkwright.designs.compare import compare
 
     for path in (options.output, options.curves):
         refuse_output(path, ENDINGS, force=options.force)

@@ -12,7 +12,7 @@ from linkwright.cli.session import Session
 from linkwright.words import Say
 
 if TYPE_CHECKING:
-    from linkwright.optimisation.optimum import OptimizeError, Optimum
+    from linkwright.designs.optimise.optimum import OptimizeError, Optimum
 
 ENDINGS = (".yaml", ".yml", ".json")
 
@@ -49,9 +49,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
 def _searched(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.files import PICTURES, refuse_output
     from linkwright.cli.progress import progress
-    from linkwright.optimisation.optimize import optimize
-    from linkwright.optimisation.optimum import OptimizeError
-    from linkwright.study.cluster import on_cluster
+    from linkwright.designs.cluster import on_cluster
+    from linkwright.designs.optimise.optimize import optimize
+    from linkwright.designs.optimise.optimum import OptimizeError
 
     refuse_output(options.output, ENDINGS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
@@ -95,7 +95,7 @@ def _pairs(texts: list[str] | None) -> dict[str, str] | None:
 
 def _stopped(stopped: KeyboardInterrupt, say: Say) -> str:
     """What an interruption before the first population leaves."""
-    from linkwright.study.finished_parts import Interrupted
+    from linkwright.designs.finished_parts import Interrupted
 
     if isinstance(stopped, Interrupted):
         return say("study.interrupted", path=stopped.state)

@@ -11,7 +11,7 @@ from linkwright.cli.source import read_model
 from linkwright.words import Say
 
 if TYPE_CHECKING:
-    from linkwright.engine.program import Program
+    from linkwright.formula.program import Program
     from linkwright.mechanism.mechanism import Mechanism
 
 

@@ -10,7 +10,7 @@ from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 
 if TYPE_CHECKING:
-    from linkwright.study.study import Study
+    from linkwright.designs.study import Study
 
 ENDINGS = (".csv", ".json")
 
@@ -39,10 +39,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.files import PICTURES, refuse_output
     from linkwright.cli.long_commands import kept
     from linkwright.cli.source import read_model
+    from linkwright.designs.cluster import on_cluster
+    from linkwright.designs.study import study
     from linkwright.files.write import dump
     from linkwright.machine.flywheel import FLUCTUATION
-    from linkwright.study.cluster import on_cluster
-    from linkwright.study.study import study
 
     refuse_output(options.output, ENDINGS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)

@@ -12,7 +12,7 @@ from linkwright.cli.session import Session
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
-    from linkwright.tolerance.study import ToleranceStudy
+    from linkwright.designs.tolerance.study import ToleranceStudy
 
 
 def arguments(option: Options) -> None:
@@ -24,8 +24,8 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Solves the file's problem; its drawn machines are computed by threads or a cluster."""
     from linkwright.cli.long_commands import kept
+    from linkwright.designs.cluster import on_cluster
     from linkwright.parts.file import solve
-    from linkwright.study.cluster import on_cluster
 
     refuse_outputs(options, session)
     problem = cast("ToleranceStudy", read(options.file, "tolerance", session))

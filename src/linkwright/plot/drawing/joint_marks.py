@@ -8,7 +8,7 @@ from functools import singledispatch
 from math import atan2, pi, sqrt
 
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.late_import import numpy as np
+from linkwright.formula.late_import import numpy as np
 from linkwright.joints.base import HigherPair, Joint
 from linkwright.joints.belt import BeltPair
 from linkwright.joints.cam import CamJoint

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.designs.compare import Comparison
+from linkwright.designs.overlay import Overlay
 from linkwright.errors import RequestError
 from linkwright.pictures.diagram import INK, Figure, new_figure
 from linkwright.plot.diagrams.axes import InputAxis, Legend, equal, unit_of
@@ -15,8 +17,6 @@ from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.panels import Panel, look, stacked
 from linkwright.plot.diagrams.source import Source
 from linkwright.registry import offered
-from linkwright.study.compare import Comparison
-from linkwright.study.overlay import Overlay
 from linkwright.words import say
 
 HODOGRAPH = "hodograph"

@@ -9,11 +9,11 @@ import numpy as np
 from linkwright import units
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.designs.ranges import dimension_of
 from linkwright.errors import RequestError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plot.diagrams.axes import Unit, unit_of
 from linkwright.registry import offered
-from linkwright.study.ranges import dimension_of
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.optimisation.optimum import Optimum
-from linkwright.optimisation.report import label, shown_unit
+from linkwright.designs.optimise.optimum import Optimum
+from linkwright.designs.optimise.report import label, shown_unit
 from linkwright.pictures.diagram import COLOURS, INK, Figure, new_figure
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.words import say

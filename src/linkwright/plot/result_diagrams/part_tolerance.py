@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.designs.tolerance.result import Spread
 from linkwright.pictures.diagram import COLOURS, FAINT, Axes, Figure, new_figure
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.result_diagrams.part_axes import unit_for
-from linkwright.tolerance.result import Spread
 
 
 @result_diagram("tolerance", Spread)

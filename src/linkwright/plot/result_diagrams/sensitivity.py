@@ -8,6 +8,8 @@ import numpy as np
 
 from linkwright import units
 from linkwright.core.arrays import Floats
+from linkwright.designs.ranges import dimension_of
+from linkwright.designs.sensitivity import Sensitivity
 from linkwright.errors import RequestError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.diagram import COLOURS, Figure, new_figure
@@ -16,8 +18,6 @@ from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.panels import Panel, look, stacked
 from linkwright.plot.result_diagrams.design_table import chosen
-from linkwright.study.ranges import dimension_of
-from linkwright.study.sensitivity import Sensitivity
 
 #: Steps in which a dimension that is zero is changed, with their texts, by its kind.
 _STEPS = {"length": (1e-3, "1 mm"), "angle": (math.radians(1.0), "1°")}

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from linkwright.designs.criteria import criterion
+from linkwright.designs.designs import Sweep
+from linkwright.designs.study import Study
 from linkwright.pictures.diagram import Figure
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.result_diagrams.design_space import draw_designs
 from linkwright.plot.result_diagrams.design_table import DesignTable, chosen, measure, varied
-from linkwright.study.criteria import criterion
-from linkwright.study.designs import Sweep
-from linkwright.study.study import Study
 
 
 @result_diagram("study", Study, options=("of",))

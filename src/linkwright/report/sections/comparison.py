@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from linkwright.designs.evaluation import ranking, sentences, table_rows
 from linkwright.errors import LinkwrightError
 from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
-from linkwright.study.evaluation import ranking, sentences, table_rows
 
 
 @section("comparison", 20.0, optional=True, common=True)
 def blocks(cases: Sequence[Case]) -> Iterator[Block]:
     """Design numbers side by side, best values marked; ranking with reasons; evaluation."""
-    from linkwright.study.compare import compare
+    from linkwright.designs.compare import compare
 
     if len(cases) < 2:
         raise Missing("report.one_machine")

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 
 from linkwright.core.outputs import Output
+from linkwright.designs.evaluation import told
 from linkwright.errors import LinkwrightError
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, MetricValue
@@ -20,7 +21,6 @@ from linkwright.report.improvements import EFFORT, broken, improvements
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import typeset
 from linkwright.report.section import section
-from linkwright.study.evaluation import told
 from linkwright.words import Say
 from linkwright.words.sentence import in_words
 

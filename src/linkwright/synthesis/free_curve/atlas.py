@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes, Floats, Indices, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.cache import folder
-from linkwright.engine.threads import cores, spread_over
+from linkwright.formula.cache import folder
+from linkwright.formula.threads import cores, spread_over
 from linkwright.synthesis.free_curve.curve_similarity import ANGLES, MARKS, POINTS, REACH, RINGS, TURNS
 from linkwright.synthesis.free_curve.nodes import (
     Design,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import cos, sin, sqrt
 
-from linkwright.engine.kernel import Reals, Wholes, higher, load, lower, root, spread, store, total
+from linkwright.formula.kernel import Reals, Wholes, higher, load, lower, root, spread, store, total
 from linkwright.synthesis.free_curve.kernels import TURN
 
 #: Points of a part, turns tried, points of the target; angles and rings of the table, radius that it reaches to.

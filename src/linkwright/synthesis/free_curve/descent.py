@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import fabs
 
-from linkwright.engine.kernel import Reals, Wholes, load, mark_of, root, spread, store, total
+from linkwright.formula.kernel import Reals, Wholes, load, mark_of, root, spread, store, total
 from linkwright.synthesis.free_curve.distances import (
     WIDE,
     align,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import cos, sin, sqrt
 
-from linkwright.engine.kernel import (
+from linkwright.formula.kernel import (
     Reals,
     higher,
     load,

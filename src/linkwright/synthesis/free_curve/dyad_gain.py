@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from math import cos, log, sin, sqrt
 
-from linkwright.engine.kernel import Reals, Wholes, load, store
+from linkwright.formula.kernel import Reals, Wholes, load, store
 from linkwright.synthesis.free_curve.descent import directions, dot, lay, slopes
 from linkwright.synthesis.free_curve.distances import WIDE, target_to_curve
 from linkwright.synthesis.free_curve.kernels import (

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Complexes
 from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress
-from linkwright.engine.machine_code import available
-from linkwright.study.finished_parts import surrounding
+from linkwright.designs.finished_parts import surrounding
+from linkwright.formula.machine_code import available
 from linkwright.synthesis.free_curve.curve_file import read_curve
 from linkwright.synthesis.free_curve.drawing_order import drawing
 from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of

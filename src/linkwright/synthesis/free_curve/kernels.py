@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from math import cos, exp, sin
 
-from linkwright.engine.kernel import (
+from linkwright.formula.kernel import (
     Reals,
     Wholes,
     higher,

@@ -12,7 +12,7 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.kernel import Kernels
+from linkwright.formula.kernel import Kernels
 from linkwright.synthesis.free_curve.curve_similarity import LIKENESS
 from linkwright.synthesis.free_curve.descent import DESCENT
 from linkwright.synthesis.free_curve.distances import DISTANCES

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import cos, exp, log, sin, sqrt
 
-from linkwright.engine.kernel import Reals, Wholes
+from linkwright.formula.kernel import Reals, Wholes
 from linkwright.synthesis.free_curve.kernels import (
     BLOCK,
     DYAD,

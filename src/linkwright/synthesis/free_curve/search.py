@@ -26,9 +26,9 @@ import numpy as np
 from linkwright.core.arrays import Floats, Whole
 from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress
-from linkwright.engine.threads import chunks, cores
-from linkwright.study.cluster import current, hands, in_turn
-from linkwright.study.finished_parts import identity, once, surrounding
+from linkwright.designs.cluster import current, hands, in_turn
+from linkwright.designs.finished_parts import identity, once, surrounding
+from linkwright.formula.threads import chunks, cores
 from linkwright.synthesis.free_curve.atlas import NEAREST, Laid, atlas
 from linkwright.synthesis.free_curve.kernels import FAR
 from linkwright.synthesis.free_curve.linkages import Placed

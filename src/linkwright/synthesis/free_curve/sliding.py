@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import cos, sin
 
-from linkwright.engine.kernel import Reals, higher, least, load, lower, root, spread, store, total
+from linkwright.formula.kernel import Reals, higher, least, load, lower, root, spread, store, total
 
 
 def place_slider(

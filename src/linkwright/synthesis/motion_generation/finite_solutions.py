@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes
-from linkwright.study.finished_parts import once
+from linkwright.designs.finished_parts import once
 from linkwright.synthesis.nine_points.classes import MIX, PROBES, conjugate, repeated, turned
 from linkwright.synthesis.nine_points.start import displacements
 from linkwright.synthesis.nine_points.tracker import TOLERANCE, Places, carried, polished

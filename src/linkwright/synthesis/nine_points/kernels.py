@@ -9,7 +9,7 @@ from __future__ import annotations
 from functools import cache
 from math import sqrt
 
-from linkwright.engine.kernel import (
+from linkwright.formula.kernel import (
     Kernels,
     Reals,
     choose,

@@ -25,9 +25,9 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.machine_code import available
-from linkwright.engine.threads import cores, spread_over
-from linkwright.study.finished_parts import once
+from linkwright.designs.finished_parts import once
+from linkwright.formula.machine_code import available
+from linkwright.formula.threads import cores, spread_over
 
 #: Paths that are carried together: their matrices stay in the processor's cache.
 CHUNK = 181
@@ -167,7 +167,7 @@ def _carried_compiled(
     start: Complexes, first: Places, last: Places, tolerance: float, most: int, rounding: float
 ) -> Ends:
     """The same steps for points alone in compiled code."""
-    from linkwright.engine.kernel_writer import LANES
+    from linkwright.formula.kernel_writer import LANES
     from linkwright.synthesis.nine_points.kernels import ROOM, kernels
 
     rows, arrived, room = start.copy(), np.zeros(len(start)), np.zeros(ROOM)

@@ -8,8 +8,8 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.engine.threads import cores, spread_over
-from linkwright.study.finished_parts import once
+from linkwright.designs.finished_parts import once
+from linkwright.formula.threads import cores, spread_over
 from linkwright.synthesis.crank_family import CrankFamily
 from linkwright.synthesis.path_generation.kernels import (
     ANGLES,

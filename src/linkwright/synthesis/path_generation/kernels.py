@@ -18,7 +18,7 @@ from __future__ import annotations
 from functools import cache
 from math import cos, exp, fabs, sin, sqrt
 
-from linkwright.engine.kernel import Kernels, Reals, Wholes
+from linkwright.formula.kernel import Kernels, Reals, Wholes
 
 HEAD, SHIFTS, ANGLES, POINTS = 8, 14, 22, 4
 #: Places in the room, after lengths and their rates: system of at most 10 unknowns, limits, step, points.

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Whole
-from linkwright.engine.machine_code import available
+from linkwright.formula.machine_code import available
 from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.least_squares import minimise
 from linkwright.synthesis.path_generation.bounded_dimensions import BoundedPaths

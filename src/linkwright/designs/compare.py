@@ -1,0 +1,299 @@
+"""Alternatives side by side: design numbers, a ranking with its reasons, curves, a written evaluation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from linkwright.core.attached import Plotted, attached
+from linkwright.core.dataclass import dataclass
+from linkwright.core.given import real, require
+from linkwright.core.progress import current_progress
+from linkwright.core.read_only import Frozen
+from linkwright.designs.alternatives import Alternative, alternatives
+from linkwright.designs.criteria import USUAL, Criterion, Measured, criteria, numbers_of
+from linkwright.designs.overlay import Overlay, overlays
+from linkwright.errors import LinkwrightError, RequestError, with_remedy
+from linkwright.kinematics.outcome import PositionError
+from linkwright.machine.flywheel import FLUCTUATION
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.registry import offered
+from linkwright.units import si_unit
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    import pandas
+
+
+#: Values of a criterion that differ by less than this share are equal.
+SAME = 1e-9
+
+
+@dataclass(frozen=True)
+class Row:
+    """One criterion with the value of every alternative; None where it does not apply."""
+
+    criterion: Criterion
+    values: tuple[Measured | None, ...]
+    weight: float
+
+    @property
+    def dimension(self) -> str:
+        """Name of the values' dimension."""
+        return next((each.dimension for each in self.values if each is not None), "dimensionless")
+
+    @property
+    def best(self) -> tuple[int, ...]:
+        """Numbers of the best alternatives; empty where no direction is better, or one cannot be compared."""
+        if self.criterion.better is None or not self.comparable:
+            return ()
+        sizes = [abs(each.value) for each in self.values if each is not None]
+        goal = max(sizes) if self.criterion.better == "higher" else min(sizes)
+        same = SAME * max((size for size in sizes if isfinite(size)), default=0.0)
+        best = tuple(i for i, size in enumerate(sizes) if size == goal or abs(size - goal) <= same)
+        return () if len(best) == len(sizes) else best
+
+    @property
+    def comparable(self) -> bool:
+        """Whether every alternative has a value of the same dimension."""
+        return (
+            all(each is not None for each in self.values)
+            and len({v.dimension for v in self.values if v}) == 1
+        )
+
+    def score(self, index: int) -> float:
+        """1 for the best, else how near the value comes to it: best/value where lower is better, or the inverse."""
+        sizes = [abs(each.value) for each in self.values if each is not None]
+        mine, best = sizes[index], max(sizes) if self.criterion.better == "higher" else min(sizes)
+        if mine == best:
+            return 1.0
+        return mine / best if self.criterion.better == "higher" else best / mine
+
+
+@dataclass(frozen=True)
+class Rank:
+    """An alternative's place: ``score`` from 0 to 1, the weighted mean of how near it comes to the best."""
+
+    place: int
+    index: int
+    label: str
+    score: float
+
+
+@dataclass(eq=False)
+class Comparison(Plotted, Frozen):
+    """Alternatives side by side.
+
+    ``rows``: criteria with values; ``ranking``: best first; ``curves``: data to overlay. ``text(language)`` is the
+    table with ranking and evaluation, ``evaluation(language)`` the sentences alone.
+    """
+
+    alternatives: tuple[Alternative, ...]
+    rows: tuple[Row, ...]
+    fluctuation: float
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Names of the alternatives."""
+        return tuple(each.label for each in self.alternatives)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What could not be found, and why."""
+        from linkwright.designs.comparability import unlike
+
+        own = (note for each in self.alternatives for note in each.notes)
+        return (*unlike(self.alternatives), *dict.fromkeys(own))
+
+    @property
+    def ranking(self) -> tuple[Rank, ...]:
+        """The alternatives, best first; equal scores in the order they were given."""
+        judged = self.judged
+        total = sum(row.weight for row in judged)
+        scores = [
+            sum(row.weight * row.score(i) for row in judged) / total if total else 1.0
+            for i in range(len(self.alternatives))
+        ]
+        order = sorted(range(len(scores)), key=lambda i: -scores[i])
+        return tuple(Rank(place, i, self.labels[i], scores[i]) for place, i in enumerate(order, 1))
+
+    @property
+    def judged(self) -> tuple[Row, ...]:
+        """The criteria that enter the ranking."""
+        return tuple(row for row in self.rows if row.criterion.better and row.comparable and row.weight > 0.0)
+
+    @property
+    def curves(self) -> tuple[Overlay, ...]:
+        """Curves to overlay: output and its rates, pivot reaction, input torque."""
+        return overlays(self.alternatives)
+
+    def value(self, metric: str, alternative: str | int) -> float:
+        """SI value of a criterion; NaN where it does not apply."""
+        index = alternative if isinstance(alternative, int) else self._index(alternative)
+        for row in self.rows:
+            if row.criterion.name == metric:
+                found = row.values[index]
+                return float("nan") if found is None else found.value
+        raise RequestError(
+            with_remedy(
+                Sentence("study.not_compared", metric=metric),
+                offered(metric, [row.criterion.name for row in self.rows]),
+            )
+        )
+
+    def units(self) -> list[tuple[Row, str]]:
+        """Rows with the SI units of their values."""
+        return [(row, si_unit(row.dimension)) for row in self.rows]
+
+    def column(self, index: int) -> list[float]:
+        """Values of one alternative over the rows, SI; NaN where a metric does not apply."""
+        found = [row.values[index] for row in self.rows]
+        return [float("nan") if each is None else each.value for each in found]
+
+    def _index(self, label: str) -> int:
+        if label not in self.labels:
+            raise RequestError("study.no_alternative", label=label, labels=tuple(map(repr, self.labels)))
+        return self.labels.index(label)
+
+    @attached
+    def evaluation(self, language: str = "en") -> str:
+        """A written evaluation, built from the numbers."""
+        raise NotImplementedError
+
+    @attached
+    def text(self, language: str = "en", width: int | None = None) -> str:
+        """The table, best values marked, the ranking with reasons, and the evaluation.
+
+        ``width``: characters across within which texts of the table are folded.
+        """
+        raise NotImplementedError
+
+    def data(self) -> dict[str, Any]:
+        """Plain data, SI."""
+        return {
+            "alternatives": [
+                {"label": each.label, "output": str(each.output), "pivot": each.pivot[0]}
+                for each in self.alternatives
+            ],
+            "metrics": [
+                {
+                    "name": row.criterion.name,
+                    "unit": si_unit(row.dimension),
+                    "better": row.criterion.better,
+                    "weight": row.weight,
+                    "values": [None if each is None else each.value for each in row.values],
+                    "at": [None if each is None else each.at for each in row.values],
+                    "best": [self.labels[i] for i in row.best],
+                }
+                for row in self.rows
+            ],
+            "ranking": [{"place": r.place, "label": r.label, "score": r.score} for r in self.ranking],
+            "evaluation": {language: self.evaluation(language) for language in ("en", "zh")},
+            "notes": list(self.notes),
+        }
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Criteria in rows, alternatives in columns, SI; needs pandas."""
+        import numpy as np
+
+        from linkwright.kinematics.table import dataframe
+
+        columns = {label: np.array(self.column(i)) for i, label in enumerate(self.labels)}
+        frame = dataframe(columns)
+        frame.index = [f"{row.criterion.name} [{si_unit(row.dimension)}]" for row in self.rows]
+        return frame
+
+    @attached
+    def _repr_html_(self) -> str:
+        """The table as notebooks show it; * marks the best."""
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        order = " > ".join(f"{rank.label} ({rank.score:.2f})" for rank in self.ranking)
+        return f"Comparison({len(self.rows)} metrics: {order})"
+
+
+def compare(
+    machines: Sequence[Mechanism | str | Path],
+    *,
+    metrics: Iterable[str] | str | None = None,
+    weights: Mapping[str, float] | None = None,
+    output: str | Mapping[str, str] | Sequence[str] | None = None,
+    fluctuation: float = FLUCTUATION,
+    steps: int = 360,
+) -> Comparison:
+    """Compares alternative machines by the motion of an output that they share and by their design numbers.
+
+    Args:
+        machines: two or more mechanisms, paths or gallery names.
+        metrics: registered design numbers, with a subject if wanted (``peak_reaction O5``); ``travel``,
+            ``output_velocity``, ``output_acceleration``, ``pivot_reaction`` (of the output's pivot), ``flywheel``;
+            summaries of outputs (``driver.effort rms``). None: the usual ones that apply.
+        weights: of metrics in the ranking, 1 where nothing is said; 0 leaves one out.
+        output: the link or guide that does the work, by one name for all, or by the label of each alternative.
+            None: the last one solved of those whose name all share.
+        fluctuation: coefficient of speed fluctuation δ for the flywheels.
+        steps: positions over the cycle.
+
+    Returns:
+        The comparison. A score is the weighted mean over the metrics that have a better direction of best/value (or
+        value/best where higher is better).
+
+    Raises:
+        LinkwrightError: an unknown metric or weight (nearest ones offered), alternatives without a shared output.
+        PositionError: an alternative cannot pass its cycle.
+    """
+    found = alternatives(machines, output, steps, fluctuation)
+    asked = criteria(USUAL if metrics is None else metrics)
+    if metrics is None:
+        asked = [each for each in asked if not each.forces or any(a.loaded for a in found)]
+    given = _weights(weights or {}, asked)
+    for alternative in found:
+        wanted = (number for each in asked for number in numbers_of(alternative, each.name))
+        alternative.analysis.ask(part for number in wanted for part in number.parts)
+    rows = []
+    progress = current_progress()
+    for done, each in enumerate(asked):
+        if progress is not None:
+            progress(done, len(asked))
+        values = tuple(_measured(each, alternative) for alternative in found)
+        if metrics is None and all(value is None for value in values):
+            continue
+        if metrics is not None and all(value is None for value in values):
+            known: object = [note for a in found for note in a.notes] or Sentence("study.leave_out")
+            raise RequestError("study.applies_to_none", name=each.name, known=known)
+        rows.append(Row(each, values, given.get(each.name, 1.0)))
+    if progress is not None:
+        progress(len(asked), len(asked))
+    return Comparison(tuple(found), tuple(rows), fluctuation)
+
+
+def _measured(asked: Criterion, alternative: Alternative) -> Measured | None:
+    """The value of an alternative; None, with the reason among its notes, where it has none."""
+    try:
+        return asked.measure(alternative)
+    except PositionError:
+        raise
+    except LinkwrightError as error:
+        alternative.notes.append(error.sentence)
+        return None
+
+
+def _weights(weights: Mapping[str, float], asked: Sequence[Criterion]) -> Mapping[str, float]:
+    """The weights, checked."""
+    require(weights, Mapping)
+    known = {each.name: each for each in asked}
+    for name, weight in weights.items():
+        if name not in known:
+            hint = offered(name, known, "study.compared_are")
+            raise RequestError("study.stray_weight", name=name, hint=hint)
+        if not real(f"weights[{name!r}]", weight) >= 0.0 or weight == float("inf"):
+            raise RequestError("study.bad_weight_value", name=name, weight=weight)
+        if known[name].better is None and weight > 0.0:
+            raise RequestError("study.no_direction", name=name)
+    judged = [each.name for each in asked if each.better]
+    if judged and all(weights.get(name, 1.0) == 0.0 for name in judged):
+        raise RequestError("study.all_zero")
+    return weights

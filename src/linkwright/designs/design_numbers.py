@@ -1,0 +1,128 @@
+"""Design numbers of sweeps: of many designs together as far as that is certain, of the others one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from linkwright.core.arrays import Floats, Indices
+from linkwright.core.progress import Progress, paced, part_of
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.formula.machine_code import available
+from linkwright.formula.summaries import Backend
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.run import solve_forces
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics import Analysis
+from linkwright.metrics.evaluate import unloaded
+from linkwright.metrics.hulls_of_designs import HullsOfDesigns, hulls_of_designs
+from linkwright.metrics.of_designs import NumbersOfDesigns, numbers_of_designs
+from linkwright.metrics.ranges_of_designs import RangesOfDesigns, ranges_of_designs
+from linkwright.metrics.terms import Asked, Term, measured
+
+#: Designs up to which what finds their numbers together may choose to do so without a compiler.
+FEW = 512
+#: What finds design numbers of all designs at once.
+Numbers: TypeAlias = NumbersOfDesigns | HullsOfDesigns | RangesOfDesigns
+
+
+def side_by_side(
+    mechanism: Mechanism,
+    varied: Iterable[str],
+    names: Sequence[str | Term],
+    asked: Asked | None = None,
+    *,
+    steps: int = 360,
+) -> list[Numbers]:
+    """What finds those design numbers that are found of all designs at once; ``asked``, ``steps``: see
+    ``numbers_of_designs``."""
+    by, plain = tuple(varied), [name for name in names if isinstance(name, str)]
+    found = (
+        numbers_of_designs(mechanism, by, names, steps=steps, asked=asked),
+        hulls_of_designs(mechanism, by, plain),
+        ranges_of_designs(mechanism, by, plain),
+    )
+    return [each for each in found if each is not None and each.terms]
+
+
+def numbers_of(
+    mechanism: Mechanism,
+    columns: Mapping[str, Floats],
+    names: Sequence[str],
+    designs: Indices,
+    *,
+    partial: bool = False,
+    threads: int | None = None,
+    backend: Backend = "auto",
+    progress: Progress | None = None,
+) -> tuple[dict[str, Floats], dict[str, str], dict[int, str]]:
+    """Metrics of the chosen ones of all designs, NaN for the others: values and dimensions by name, and sentences of
+    designs for which they cannot be found. ``partial``: also of designs that reach a part of their cycle alone.
+
+    Formulas of summaries are found together as far as that is certain, the others, and what is no such formula, one
+    by one. Raises RequestError for a metric that applies to none.
+    """
+    count = len(next(iter(columns.values())))
+    values = {name: np.full(count, np.nan) for name in names}
+    dimensions: dict[str, str] = {}
+    cycles = side_by_side(mechanism, columns, names)
+    certain = np.full(len(designs), bool(cycles))
+    compiled = backend == "auto" and available()
+    whole = progress is None or (compiled and len(designs) <= FEW)
+    serving: Backend = "llvm" if compiled and not whole else backend  # as it serves all together
+    for k, cycle in enumerate(cycles):
+        tell = part_of(progress, k, len(cycles) + 1)
+        for low, high in [(0, len(designs))] if whole else paced(len(designs)):
+            some = designs[low:high]
+            part = {address: column[some] for address, column in columns.items()}
+            known = cycle.evaluate(part, threads=threads, backend=serving)
+            certain[low:high] &= known.certain
+            for each in cycle.terms:
+                values[each.name][some[known.certain]] = known.values[each.name][known.certain]
+                dimensions[each.name] = each.dimension
+            if tell is not None:
+                tell(high, len(designs))
+    sure = np.zeros(count, dtype=np.bool_)
+    sure[designs] = certain
+    rest = [name for name in names if name not in dimensions]
+    failed: dict[int, str] = {}
+    left = designs.tolist() if rest else designs[~sure[designs]].tolist()
+    tell = part_of(progress, len(cycles), len(cycles) + 1)
+    for done, index in enumerate(left, 1):
+        design = mechanism.with_dimensions({a: float(column[index]) for a, column in columns.items()})
+        found_alone, why = _alone(design, rest if sure[index] else names, partial)
+        failed |= {index: why} if why else {}
+        for name, (value, dimension) in found_alone.items():
+            values[name][index], dimensions[name] = value, dimension
+        if tell is not None:
+            tell(len(designs) * done // len(left), len(designs))
+    idle = [name for name in names if name not in dimensions] if len(designs) > len(failed) else []
+    if idle:
+        if (missing := unloaded(mechanism, idle)) is not None:
+            raise RequestError(missing)
+        raise RequestError("study.sweep_metric", names=tuple(idle), name=mechanism.name)
+    return values, dimensions, failed
+
+
+def _alone(
+    design: Mechanism, names: Sequence[str], partial: bool
+) -> tuple[dict[str, tuple[float, str]], str]:
+    """Values and dimensions of the metrics that one design has, and why it lacks others."""
+    found: dict[str, tuple[float, str]] = {}
+    analysis, why = None, ""
+    for name in names:
+        try:
+            analysis = analysis or Analysis.of(
+                solve_forces(solve_motion(design, failures="mark") if partial else design)
+            )
+            if (own := measured(name, analysis)) is not None:
+                found[name] = own
+        except RequestError:
+            raise
+        except LinkwrightError as error:
+            why = error.sentence
+            if analysis is None:
+                break
+    return found, why

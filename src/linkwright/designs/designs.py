@@ -1,0 +1,317 @@
+"""Many designs of one mechanism at once: summaries of outputs over the cycle, in fixed memory."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.core.arrays import Flags, Floats, Whole
+from linkwright.core.attached import Plotted
+from linkwright.core.cached_property import cached_property
+from linkwright.core.dataclass import dataclass
+from linkwright.core.given import one_of, require, whole
+from linkwright.core.html import columns_html
+from linkwright.core.progress import Progress, current_progress, part_of
+from linkwright.core.read_only import Frozen
+from linkwright.cycle.summary import Summary
+from linkwright.designs.cluster import current, in_order, in_turn
+from linkwright.designs.design_numbers import numbers_of
+from linkwright.designs.failures import Failure, explained
+from linkwright.designs.of_positions import note_of_positions
+from linkwright.designs.sweep_run import Manner, SweepRun
+from linkwright.designs.varied_dimensions import design_values, refuse_moved_positions
+from linkwright.errors import RequestError
+from linkwright.formula.machine_code import available
+from linkwright.formula.summaries import BACKENDS, Backend
+from linkwright.formula.threads import chunks
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinetostatics.named_outputs import Quantity
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.wanted import wanted
+
+if TYPE_CHECKING:
+    import pandas
+
+
+#: Designs of a piece that goes to a cluster; fewer stay on this machine.
+SHARED = 4096
+#: What a piece finds: positions assembled, designs that pass, summaries, sentences of designs, margins, dimensions of
+#: numbers.
+_Piece = tuple[Whole, Flags, list[Floats], dict[int, str], Floats | None, dict[str, str]]
+
+
+@dataclass(eq=False)
+class Sweep(Plotted, Frozen):
+    """Summaries of many designs; arrays are (designs,), SI.
+
+    ``varied``: values of the varied dimensions; ``assembled``: number of ``positions`` at which each design can be
+    put together, or with ``partial`` that it reaches on its way from the first of them, as ``Motion.ok`` counts;
+    ``ok``: which designs pass the whole cycle, (designs,);
+    ``result["driver.effort", "rms"]`` or ``result["driver.effort rms"]`` a summary, NaN for designs
+    that do not pass the whole cycle (unless ``partial`` was asked for); those of outputs are of the ``steps``
+    positions, and ``notes`` says how far they are off. ``branch_margin`` (designs,): how far the
+    step nearest to another assembly was from being refused, 1 far, 0 at the edge, where groups without closed form
+    are followed (their steps keep the determinant's sign, the correction small and both ends' exact rates on one
+    curve); None where all groups have a closed form.
+    """
+
+    mechanism: Mechanism
+    varied: Mapping[str, Floats]
+    positions: int
+    steps: int
+    assembled: Whole
+    ok: Flags
+    summaries: Mapping[Summary, Floats]
+    quantities: Mapping[str, Quantity] = field(repr=False)
+    unloaded: Mapping[int, str] = field(default_factory=dict)
+    of_motion: tuple[str, ...] = field(default=(), repr=False)
+    branch_margin: Floats | None = None
+    dimensions: Mapping[str, str] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def notes(self) -> tuple[str, ...]:
+        """Notes on the machine as it is: on its motion, and how far summaries of the positions are off."""
+        kinds = (self.dimension(each) for each in self.summaries)
+        told = note_of_positions(self.mechanism, self.steps, self.summaries, kinds)
+        return self.of_motion if told is None else (*self.of_motion, told)
+
+    @property
+    def designs(self) -> int:
+        """Number of designs."""
+        return len(self.assembled)
+
+    def __getitem__(self, key: str | tuple[str, str]) -> Floats:
+        """A summary (designs,), by output and kind."""
+        (found, *more) = wanted([key])
+        if found not in self.summaries or more:
+            raise RequestError(
+                "study.not_asked", summary=key, summaries=tuple(s.name for s in self.summaries)
+            )
+        return self.summaries[found]
+
+    def columns(self) -> dict[str, Floats | Whole]:
+        """Varied dimensions, assembled positions and summaries by name."""
+        named = {summary.name: values for summary, values in self.summaries.items()}
+        return {**self.varied, "assembled": self.assembled, **named}
+
+    def dimension(self, summary: Summary) -> str:
+        """Name of the dimension of a summary's values; an extreme's place has the input's."""
+        if not summary.kind:
+            return self.dimensions[summary.output]
+        if summary.kind in ("argmin", "argmax"):
+            rotary = next(iter(over_cycle(self.mechanism, 1).rotary.values()))
+            return "angle" if rotary else "length"
+        return self.quantities[summary.output].dimension
+
+    def failures(self, limit: int = 1_000_000) -> tuple[Failure, ...]:
+        """Why designs cannot move: how many fail first at which group, with an example in a sentence.
+
+        At most ``limit`` failing designs are looked at.
+        """
+        return explained(self.mechanism, self.varied, self.ok, self.positions, self.unloaded, limit)
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The columns as a pandas table; needs pandas."""
+        from linkwright.kinematics.table import dataframe
+
+        return dataframe({name: np.asarray(values) for name, values in self.columns().items()})
+
+    def _repr_html_(self) -> str:
+        """The first designs as notebooks show them, SI."""
+        return columns_html(self.mechanism.name, self.columns(), self.notes)
+
+    def __repr__(self) -> str:
+        kept = int(self.ok.sum())
+        names = ", ".join(self.columns())
+        return f"Sweep({self.mechanism.name!r}: {self.designs} designs, {kept} pass the cycle; {names})"
+
+
+def sweep(
+    mechanism: Mechanism,
+    vary: Mapping[str, ArrayLike],
+    *,
+    outputs: Iterable[str | tuple[str, str]],
+    steps: int = 360,
+    partial: bool = False,
+    threads: int | None = None,
+    backend: Backend = "auto",
+    progress: Progress | None = None,
+) -> Sweep:
+    """Summaries over the cycle of many designs of one mechanism, computed without storing the positions.
+
+    Args:
+        mechanism: the design to start from; its assembly modes hold for all.
+        vary: values (designs,), SI, by address of a dimension (``pitman.length``) or name of a parameter.
+        outputs: pairs (output, kind), or texts ``output kind``. Outputs: ``C.x``, ``C.velocity`` (size),
+            ``C.velocity.x``, ``jaw.angle``, ``jaw.angular_velocity``, ``guide.displacement``, ``reaction O5 on jaw``,
+            ``couple guide on slider``, ``driver.effort``, ``input_torque``, ``power``, ``shaking_force``,
+            ``closeness`` (to a singular position, 0 there), ``transmission_angle B``. Kinds: min, max, mean, rms,
+            range, peak, argmin, argmax (see :class:`Summary`). Design numbers as well, with a subject if wanted:
+            ``rms_input_torque``, ``peak_reaction O5``, exact between positions; those that are no formulas of such
+            summaries (``double_point``, ``range_of_motion``) are found one by one.
+        steps: positions over the cycle.
+        partial: keep summaries over the positions that a design reaches on its way from the first one that it can
+            be in, where it does not reach all, and design numbers of what it reaches; such designs are found one by
+            one.
+        threads: None for all cores; results do not depend on it.
+        backend: ``numpy``, ``llvm`` (compiled), or ``auto``.
+        progress: called with (designs done, designs); what it raises stops the sweep.
+
+    Summaries of outputs are those of the positions, off by some 1e-4 of smooth ones, by percents where a load
+    switches on between two positions; :attr:`Sweep.notes` says how far for the machine as it is.
+
+    Raises:
+        LinkwrightError: unknown names (nearest ones offered), values that no design can have, dimensions that
+            change the drive's law.
+
+    A dimension that changes the positions of the input is refused. Friction near locking or in more than 16 pairs of
+    one group, loads that divide by an output or follow a link that turns through, and motion through change points
+    are found design by design, in milliseconds each.
+    """
+    require(mechanism, Mechanism)
+    one_of("backend", backend, BACKENDS)
+    threads = None if threads is None else whole("threads", threads, 1)
+    positions = over_cycle(mechanism, steps)
+    columns = design_values(mechanism, vary)
+    refuse_moved_positions(mechanism, positions, columns)
+    asked = wanted(outputs)
+    client, backend = current(), _of_all(backend, columns)
+    over_positions = tuple(each for each in asked if each.kind)
+    progress = progress or current_progress()
+    stages = 1 + any(not each.kind for each in asked)
+    run = SweepRun(
+        mechanism,
+        columns,
+        over_positions,
+        positions,
+        Manner(partial, threads, backend, part_of(progress, 0, stages)),
+    )
+    if client is not None and run.designs > SHARED:
+        return _shared(client, run, asked, steps)
+    assembled, passed, values = run.swept()
+    numbers = [each.output for each in asked if not each.kind]
+    dimensions: dict[str, str] = {}
+    if numbers:
+        chosen = np.flatnonzero(assembled > 0 if partial else assembled == positions.count)
+        found, dimensions, failed = numbers_of(
+            mechanism, columns, numbers, chosen, partial=partial, threads=threads, backend=backend,
+            progress=part_of(progress, 1, stages),
+        )  # fmt: skip
+        values |= {Summary(name, ""): column for name, column in found.items()}
+        run.unloaded |= failed
+        passed[list(failed)] = False
+        if progress is not None:
+            progress(run.designs, run.designs)
+    return Sweep(
+        mechanism,
+        columns,
+        positions.count,
+        positions.steps,
+        assembled,
+        passed,
+        {each: values[each] for each in asked},
+        run.quantities,
+        run.unloaded,
+        run.traced.nominal.notes,
+        run.margins,
+        dimensions,
+    )
+
+
+def _of_all(backend: Backend, columns: Mapping[str, Floats]) -> Backend:
+    """What serves all pieces of a sweep, however few designs are in the last; else numbers differ in last bits."""
+    many = len(next(iter(columns.values()))) > SHARED
+    return "llvm" if backend == "auto" and many and available() else backend
+
+
+def _shared(client: Any, run: SweepRun, asked: Sequence[Summary], steps: int) -> Sweep:
+    """The same sweep in pieces on a cluster."""
+    names = [each.name.strip() for each in asked]
+    places, tasks = _tasks(run, names, steps, run.manner.partial, run.manner.backend)
+    found: dict[int, _Piece] = {}
+    for number, piece in in_turn(client, _piece, tasks, run.own):
+        found[number] = piece
+        run.tell(run.designs * len(found) // len(tasks))
+    assembled, passed, summaries, unloaded, margins, dimensions = zip(
+        *map(found.get, range(len(tasks))), strict=True
+    )
+    return Sweep(
+        run.mechanism, run.columns, run.positions.count, run.positions.steps, np.concatenate(assembled),
+        np.concatenate(passed),
+        dict(zip(asked, map(np.concatenate, zip(*summaries, strict=True)), strict=True)), run.quantities,
+        {each.start + k: why for each, some in zip(places, unloaded, strict=True) for k, why in some.items()},
+        run.traced.nominal.notes, None if margins[0] is None else np.concatenate(margins),
+        {name: kind for each in dimensions for name, kind in each.items()},
+    )  # fmt: skip
+
+
+def _tasks(run: SweepRun, *rest: object) -> tuple[list[slice], list[tuple[Any, ...]]]:
+    """Which designs go to a cluster together, and what it takes to compute them."""
+    places = [slice(*ends) for ends in chunks(run.designs, SHARED)]
+    parts = ({a: np.array(c[each]) for a, c in run.columns.items()} for each in places)
+    return places, [(run.mechanism, part, *rest) for part in parts]
+
+
+def _piece(
+    mechanism: Mechanism,
+    columns: Mapping[str, Floats],
+    outputs: list[str],
+    steps: int,
+    partial: bool,
+    backend: Backend,
+) -> _Piece:
+    """What a sweep of some designs finds, on a worker of a cluster."""
+    found = sweep(
+        mechanism, columns, outputs=outputs, steps=steps, partial=partial, threads=1, backend=backend
+    )
+    summaries, unloaded, dimensions = (
+        [*found.summaries.values()],
+        dict(found.unloaded),
+        dict(found.dimensions),
+    )
+    return found.assembled, found.ok, summaries, unloaded, found.branch_margin, dimensions
+
+
+def sweep_curves(
+    mechanism: Mechanism,
+    vary: Mapping[str, ArrayLike],
+    *,
+    outputs: Sequence[str],
+    steps: int = 360,
+    threads: int | None = None,
+    backend: Backend = "auto",
+    progress: Progress | None = None,
+) -> Iterator[tuple[slice, dict[str, Floats]]]:
+    """Outputs of many designs over the positions, a few thousand designs at a time: (designs, n) by name, SI.
+
+    Arguments and errors as for :func:`sweep`; curves of designs that do not pass the whole cycle are NaN.
+    """
+    positions = over_cycle(mechanism, steps)
+    columns = design_values(mechanism, vary)
+    refuse_moved_positions(mechanism, positions, columns)
+    asked = wanted([(output, "max") for output in outputs])
+    client, backend = current(), _of_all(backend, columns)
+    run = SweepRun(mechanism, columns, asked, positions, Manner(False, threads, backend, progress))
+    if client is not None and run.designs > SHARED:
+        return _shared_curves(client, run, [*outputs], steps)
+    return run.curves(outputs)
+
+
+def _shared_curves(
+    client: Any, run: SweepRun, outputs: list[str], steps: int
+) -> Iterator[tuple[slice, dict[str, Floats]]]:
+    """The same curves in pieces on a cluster, in the designs' order."""
+    places, tasks = _tasks(run, outputs, steps, run.manner.backend)
+    yield from zip(places, in_order(client, _curves, tasks, run.own), strict=True)
+
+
+def _curves(
+    mechanism: Mechanism, columns: Mapping[str, Floats], outputs: list[str], steps: int, backend: Backend
+) -> dict[str, Floats]:
+    """The curves of at most ``SHARED`` designs, which are one block."""
+    ((_, found),) = sweep_curves(mechanism, columns, outputs=outputs, steps=steps, threads=1, backend=backend)
+    return found

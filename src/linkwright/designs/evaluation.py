@@ -1,0 +1,200 @@
+"""The written evaluation of a comparison, built from its numbers, in the reader's language."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from linkwright.core.html import html_table
+from linkwright.designs.alternatives import Alternative
+from linkwright.designs.compare import Comparison, Rank, Row
+from linkwright.designs.criteria import criterion
+from linkwright.errors import speaker
+from linkwright.metrics.quantities import SHOWN, shown
+from linkwright.words import Say
+from linkwright.words.characters import aligned_within
+from linkwright.words.sentence import in_language
+
+#: Share of a cycle beside a change point at which the direction of an infinite reaction is told.
+BESIDE = 1e-3
+#: Share of its largest value up to which a reaction's least one is where it passes zero.
+PASSING = 1e-9
+#: Reasons given per alternative.
+REASONS = 3
+MARK = "*"
+
+
+def told(value: float, dimension: str) -> str:
+    """A value with its unit for a sentence: four digits, large numbers written out."""
+    size = abs(value) * SHOWN.get(dimension, ("", 1.0))[1]
+    return shown(value, dimension, 4 if size < 1e4 else 6)
+
+
+def text(comparison: Comparison, language: str = "en", width: int | None = None) -> str:
+    """The table with the best values marked, the ranking, the evaluation, the notes."""
+    say = speaker(language)
+    lines = [*table(comparison, say, width), "", say("compare.marked"), "", say("compare.ranking")]
+    lines += ranking(comparison, say)
+    lines += ["", say("compare.evaluation"), *sentences(comparison, language)]
+    if comparison.notes:
+        lines += ["", *(in_language(note, language) for note in comparison.notes)]
+    return "\n".join(lines)
+
+
+def shown_in_notebooks(comparison: Comparison) -> str:
+    """The table as HTML; * marks the best."""
+    head, *rows = table_rows(comparison, speaker("en"))
+    return html_table("", head, rows, comparison.notes)
+
+
+def table(comparison: Comparison, say: Say, width: int | None) -> list[str]:
+    """Criteria in rows, alternatives in columns."""
+    rows, align = table_rows(comparison, say), "<" + ">" * len(comparison.labels)
+    return [line for each in aligned_within(rows, align, width) for line in each]
+
+
+def table_rows(comparison: Comparison, say: Say) -> list[list[str]]:
+    """The cells of the table, its head first."""
+    language = say("compare.language")
+    head = [say("compare.metric"), *comparison.labels]
+    rows = [head]
+    for row in comparison.rows:
+        cells = [row.criterion.label(language)]
+        for index, each in enumerate(row.values):
+            mark = f" {MARK}" if index in row.best else "  "
+            cells.append("—  " if each is None else shown(each.value, each.dimension, 5) + mark)
+        rows.append(cells)
+    return rows
+
+
+def ranking(comparison: Comparison, say: Say) -> list[str]:
+    """A line with the score of every alternative, best first, and what decided."""
+    if not comparison.judged:
+        return [say("compare.no_ranking")]
+    lines = []
+    for rank in comparison.ranking:
+        lines.append(say("compare.rank", place=rank.place, label=rank.label, score=f"{100 * rank.score:.0f}"))
+        lines += [f"   {reason}" for reason in _reasons(comparison, rank, say)]
+    return lines
+
+
+def _reasons(comparison: Comparison, rank: Rank, say: Say) -> list[str]:
+    """What an alternative is best in, and what costs it most against the best."""
+    best = _best_in(comparison, rank, say)
+    found = [say("compare.best_in", names=best)] if best else []
+    costly = sorted(
+        (row for row in comparison.judged if row.score(rank.index) < 1.0 - 1e-9),
+        key=lambda row: -row.weight * (1.0 - row.score(rank.index)),
+    )
+    return found + [_against(comparison, row, rank.index, say) for row in costly[:REASONS]]
+
+
+def _against(comparison: Comparison, row: Row, index: int, say: Say) -> str:
+    """How an alternative compares with the best one in a metric."""
+    winner = row.best[0]
+    mine, theirs = row.values[index], row.values[winner]
+    assert mine is not None and theirs is not None
+    ratio = abs(mine.value / theirs.value) if theirs.value else float("inf")
+    return say(
+        "compare.against" if ratio < float("inf") else "compare.against_nothing",
+        name=row.criterion.label(say("compare.language")),
+        mine=told(mine.value, mine.dimension),
+        theirs=told(theirs.value, theirs.dimension),
+        other=comparison.labels[winner],
+        ratio=f"{ratio:.3g}",
+    )
+
+
+def evaluation(comparison: Comparison, language: str = "en") -> str:
+    """A written evaluation."""
+    return "\n".join(sentences(comparison, language))
+
+
+def sentences(comparison: Comparison, language: str) -> list[str]:
+    """Sentences about the motion, the pivot, the torque, the flywheel, and a verdict."""
+    say = speaker(language)
+    subjects = {"motion": _motion}
+    if any(each.loaded for each in comparison.alternatives):
+        subjects |= {"pivot": _pivot, "torque": _torque, "flywheels": _flywheel}
+    found = []
+    for name, part in subjects.items():
+        parts = say("finding.semicolon").join(part(each, say) for each in comparison.alternatives)
+        found.append(say(f"compare.{name}", parts=parts, fluctuation=f"{comparison.fluctuation:g}"))
+    return [*found, *_verdict(comparison, say)]
+
+
+def _motion(each: Alternative, say: Say) -> str:
+    return say(
+        "compare.motion_of",
+        label=each.label,
+        output=str(each.output),
+        travel=_measured(each, "travel") or told(each.way, each.output.dimension),
+        rate=_measured(each, "output_velocity"),
+        second=_measured(each, "output_acceleration"),
+    )
+
+
+def _measured(each: Alternative, name: str) -> str:
+    """A number of the comparison for a sentence; empty where there is none."""
+    found = criterion(name).measure(each)
+    return "" if found is None else told(found.value, found.dimension)
+
+
+def _pivot(each: Alternative, say: Say) -> str:
+    joint, link = each.pivot
+    most, least = (each.analysis.part(f"reaction {joint} on {link} {kind}") for kind in ("max", "min"))
+    force = each.forces_at(most.time).reaction(joint, on=link)[0]
+    if not np.isfinite(force).all():  # on a change point: as it is beside
+        beside = most.time - BESIDE * (each.motion.positions.period or 0.0)
+        force = each.forces_at(beside).reaction(joint, on=link)[0]
+    return say(
+        "compare.pivot_of",
+        label=each.label,
+        joint=joint,
+        most=told(most.value, "force"),
+        least=told(least.value if least.value > PASSING * most.value else 0.0, "force"),
+        direction=told(float(np.arctan2(force[1], force[0])), "angle"),
+        at=told(most.input, each.analysis.input_dimension),
+    )
+
+
+def _torque(each: Alternative, say: Say) -> str:
+    high, low, root = (each.analysis.part(f"input_torque {kind}").value for kind in ("max", "min", "rms"))
+    dimension = "torque" if each.analysis.input_dimension == "angle" else "force"
+    speed = np.abs(next(iter(each.motion.positions.coordinates.values()))[1]).max()
+    gap = float(np.abs(each.forces.power_residual).max() / speed) if speed > 0.0 else 0.0
+    return say(
+        "compare.torque_of",
+        label=each.label,
+        low=told(low, dimension),
+        high=told(high, dimension),
+        root=told(root, dimension),
+        gap=shown(gap, dimension, 2),
+    )
+
+
+def _flywheel(each: Alternative, say: Say) -> str:
+    names = {"inertia": "flywheel", "energy": "energy_fluctuation", "power": "mean_power"}
+    numbers = {word: _measured(each, name) for word, name in names.items()}
+    return say(f"compare.flywheel_{'of' if numbers['inertia'] else 'none'}", label=each.label, **numbers)
+
+
+def _verdict(comparison: Comparison, say: Say) -> list[str]:
+    """Who comes first, by what, and what speaks for the others."""
+    if not comparison.judged:
+        return []
+    first, *others = comparison.ranking
+    names = _best_in(comparison, first, say)
+    lines = [say("compare.first", label=first.label, score=f"{100 * first.score:.0f}", names=names or "—")]
+    for rank in others:
+        names = _best_in(comparison, rank, say)
+        key = "compare.other" if names else "compare.never"
+        lines.append(say(key, label=rank.label, score=f"{100 * rank.score:.0f}", names=names))
+    return lines
+
+
+def _best_in(comparison: Comparison, rank: Rank, say: Say) -> str:
+    """The criteria in which an alternative is best."""
+    best = [
+        row.criterion.label(say("compare.language")) for row in comparison.judged if rank.index in row.best
+    ]
+    return say("finding.comma").join(best)

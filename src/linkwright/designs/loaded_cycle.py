@@ -1,0 +1,185 @@
+"""Machines whose loads and friction are traced over positions, and what these take of the cycles of designs."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from linkwright.core.arrays import Floats, Indices
+from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output, kind_of, owners_of
+from linkwright.cycle.load_limits import FoundLimits, LoadLimits
+from linkwright.cycle.machine import Machine, NotTogether
+from linkwright.designs.traced_outputs import Traced, design_table
+from linkwright.errors import LinkwrightError
+from linkwright.formula.reductions import VALID_COUNT, Results
+from linkwright.formula.trace import Scalar, select
+from linkwright.kinetostatics.friction_stage import can_be_traced
+from linkwright.kinetostatics.load_site import turns_steadily
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
+from linkwright.loads.base import Load
+from linkwright.loads.magnitude import Magnitude
+from linkwright.loads.strokes import TURN
+from linkwright.mechanism.mechanism import Mechanism
+
+#: The output that is the sum of magnitudes which may not exist, and that is 1 where friction is not certain.
+SIZES, RUBBING = "sizes of loads", "doubt of friction"
+
+
+@dataclass(frozen=True)
+class LoadedCycle:
+    """A mechanism whose loads and friction are traced, and the ``limits`` between which these act; None where they
+    need none; ``constants``: numbers that programs take beside dimensions."""
+
+    traced: Traced
+    loads: AlongInput
+    limits: LoadLimits | None
+    constants: Mapping[str, float]
+
+    def solve(self, part: Mapping[str, Floats]) -> FoundLimits | None:
+        """The limits of the designs with the given columns."""
+        return None if self.limits is None else self.limits.solve(part)
+
+    def table(self, names: Sequence[str], part: Mapping[str, Floats], limits: Mapping[str, Floats]) -> Floats:
+        """What a program takes of the designs with the given columns and limits, (designs, names)."""
+        known = {**self.traced.solver.nominal.parameters, **self.constants}
+        return design_table(names, known, {**part, **limits})
+
+    def doubtful(self, results: Results, limits: FoundLimits | None) -> Indices:
+        """Numbers of the designs that pass all positions, but with limits or friction that are not certain, or loads
+        that have no value somewhere."""
+        count = self.traced.positions.count
+        found = doubtful(results, self.loads, count)
+        if limits is None:
+            return found
+        return np.union1d(found, np.flatnonzero(~limits.certain & (results[VALID_COUNT] == count)))
+
+
+def loaded_cycle(traced: Traced, varied: Collection[str], fields: Iterable[str]) -> LoadedCycle | None:
+    """That of the loads and the friction behind a program's inputs per position; None where these cannot be
+    traced, or their limits not be found for many designs at once."""
+    known = along_input(traced, varied, fields, over_time=True)
+    return None if known is None else with_limits(traced, known)
+
+
+def with_limits(traced: Traced, known: AlongInput) -> LoadedCycle | None:
+    """The same with loads that are known; None where the limits cannot be found for many designs at once."""
+    limits = None
+    if known.outputs:
+        phases = [traced.mechanism.loads[name].magnitude.limits for name in sorted(known.names)]
+        try:
+            whole = MotionSignals(traced.nominal).turned
+            machine = Machine(traced.mechanism, whole, traced.solver.manner.free)
+            limits = LoadLimits(machine, [phase for phase in phases if phase is not None])
+        except (NotTogether, LinkwrightError):
+            return None
+    constants = {**known.constants, **({} if limits is None else limits.numbers)}
+    return LoadedCycle(with_loads(traced, known), known, limits, constants)
+
+
+def with_loads(plain: Traced, known: AlongInput) -> Traced:
+    """The same outputs with these loads, and the friction, traced."""
+    if not known.names and not known.rubbing:
+        return plain
+    manner = plain.solver.manner
+    return Traced(
+        plain.mechanism,
+        manner.free,
+        plain.positions,
+        iterations=manner.iterations,
+        along_input=known.names,
+        rubbing=known.rubbing,
+    )
+
+
+def along_input(
+    traced: Traced, varied: Collection[str], fields: Iterable[str], *, over_time: bool = False
+) -> AlongInput | None:
+    """The loads behind a program's inputs per position; None where some input is no load that can be traced.
+
+    Without limits that are found ``over_time`` those between limits only over whole turns of one driver of constant
+    speed.
+    """
+    mechanism, given = traced.mechanism, tuple(fields)
+    rubbing = any(kind_of(name) == "friction" for name in given)
+    if rubbing:
+        given = traced.forces.fields_needed()
+    names = owners_of("magnitude", given)
+    terms = traced.forces.friction.terms if rubbing else ()
+    if len(names) + len(terms) < len(given) or (rubbing and not can_be_traced(traced.forces.friction)):
+        return None
+    if not names:
+        return AlongInput(frozenset(), rubbing=rubbing)
+    loads = [mechanism.loads[name] for name in sorted(names)]
+    sizes = [load.magnitude for load in loads]
+    if not all(each.traceable(mechanism) for each in sizes):
+        return None
+    if not whole_turns(traced, varied) and (
+        any(_needs_turns(each, mechanism, over_time) for each in sizes)
+        or _moves_phases(loads, varied, mechanism)
+    ):
+        return None
+    known = numbers_of_loads(loads, mechanism)
+    signals = MotionSignals(traced.nominal)
+    middles = known.middles(signals) if known.angles else {}
+    if middles is None:
+        return None
+    constants = {**known.constants, **middles}
+    return replace(known, constants=constants, rubbing=rubbing)
+
+
+def _needs_turns(size: Magnitude, mechanism: Mechanism, over_time: bool) -> bool:
+    """Whether the formula of the phase of a load needs whole turns of one driver of constant speed."""
+    if over_time and turns_steadily(mechanism):
+        return False
+    return size.through_end or (size.limits is not None and not over_time)
+
+
+def _moves_phases(loads: Iterable[Load], varied: Iterable[str], mechanism: Mechanism) -> bool:
+    """Whether the laws of drivers vary, which give the times, or the ends of intervals."""
+    begins = (*(f"{name}." for name in mechanism.drivers), *(f"loads.{load.name}.phase." for load in loads))
+    return any(address.startswith(begins) for address in varied)
+
+
+def friction_doubt(traced: Traced) -> Scalar:
+    """1 where the traced friction is not certain, as a traced value."""
+    friction = traced.forces.programs.friction
+    return 0.0 if friction is None else select(friction.certain, 0.0, 1.0)
+
+
+def doubts(traced: Traced, loads: AlongInput) -> dict[str, Scalar]:
+    """Traced values whose sums tell where loads have no value, and where friction is not certain."""
+    found: dict[str, Scalar] = {}
+    if loads.fallible:
+        found[SIZES] = loads.sizes(traced.solver.motion)
+    if loads.rubbing:
+        found[RUBBING] = friction_doubt(traced)
+    return found
+
+
+def doubtful(results: Results, loads: AlongInput, count: int, limits: Iterable[Output] = ()) -> Indices:
+    """Numbers of the designs that pass all ``count`` positions, but with limits or friction that are not certain, or
+    loads that have no value somewhere."""
+    doubt = np.zeros(len(results[VALID_COUNT]))
+    for each in limits:
+        doubt += results[f"doubt:{each}"]
+    if loads.fallible:
+        doubt += 0.0 * results[SIZES]
+    if loads.rubbing:
+        doubt += results[RUBBING]
+    doubt[results[VALID_COUNT] != count] = 0.0
+    return np.flatnonzero(~(doubt == 0.0))
+
+
+def whole_turns(traced: Traced, varied: Iterable[str] = ()) -> int:
+    """Of how many turns of the only driver the cycle is, closed and of constant speed, whatever varies; else 0."""
+    drivers = list(traced.mechanism.drivers.values())
+    speed = drivers[0].law.constant_speed if len(drivers) == 1 else None
+    if speed is None or not traced.positions.closed or not traced.positions.rotary[drivers[0].name]:
+        return 0
+    turns = abs(speed) * (traced.positions.period or 0.0) / TURN
+    steady = abs(turns - round(turns)) * TURN <= 1e-9 and f"{drivers[0].name}.speed" not in set(varied)
+    return round(turns) if steady else 0

@@ -1,0 +1,246 @@
+"""Objectives of designs: value and exact gradient of weighted summaries and path errors, for one design and many."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.core.arrays import Floats
+from linkwright.core.dataclass import dataclass
+from linkwright.core.given import one_of, require
+from linkwright.core.outputs import Output
+from linkwright.designs.design_numbers import Numbers
+from linkwright.designs.objective_terms import PathError, Terms, number_of_points, weighted
+from linkwright.designs.over_positions import Builder
+from linkwright.designs.varied_dimensions import checked_addresses, refuse_moved_positions
+from linkwright.errors import RequestError
+from linkwright.formula.machine_code import available
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.summaries import BACKENDS, Backend
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.positions import at_inputs
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.hulls_of_designs import hulls_of_designs, swept
+from linkwright.metrics.of_designs import numbers_of_designs, refuse_unsteady
+from linkwright.metrics.ranges_of_designs import ranged, ranges_of_designs
+from linkwright.metrics.terms import refuse_obstacle
+from linkwright.metrics.wanted import is_metric
+from linkwright.words.sentence import Sentence
+
+
+class Part(Protocol):
+    """Some terms of an objective, that depend on the dimensions ``names``."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Dimensions that it depends on."""
+        ...
+
+    def many(self, columns: Mapping[str, Floats], threads: int | None) -> tuple[Floats, Floats]:
+        """Values (designs,) and gradients (designs, names)."""
+        ...
+
+    def values(self, columns: Mapping[str, Floats], threads: int | None) -> Floats:
+        """Values (designs,)."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class OverMetrics:
+    """Registered design numbers with their weights."""
+
+    names: tuple[str, ...]
+    cycle: Numbers
+    weights: Mapping[str, float]
+    backend: Backend
+
+    def many(self, columns: Mapping[str, Floats], threads: int | None) -> tuple[Floats, Floats]:
+        """Values (designs,) and gradients (designs, names)."""
+        values, slopes = self.cycle.gradients(
+            [self.weights], columns, self.names, threads=threads, backend=self.backend
+        )
+        return values[0], slopes[0]
+
+    def values(self, columns: Mapping[str, Floats], threads: int | None) -> Floats:
+        """Values (designs,)."""
+        found = self.cycle.evaluate(columns, threads=threads, backend=self.backend)
+        total = sum(weight * found.values[name] for name, weight in self.weights.items())
+        return np.where(found.certain, total, np.nan)
+
+
+class Objective:
+    """A function of dimensions with its exact gradient; made by :func:`objective`.
+
+    ``names``: the dimensions; ``start`` (k,): their values in the mechanism, SI. Called with (k,) values it gives
+    the value and the gradient (k,), as ``scipy.optimize.minimize(f, f.start, jac=True)`` takes them; :meth:`many`
+    does the same for (designs, k). NaN where a design does not pass its cycle.
+    """
+
+    def __init__(self, names: tuple[str, ...], start: Floats, parts: Sequence[Part]) -> None:
+        self.names = names
+        self.start: Floats = start
+        self._parts = tuple(parts)
+
+    def __call__(self, values: ArrayLike) -> tuple[float, Floats]:
+        """Value and gradient (k,) of one design."""
+        one: Any = [values]
+        found, gradient = self.many(one)
+        return float(found[0]), gradient[0]
+
+    def many(self, values: ArrayLike, *, threads: int | None = 1) -> tuple[Floats, Floats]:
+        """Values (designs,) and gradients (designs, k) of many designs (designs, k)."""
+        columns, places = self._columns(values), {name: place for place, name in enumerate(self.names)}
+        count = len(columns[self.names[0]])
+        total, gradient = np.zeros(count), np.zeros((count, len(self.names)))
+        for part in self._parts:
+            found, slopes = part.many(columns, threads)
+            total += found
+            gradient[:, [places[name] for name in part.names]] += slopes
+        gradient[np.isnan(total)] = np.nan
+        return total, gradient
+
+    def values(self, values: ArrayLike, *, threads: int | None = 1) -> Floats:
+        """Values (designs,) alone of many designs (designs, k), for searches without gradients."""
+        columns = self._columns(values)
+        return np.asarray(sum(part.values(columns, threads) for part in self._parts))
+
+    def _columns(self, values: ArrayLike) -> dict[str, Floats]:
+        try:
+            given = np.asarray(values, dtype=float)
+        except (TypeError, ValueError):
+            raise RequestError("study.objective_numbers", names=self.names, given=repr(values)[:60]) from None
+        if given.ndim != 2 or given.shape[1] != len(self.names):
+            raise RequestError("study.objective_shape", names=self.names, shape=str(np.shape(values)))
+        return dict(zip(self.names, given.T, strict=True))
+
+    def __repr__(self) -> str:
+        return f"Objective({', '.join(self.names)})"
+
+
+def objective(
+    mechanism: Mechanism,
+    terms: Terms,
+    *,
+    vary: Iterable[str],
+    steps: int = 360,
+    at: ArrayLike | None = None,
+    backend: Backend = "auto",
+) -> Objective:
+    """A weighted sum of summaries over the cycle and of path errors, as a function of some dimensions.
+
+    Args:
+        mechanism: the design to start from; its assembly modes hold for all.
+        terms: design numbers (``"peak_reaction O5"``, ``"rms_input_torque"``, those of :func:`metrics`, exact between
+            positions), summaries such as ``"driver.effort rms"`` (see :func:`sweep`; kinds min, max, mean, rms,
+            range, peak), and :class:`PathError`; several with their weights in a mapping.
+        vary: addresses of dimensions, or names of parameters.
+        steps: positions over the cycle; a path error sets them itself.
+        at: inputs of the first driver, rad or m, instead of the cycle.
+        backend: ``numpy``, ``llvm`` (compiled once, in some tenths of a second), or ``auto``: that where llvmlite is.
+
+    Extremes of summaries are those of the positions; loads are included, limit positions with their derivatives;
+    friction too, NaN where it is near locking.
+
+    Raises:
+        LinkwrightError: unknown names; the friction and loads that :func:`sweep` finds design by design; positions
+            too far apart to count the turns of a link that a dyad places and a wheel follows.
+    """
+    require(mechanism, Mechanism)
+    one_of("backend", backend, BACKENDS)
+    names = checked_addresses(mechanism, vary)
+    if not names:
+        raise RequestError("study.nothing_varied")
+    given = weighted(terms)
+    numbers = {term: weight for term, weight in given.items() if isinstance(term, str) and is_metric(term)}
+    others = {term: weight for term, weight in given.items() if term not in numbers}
+    compiled: Backend = "llvm" if backend == "auto" and available() else backend
+    parts: list[Part] = []
+    hulls = {name: weight for name, weight in numbers.items() if swept(name, mechanism)}
+    ranges = {name: weight for name, weight in numbers.items() if ranged(name)}
+    formulas = {name: weight for name, weight in numbers.items() if name not in {*hulls, *ranges}}
+    parts += [of_metrics(mechanism, names, each, steps, compiled) for each in (hulls, ranges) if each]
+    if formulas:
+        parts.append(of_metrics(mechanism, names, formulas, steps, compiled))
+    if others:
+        parts.append(_of_positions(mechanism, names, others, steps, at, compiled))
+    idle = [name for name in names if not any(name in part.names for part in parts)]
+    if idle:
+        raise RequestError("study.objective_idle", names=tuple(idle))
+    known = mechanism.dimensions()
+    return Objective(names, np.array([known[name] for name in names]), parts)
+
+
+def of_metrics(
+    mechanism: Mechanism, names: tuple[str, ...], weights: Mapping[str, float], steps: int, backend: Backend
+) -> Part:
+    """The weighted sum of registered metrics, all of them areas of hulls, or ranges of motion, or none; raises
+    RequestError where it has no gradient."""
+    if (ranges := ranges_of_designs(mechanism, names, weights)) is not None:
+        return OverMetrics(ranges.dimensions, ranges, weights, backend)
+    if any(swept(name, mechanism) for name in weights):
+        hulls = hulls_of_designs(mechanism, names, weights)
+        if hulls is None:
+            raise RequestError("study.objective_swept", names=tuple(weights), name=mechanism.name)
+        return OverMetrics(hulls.dimensions, hulls, weights, backend)
+    cycle = numbers_of_designs(mechanism, names, weights, steps=steps)
+    if cycle is None:
+        raise RequestError(_refusal(mechanism, steps))
+    missing = [name for name in weights if name not in {term.name for term in cycle.terms}]
+    if missing:
+        raise RequestError("study.objective_metric", names=tuple(missing), name=mechanism.name)
+    for name in weights:
+        refuse_obstacle(name, cycle.analysis)
+    refuse_unsteady(cycle)
+    own = tuple(name for name in names if name in cycle.dimensions)
+    return OverMetrics(own, cycle, weights, backend)
+
+
+def _refusal(mechanism: Mechanism, steps: int) -> Sentence:
+    """Why design numbers of a mechanism have no gradient."""
+    signals = MotionSignals(solve_motion(mechanism, steps=steps))
+    for name, load in mechanism.loads.items():
+        output = load.reverses(mechanism)
+        count = len(signals.limits(output)) if isinstance(output, Output) else 0
+        if count > 2:
+            values = {"load": name, "output": output, "count": count}
+            return Sentence("study.objective_reverses", name=mechanism.name, **values)
+    return Sentence("study.objective_loads", name=mechanism.name)
+
+
+def of_path(mechanism: Mechanism, names: tuple[str, ...], path: PathError, backend: Backend) -> Part:
+    """A path error over the cycle, kept for the machine; ``names`` on which it does not depend are left out."""
+    target = np.array(path.target, dtype=float)
+    key = (names, path.point, target.shape, target.tobytes(), backend)
+    made = replace(path, target=target)
+    return _paths.get(mechanism, key, lambda: _of_positions(mechanism, names, {made: 1.0}, 0, None, backend))
+
+
+_paths: Recent[Mechanism, Part] = Recent(16)
+
+
+def _of_positions(
+    mechanism: Mechanism,
+    names: tuple[str, ...],
+    given: dict[str | PathError, float],
+    steps: int,
+    at: ArrayLike | None,
+    backend: Backend,
+) -> Part:
+    points = number_of_points(given)
+    positions = at_inputs(mechanism, at) if at is not None else over_cycle(mechanism, points or steps)
+    if not positions.count:
+        raise RequestError("motion.no_positions")
+    if points and positions.count != points:
+        raise RequestError("study.objective_count", points=points, positions=positions.count)
+    known = mechanism.dimensions()
+    if at is None:
+        refuse_moved_positions(
+            mechanism, positions, {name: np.array([1.001 * known[name] or 1e-3]) for name in names}
+        )
+    return Builder(mechanism, names, positions, given).built(backend)

@@ -1,0 +1,341 @@
+"""Values of everything that a problem asks, for many designs at once, and their exact gradients."""
+
+from __future__ import annotations
+
+import pickle
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from linkwright import units
+from linkwright.core.arrays import Floats
+from linkwright.core.expressions import Expression, parse
+from linkwright.cycle.summary import one
+from linkwright.designs.alternatives import Alternative
+from linkwright.designs.cluster import current, in_turn
+from linkwright.designs.criteria import criterion
+from linkwright.designs.design_numbers import Numbers, side_by_side
+from linkwright.designs.finished_parts import identity, surrounding
+from linkwright.designs.optimise.paths import PathErrors
+from linkwright.designs.optimise.problem import Problem
+from linkwright.designs.varied_dimensions import refuse_moved_positions
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.formula.machine_code import available
+from linkwright.formula.summaries import Backend
+from linkwright.formula.trace import Scalar
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.base import Number
+from linkwright.metrics.evaluate import unloaded
+from linkwright.metrics.of_designs import NumbersOfDesigns
+from linkwright.metrics.outputs import mechanism_outputs, usual_output
+from linkwright.metrics.terms import OWN, Asked, Term, metric_of
+from linkwright.metrics.wanted import is_summary, wanted
+from linkwright.units import powers
+
+#: Designs that a worker of a cluster takes at a time where they go one by one.
+FEW = 4
+#: What is meant for one number, not for an expression.
+_WORDS = re.compile(r"[^\W\d][\w.]*( [\w.]+)*")
+
+
+class Measures:
+    """The quantities of a problem: texts of goals and demands, each a design number or an expression of some.
+
+    ``side_by_side``: designs go together, with exact gradients; else one after the other, without. ``judged``: the
+    numbers of these by the values of the addresses, in the order of the problem's.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem, self.mechanism = problem, problem.mechanism
+        texts = dict.fromkeys(
+            [*(each.text for each in problem.goals), *(each.text for each in problem.demands)]
+        )
+        self.expressions = {text: self._expression(text) for text in texts}
+        self.numbers = tuple(dict.fromkeys(
+            name for _, names in self.expressions.values() for name in names.values()
+            if name not in self._dimensions and name not in problem.paths
+        ))  # fmt: skip
+        heaviest = {each.address: each.high for each in problem.variables}
+        if (missing := unloaded(self.mechanism.with_dimensions(heaviest), self.numbers)) is not None:
+            raise RequestError(missing)
+        self.cycles = [] if self._moves_positions() else self._cycles()
+        self.side_by_side = bool(self.cycles) or not self.numbers
+        self.passing = [] if self.numbers or self._moves_positions() else self._whole_cycle()
+        self.backend: Backend = "llvm" if available() else "numpy"
+        self.paths = PathErrors(self.mechanism, problem.addresses, problem.paths, self.backend)
+        self.evaluations = 0
+        self.judged: dict[tuple[float, ...], tuple[float, ...]] = {}
+
+    @cached_property
+    def _dimensions(self) -> Mapping[str, float]:
+        return self.mechanism.dimensions()
+
+    def _expression(self, text: str) -> tuple[Expression | None, dict[str, str]]:
+        """An expression with the design numbers of its names; None for a number that stands alone."""
+        paths = self.problem.paths
+        given = text if text in paths else str(self.problem.define.get(text, text))
+        if self._is_number(given):
+            return None, {"": given}
+        defined = {name: name if name in paths else str(value) for name, value in self.problem.define.items()}
+        known = [*defined, *self.mechanism.parameters]
+        if _WORDS.fullmatch(given) and given not in known:
+            criterion(given)  # raises, and offers the nearest
+        found = parse(text, known)
+        names = {name: defined.get(name, name) for name in found.names}
+        for name in names.values():
+            if not self._is_number(name):
+                raise RequestError("optimize.no_number", text=name)
+        if not names:
+            raise RequestError("optimize.no_number", text=text)
+        for name in set(names.values()) & set(self._dimensions):
+            if name in self.mechanism.expressions and name not in self.problem.addresses:
+                raise RequestError("optimize.derived", name=name)
+        return found, names
+
+    def _is_number(self, name: str) -> bool:
+        if is_metric(name) or name in self._dimensions or name in self.problem.paths:
+            return True
+        if is_summary(name):
+            wanted([name])
+            return True
+        try:
+            criterion(name)
+        except RequestError:
+            return False
+        return True
+
+    def _moves_positions(self) -> bool:
+        """Whether designs have cycles of their own, as with numbers of teeth."""
+        extremes = {each.address: np.array([each.low, each.high]) for each in self.problem.variables}
+        try:
+            refuse_moved_positions(self.mechanism, over_cycle(self.mechanism, self.problem.steps), extremes)
+        except RequestError:
+            return True
+        return False
+
+    # many designs ------------------------------------------------------------------------------------
+    def _cycles(self) -> list[Numbers]:
+        """What finds all numbers of all designs at once; none where some are found one by one."""
+        found = self._side_by_side(self.numbers) if self.numbers else []
+        return found if {term.name for each in found for term in each.terms} == set(self.numbers) else []
+
+    def _whole_cycle(self) -> list[Numbers]:
+        """What tells which designs pass the whole cycle where no number of the problem does."""
+        moves = mechanism_outputs(self.mechanism)
+        return self._side_by_side([f"{self._asked.output.name} max"]) if moves else []
+
+    def _side_by_side(self, numbers: Iterable[str]) -> list[Numbers]:
+        terms, problem = [self._term(name) for name in numbers], self.problem
+        return side_by_side(self.mechanism, problem.addresses, terms, self._asked, steps=problem.steps)
+
+    def _where_they_pass(self, values: dict[str, Floats], columns: Mapping[str, Floats]) -> dict[str, Floats]:
+        """Values of every text, NaN where a design does not pass the whole cycle."""
+        for each in self.passing:
+            with np.errstate(all="ignore"):
+                seen = each.evaluate(columns, backend=self.backend)
+            passes = seen.certain & np.isfinite([*seen.values.values()]).all(axis=0)
+            values = {text: np.where(passes, value, np.nan) for text, value in values.items()}
+        return values
+
+    def _term(self, name: str) -> str | Term:
+        if is_metric(name) or not is_summary(name):
+            return name
+        (summary,) = wanted([name])[:1]
+        return Term(name, (Number("", (summary.name,), _itself),), "")
+
+    def dimension(self, text: str) -> units.Dimension:
+        """The dimension of a quantity."""
+        expression, names = self.expressions[text]
+        kinds = {name: self._kind(number) for name, number in names.items()}
+        return kinds[""] if expression is None else expression.dimension(kinds)
+
+    def _kind(self, name: str) -> units.Dimension:
+        from linkwright.designs.ranges import dimension_of
+
+        if name in self.paths:
+            return units.DIMENSIONS["area"]
+        if name in self._dimensions:
+            return dimension_of(self.mechanism, name) or units.NONE
+        for cycle, term in ((each, term) for each in self.cycles for term in each.terms if term.name == name):
+            if term.dimension or not isinstance(cycle, NumbersOfDesigns):
+                return powers(term.dimension)
+            summary = one(term.parts[0])
+            angle = summary.kind in ("argmin", "argmax")
+            return powers("angle" if angle else cycle.dimension_of(summary.output))
+        found = criterion(name).measure(self._alternative(self.mechanism))
+        if found is None and not is_summary(name):
+            metric = metric_of(name)
+            return powers(OWN[name][0] if metric is None else metric[0].dimension)
+        return powers(found.dimension) if found is not None else units.NONE
+
+    def __call__(self, columns: Mapping[str, Floats]) -> dict[str, Floats]:
+        """Values (designs,) of every text, by columns (designs,) of addresses; NaN where a design does not move."""
+        count = len(next(iter(columns.values())))
+        self.evaluations += count
+        found = self._found(columns, count) | self._held(columns, count) | self.paths.values(columns)
+        values = {text: self._combined(text, found) for text in self.expressions}
+        return self._where_they_pass(values, columns)
+
+    def _found(self, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
+        if not self.numbers:
+            return {}
+        if self.cycles:
+            with np.errstate(all="ignore"):
+                seen = [cycle.evaluate(columns, backend=self.backend) for cycle in self.cycles]
+            return {name: np.where(s.certain, v, np.nan) for s in seen for name, v in s.values.items()}
+        designs = [*zip(*(column.tolist() for column in columns.values()), strict=True)]
+        kept = surrounding()
+        there = {each: kept and kept.part(identity(*each)) for each in designs if each not in self.judged}
+        self.judged |= {each: part[0] for each, part in there.items() if part}
+        for each, numbers in self._measured(
+            tuple(columns), [each for each, part in there.items() if not part]
+        ):
+            self.judged[each] = numbers
+            if kept is not None:
+                kept.add(identity(*each), numbers)
+        rows = [self.judged[each] for each in designs]
+        return {name: np.array([row[k] for row in rows]) for k, name in enumerate(self.numbers)}
+
+    def measured(self, dimensions: dict[str, float]) -> tuple[float, ...]:
+        """Numbers of one design, by its dimensions alone; NaN where it has none or does not move."""
+        try:
+            each = self._alternative(self.mechanism.with_dimensions(dimensions))
+        except LinkwrightError:
+            return (np.nan,) * len(self.numbers)
+        return tuple(_number(name, each) for name in self.numbers)
+
+    def _measured(
+        self, addresses: tuple[str, ...], designs: list[tuple[float, ...]]
+    ) -> Iterator[tuple[tuple[float, ...], tuple[float, ...]]]:
+        """Designs with their numbers, one by one, or a few of them at a time on a cluster."""
+        client = current()
+        if client is None or len(designs) < 2:
+            for each in designs:
+                yield each, self.measured(dict(zip(addresses, each, strict=True)))
+            return
+        parts = [designs[first : first + FEW] for first in range(0, len(designs), FEW)]
+        tasks = [(self._pickled, addresses, part) for part in parts]
+        for number, found in in_turn(client, _designs, tasks):
+            yield from zip(parts[number], found, strict=True)
+
+    @cached_property
+    def _pickled(self) -> bytes:
+        return pickle.dumps(self.problem)
+
+    def _alternative(self, design: Mechanism) -> Alternative:
+        asked = self._asked
+        return Alternative(design.name, design, asked.output, self.problem.steps, asked.fluctuation)
+
+    @cached_property
+    def _asked(self) -> Asked:
+        """The output whose travel counts, and δ."""
+        return Asked(usual_output(self.mechanism), self.problem.fluctuation)
+
+    def _held(self, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
+        """Dimensions that stand in expressions."""
+        names = {
+            name
+            for _, each in self.expressions.values()
+            for name in each.values()
+            if name in self._dimensions
+        }
+        return {name: columns.get(name, np.full(count, self._dimensions[name])) for name in names}
+
+    def _combined(self, text: str, found: Mapping[str, Floats]) -> Floats:
+        expression, names = self.expressions[text]
+        if expression is None:
+            return found[names[""]]
+        with np.errstate(all="ignore"):
+            return np.asarray(expression.over({n: found[m] for n, m in names.items()}))
+
+    # gradients ---------------------------------------------------------------------------------------
+    def with_slopes(
+        self, columns: Mapping[str, Floats], by: tuple[str, ...]
+    ) -> tuple[dict[str, Floats], dict[str, Floats]]:
+        """Values (designs,) of every text and gradients (designs, k) by the addresses ``by``, from columns."""
+        count = len(next(iter(columns.values())))
+        self.evaluations += count
+        found, slopes = dict(self._held(columns, count)), {}
+        for name in found:
+            slopes[name] = np.tile([1.0 if address == name else 0.0 for address in by], (count, 1))
+        for name in self.paths.parts:
+            found[name], slopes[name] = self.paths.with_slopes(name, columns, by)
+        for cycle in self.cycles:
+            names = [each.name for each in cycle.terms]
+            numbers, gradients = self._numbers_with_slopes(cycle, names, columns, by)
+            found |= zip(names, numbers, strict=True)
+            slopes |= zip(names, gradients, strict=True)
+        values = {text: self._combined(text, found) for text in self.expressions}
+        slopes = {text: self._chained(text, found, slopes) for text in self.expressions}
+        return self._where_they_pass(values, columns), slopes
+
+    def curvatures(self, text: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats | None:
+        """Curvature (designs, k, k) of a path error that stands alone, by the addresses ``by``; None: not known."""
+        expression, names = self.expressions[text]
+        path = names[""] if expression is None else ""
+        return self.paths.curvatures(path, columns, by) if path in self.paths else None
+
+    def _chained(self, text: str, found: Mapping[str, Floats], slopes: Mapping[str, Floats]) -> Floats:
+        """The gradient of an expression from those of its numbers."""
+        expression, names = self.expressions[text]
+        if expression is None:
+            return slopes[names[""]]
+        values = {name: found[number] for name, number in names.items()}
+        total = np.zeros_like(next(iter(slopes.values())))
+        for name, number in names.items():
+            (rate,) = expression.derivatives(values, name)
+            total = total + rate[:, None] * slopes[number]
+        return total
+
+    def _numbers_with_slopes(
+        self,
+        cycle: Numbers,
+        names: list[str],
+        columns: Mapping[str, Floats],
+        by: tuple[str, ...],
+    ) -> tuple[Floats, Floats]:
+        """Values (numbers, designs) and gradients (numbers, designs, k) of design numbers that a cycle finds."""
+        own = [k for k, address in enumerate(by) if address in cycle.dimensions]
+        asked, mine = [{name: 1.0} for name in names], [by[k] for k in own]
+        with np.errstate(all="ignore"):
+            values, part = cycle.gradients(asked, columns, mine, backend=self.backend)
+        slopes = np.zeros((*values.shape, len(by)))
+        slopes[:, :, own] = part
+        return values, slopes
+
+
+def _designs(
+    pickled: bytes, addresses: tuple[str, ...], designs: list[tuple[float, ...]]
+) -> list[tuple[float, ...]]:
+    """Numbers of some designs, on a worker of a cluster."""
+    measures = _of_problem(pickled)
+    return [measures.measured(dict(zip(addresses, each, strict=True))) for each in designs]
+
+
+@lru_cache(2)
+def _of_problem(pickled: bytes) -> Measures:
+    """Made once for all designs of a search."""
+    return Measures(pickle.loads(pickled))
+
+
+def _number(name: str, each: Alternative) -> float:
+    """A number of a design; NaN where it has none."""
+    try:
+        found = criterion(name).measure(each)
+    except RequestError:
+        raise
+    except LinkwrightError:
+        return np.nan
+    return np.nan if found is None else float(found.value)
+
+
+def is_metric(name: str) -> bool:
+    """Whether a name means a design number, not a summary of the output of the same name."""
+    return name in OWN or (metric_of(name) is not None and not is_summary(name))
+
+
+def _itself(value: Scalar) -> Scalar:
+    return value

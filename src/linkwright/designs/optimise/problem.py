@@ -1,0 +1,339 @@
+"""What is optimised: variables within bounds, objectives, and what must be kept."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import field
+from typing import Any, Literal
+
+import numpy as np
+
+from linkwright import units
+from linkwright.core.arrays import Floats
+from linkwright.core.dataclass import dataclass
+from linkwright.designs.objective_terms import PathError
+from linkwright.designs.optimise.paths import path_error
+from linkwright.designs.ranges import Range, parse_range
+from linkwright.designs.varied_dimensions import between, checked_addresses, gives_part_of_tooth
+from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
+from linkwright.files.write import flow
+from linkwright.machine.flywheel import FLUCTUATION
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.registry import offered
+from linkwright.words.sentence import Sentence
+
+Robust = Literal["", "worst", "yield"]
+SETTINGS = (
+    "vary", "minimize", "maximize", "keep", "define", "tolerance", "robust", "yield", "fluctuation", "steps",
+    "evaluations", "population", "seed",
+)  # fmt: skip
+_SPAN = re.compile(r"^(?P<low>.+?)\s*\.\.\s*(?P<high>.+)$")
+_NUMBER = re.compile(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$")
+
+
+@dataclass(frozen=True, eq=False)
+class Variable:
+    """A dimension between ``low`` and ``high``, SI; ``choices``: the values that it may have, None for all."""
+
+    address: str
+    low: float
+    high: float
+    choices: Floats | None = None
+    unit: str = ""
+
+    @property
+    def si(self) -> str:
+        """The SI unit of its values."""
+        return units.si_symbol(units.unit(self.unit)[1]) if self.unit else ""
+
+    def shown(self, value: float) -> str:
+        """A value in the unit of the bounds."""
+        factor = units.unit(self.unit)[0] if self.unit else 1.0
+        return f"{value / factor:.6g}{' ' if self.unit else ''}{self.unit}"
+
+    def allowed(self, values: Floats) -> Floats:
+        """The nearest allowed values."""
+        if self.choices is None:
+            return np.clip(values, self.low, self.high)
+        middles = (self.choices[1:] + self.choices[:-1]) / 2
+        return np.asarray(self.choices[np.searchsorted(middles, values)])
+
+
+@dataclass(frozen=True)
+class Goal:
+    """A quantity to be made small (``sign`` 1) or large (-1)."""
+
+    text: str
+    sign: float
+
+
+@dataclass(frozen=True)
+class Demand:
+    """A quantity that must stay between two values; ``same``: within this of the start (``share``: of its value).
+
+    Texts of values have units and are read when the quantity's dimension is known.
+    """
+
+    text: str
+    low: str = ""
+    high: str = ""
+    same: str | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """All of it; ``paths``: path errors by name; ``tolerances``: ± of dimensions, SI."""
+
+    mechanism: Mechanism
+    variables: tuple[Variable, ...]
+    goals: tuple[Goal, ...]
+    demands: tuple[Demand, ...] = ()
+    define: Mapping[str, str] = field(default_factory=dict)
+    paths: Mapping[str, PathError] = field(default_factory=dict)
+    tolerances: Mapping[str, float] = field(default_factory=dict)
+    robust: Robust = ""
+    least_yield: float = 0.99
+    fluctuation: float = FLUCTUATION
+    steps: int = 360
+    evaluations: int = 4000
+    population: int = 0
+    seed: int = 0
+
+    @property
+    def addresses(self) -> tuple[str, ...]:
+        """Dimensions that vary, with those that have tolerances."""
+        return tuple(dict.fromkeys([*(each.address for each in self.variables), *self.tolerances]))
+
+    @property
+    def start(self) -> Floats:
+        """The variables of the mechanism as it is."""
+        return np.array([self.mechanism.dimension(each.address) for each in self.variables])
+
+
+def problem(mechanism: Mechanism, given: Mapping[str, Any], source: str = "") -> Problem:
+    """A problem from the section ``optimize`` or the arguments of :func:`optimize`.
+
+    Raises ModelError with all findings.
+    """
+    return _Reading(mechanism, given, source or mechanism.name).problem()
+
+
+class _Reading:
+    """Reads the settings and collects what is wrong with them."""
+
+    def __init__(self, mechanism: Mechanism, given: Mapping[str, Any], source: str) -> None:
+        self.mechanism, self.given, self.source = mechanism, given, source
+        self.findings: list[Finding] = []
+
+    def problem(self) -> Problem:
+        for key in self.given:
+            if key not in SETTINGS:
+                self._wrong(
+                    key, Sentence("optimize.unknown", key_=key, hint=offered(key, SETTINGS)), "unknown-key"
+                )
+        variables = self._variables()
+        define, paths = self._defined()
+        goals = [
+            Goal(text, sign)
+            for key, sign in (("minimize", 1.0), ("maximize", -1.0))
+            for text in self._texts(key, paths)
+        ]
+        if not goals:
+            self._wrong("minimize", Sentence("optimize.no_goal"), "no-goal")
+        sought = [goal.text.strip() for goal in goals]
+        for text in sorted({each for each in sought if sought.count(each) > 1}):
+            self._wrong("maximize", Sentence("optimize.goal_twice", text=text), "goal-twice")
+        demands = self._demands()
+        tolerances = self._tolerances()
+        robust = str(self.given.get("robust") or "")
+        if robust not in ("", "worst", "yield"):
+            self._wrong("robust", Sentence("optimize.robust", given=robust), "unknown-word")
+        if robust and not tolerances:
+            self._wrong("tolerance", Sentence("optimize.no_tolerance"), "no-tolerance")
+        numbers = {key: self._number(key, usual) for key, usual in _USUAL.items()}
+        if self.findings:
+            raise ModelError(self.findings)
+        kind: Robust = "worst" if robust == "worst" else "yield" if robust else ""
+        return Problem(
+            self.mechanism, tuple(variables), tuple(goals), tuple(demands), define, paths, tolerances, kind,
+            numbers["yield"], numbers["fluctuation"], int(numbers["steps"]), int(numbers["evaluations"]),
+            int(numbers["population"]), int(numbers["seed"]),
+        )  # fmt: skip
+
+    def _wrong(self, key: str, told: str, code: str) -> None:
+        self.findings.append(Finding("error", self.source, f"optimize.{key}", told, code=code))
+
+    def _mapping(self, key: str) -> dict[str, Any]:
+        value = self.given.get(key) or {}
+        if not isinstance(value, Mapping):
+            self._wrong(key, Sentence("optimize.mapping", key_=key), "type")
+            return {}
+        return {str(name): each for name, each in value.items()}
+
+    def _defined(self) -> tuple[dict[str, str], dict[str, PathError]]:
+        """Texts and path errors by name."""
+        texts, paths = {}, {}
+        for name, value in self._mapping("define").items():
+            try:
+                path = path_error(value)
+            except LinkwrightError as error:
+                self._wrong(f"define.{name}", error.sentence, error.code)
+                continue
+            if path is None:
+                texts[name] = value if isinstance(value, str) else flow(value)
+            else:
+                paths[name] = path
+        return texts, paths
+
+    def _texts(self, key: str, paths: dict[str, PathError]) -> list[str]:
+        """Numbers by name; a path error that stands alone gets one."""
+        value = self.given.get(key) or []
+        found: list[str] = []
+        for each in (
+            [value] if isinstance(value, (str, PathError)) or not isinstance(value, Iterable) else value
+        ):
+            if isinstance(each, PathError):
+                found.append(f"path_error_{len(paths) + 1}" if paths else "path_error")
+                paths[found[-1]] = each
+            elif isinstance(each, str):
+                found.append(each)
+            else:
+                self._wrong(key, Sentence("optimize.texts", key_=key), "type")
+                return []
+        return found
+
+    def _number(self, key: str, usual: float) -> float:
+        value = self.given.get(key, usual)
+        try:
+            found = float(value)
+        except (TypeError, ValueError, OverflowError):
+            found = float("nan")
+        low = 0.0 if key in ("seed", "population") else 1.0 if key in ("steps", "evaluations") else 1e-12
+        high = 1.0 if key in ("yield", "fluctuation") else 1e6 if key in ("steps", "population") else 1e9
+        if not low <= found <= high:
+            self._wrong(
+                key, Sentence("optimize.number", key_=key, given=flow(value), low=low, high=high), "range"
+            )
+        return found
+
+    def _variables(self) -> list[Variable]:
+        found = []
+        for address, value in self._mapping("vary").items():
+            try:
+                checked_addresses(self.mechanism, [address])
+                found.append(self._variable(address, value))
+            except LinkwrightError as error:
+                self._wrong(f"vary.{address}", error.sentence, error.code)
+        if not found and not self.findings:
+            self._wrong("vary", Sentence("study.nothing_varies"), "nothing-varies")
+        return found
+
+    def _variable(self, address: str, value: Any) -> Variable:
+        if isinstance(value, Mapping) and set(value) <= {"values", "whole"} and len(value) == 1:
+            ((key, inner),) = value.items()
+            text = ", ".join(map(str, inner)) if isinstance(inner, (list, tuple)) else str(inner)
+            found = parse_range(self.mechanism, address, text)
+            if key == "whole":
+                _rising(found)
+            choices = np.unique(found.values)
+            if key == "whole":
+                choices = np.arange(np.ceil(found.low), np.floor(found.high) + 1)
+            if len(choices) < 1:
+                raise RequestError("optimize.no_choice", address=address)
+            return Variable(address, float(choices[0]), float(choices[-1]), choices, found.unit)
+        if (
+            isinstance(value, (list, tuple))
+            and len(value) == 2
+            and any(isinstance(each, str) for each in value)
+        ):
+            value = f"{value[0]}..{value[1]}"
+        if isinstance(value, (int, float)):
+            value = str(value)
+        if not isinstance(value, str):
+            try:
+                value = np.array(value, float)
+            except (TypeError, ValueError):
+                raise RequestError("optimize.no_bounds", address=address, given=flow(value)) from None
+        found = parse_range(self.mechanism, address, value)
+        if len(found.values) > 2 and not (isinstance(value, str) and ".." in value):
+            return Variable(address, found.low, found.high, np.unique(found.values), found.unit)
+        _rising(found)
+        if not found.low < found.high:
+            raise RequestError("optimize.bounds", address=address)
+        if gives_part_of_tooth(self.mechanism, address, between(found)):
+            low, high = math.ceil(found.low), math.floor(found.high)
+            raise RequestError("optimize.whole_teeth", address=address, low=low, high=high)
+        return Variable(address, found.low, found.high, None, found.unit)
+
+    def _demands(self) -> list[Demand]:
+        found = []
+        for text, value in self._mapping("keep").items():
+            demand = _demand(text, value)
+            if demand is None:
+                self._wrong(f"keep.{text}", Sentence("optimize.demand", given=flow(value)), "demand")
+            else:
+                found.append(demand)
+        return found
+
+    def _tolerances(self) -> dict[str, float]:
+        found = {}
+        for address, value in self._mapping("tolerance").items():
+            try:
+                checked_addresses(self.mechanism, [address])
+                text = value if isinstance(value, str) else flow(value)
+                found[address] = abs(parse_range(self.mechanism, address, text.lstrip("±+- ")).high)
+            except LinkwrightError as error:
+                self._wrong(f"tolerance.{address}", error.sentence, error.code)
+        return found
+
+
+def _rising(found: Range) -> None:
+    """Raises where the first bound is greater than the last one."""
+    first, last = float(found.values[0]), float(found.values[-1])
+    if first > last:
+        said = {"first": found.shown(first), "last": found.shown(last)}
+        raise RequestError("optimize.falling", address=found.address, **said)
+
+
+_USUAL = {
+    "yield": 0.99,
+    "fluctuation": FLUCTUATION,
+    "steps": 360,
+    "evaluations": 4000,
+    "population": 0,
+    "seed": 0,
+}
+
+
+def _demand(text: str, value: Any) -> Demand | None:
+    """``at least 40 deg``, ``at most 60 kN``, ``1 m..2 m``, ``same``, ``same within 1 %``, or a mapping of these."""
+    if isinstance(value, Mapping):
+        if not value or set(value) - {"at_least", "at_most", "same"}:
+            return None
+        same = value.get("same")
+        return Demand(
+            text,
+            str(value.get("at_least", "")),
+            str(value.get("at_most", "")),
+            None if same is None else str(same),
+        )
+    plain = str(value).strip()
+    for head in ("at least", "at most", "same within", "same"):
+        if plain.startswith(head):
+            rest = plain[len(head) :].strip()
+            if (head == "same" and rest) or (head != "same" and not rest):
+                return None
+            if head.startswith("same"):
+                return Demand(text, same=rest or "1e-6 %")
+            return Demand(text, low=rest) if head == "at least" else Demand(text, high=rest)
+    span = _SPAN.match(plain)
+    if span is None:
+        return None
+    low, high = span["low"].strip(), span["high"].strip()
+    unit = _NUMBER.match(high)
+    bare = _NUMBER.match(low)
+    if bare is not None and not bare[2] and unit is not None:
+        low = f"{low} {unit[2]}".strip()
+    return Demand(text, low, high)

@@ -1,0 +1,156 @@
+"""The text of an optimisation."""
+
+from __future__ import annotations
+
+import math
+
+from linkwright import units
+from linkwright.designs.criteria import criterion
+from linkwright.designs.optimise.measures import is_metric
+from linkwright.designs.optimise.optimum import Choice, Optimum
+from linkwright.errors import speaker
+from linkwright.words import Say, say
+from linkwright.words.characters import aligned
+from linkwright.words.titles import title_said
+
+#: Designs of a front that are listed.
+LISTED = 24
+
+
+def text(found: Optimum, language: str = "en") -> str:
+    """Title, the best design beside the start, the front, and notes."""
+    tell = speaker(language)
+    name = title_said(found.problem.mechanism.name, language)
+    lines = [tell("optimize.title", name=name, goals=_goals(found, language)), ""]
+    lines += aligned(comparison(found, found.best, language), "<>>><")
+    if len(found.problem.goals) > 1:
+        lines += [
+            "",
+            tell("optimize.front", count=len(found), hypervolume=f"{found.hypervolume or 0.0:.4f}"),
+            "",
+        ]
+        lines += _front(found, language)
+    lines += ["", tell("optimize.work", evaluations=found.evaluations, generations=found.generations)]
+    moved = any(each.choices is None for each in found.problem.variables)
+    if moved and (found.exact or not found.problem.robust):
+        lines.append(tell("optimize.exact" if found.exact else "optimize.differences"))
+    if found.best.worst:
+        lines.append(tell("optimize.worst", numbers=", ".join(_worst(found))))
+    if found.best.made is not None:
+        lines.append(tell("optimize.made", share=f"{100 * found.best.made:.1f}"))
+    lines += [tell("optimize.no_effect", address=each) for each in found.without_effect]
+    if found.interrupted:
+        lines.append(tell("study.interrupted", path=found.state))
+    return "\n".join(lines)
+
+
+def _goals(found: Optimum, language: str) -> str:
+    words = {1.0: "optimize.least", -1.0: "optimize.most"}
+    said = (
+        say(words[goal.sign], language, number=label(found, goal.text, language))
+        for goal in found.problem.goals
+    )
+    return say("optimize.and", language).join(said)
+
+
+def label(found: Optimum, text: str, language: str) -> str:
+    """A number in words; expressions and summaries as they are written."""
+    if text in found.problem.define or not is_metric(text):
+        return text
+    kinds = {kind: name for name, kind in units.DIMENSIONS.items()}
+    return criterion(text).label(language, kinds.get(found.kinds[text], ""))
+
+
+def comparison(found: Optimum, choice: Choice, language: str) -> list[list[str]]:
+    """A head and a row for every variable and number: name, start, design, change, bounds."""
+    tell = speaker(language)
+    rows = [[tell(f"optimize.column.{name}") for name in ("what", "start", "found", "change", "bounds")]]
+    for variable, was in zip(found.problem.variables, found.problem.start, strict=True):
+        factor = units.unit(variable.unit)[0] if variable.unit else 1.0
+        now = choice.values[variable.address]
+        bounds = f"{variable.low / factor:.6g}..{variable.high / factor:.6g}"
+        shown = [variable.shown(value) for value in (was, now)]
+        rows.append([variable.address, *shown, _change(was, now), bounds])
+    for text, now in choice.numbers.items():
+        kind = found.kinds[text]
+        symbol, factor = shown_unit(kind)
+        was = found.start[text]
+        shown = [_shown(value, factor, symbol) for value in (was, now)]
+        name = label(found, text, language)
+        rows.append([name, *shown, _change(was, now), _limits(found, choice, text, factor, tell)])
+    return rows
+
+
+def _limits(found: Optimum, choice: Choice, text: str, factor: float, tell: Say) -> str:
+    goals = {goal.text: goal.sign for goal in found.problem.goals}
+    said = [tell("optimize.goal" if goals[text] > 0 else "optimize.goal_most")] if text in goals else []
+    if text in found.limits:
+        said.append(_between(found, text, factor))
+    if text in choice.missed:
+        said.append(tell("optimize.missed"))
+    return ", ".join(said)
+
+
+def shown_unit(kind: units.Dimension) -> tuple[str, float]:
+    """Symbol and factor of a shown value: angles in degrees, lengths in mm, as ``metrics`` shows them."""
+    for dimension in ("angle", "length"):
+        if kind == units.DIMENSIONS[dimension]:
+            symbol = units.USUAL_UNITS[dimension]
+            return symbol, units.unit(symbol)[0]
+    return (units.si_symbol(kind) if kind != units.NONE else ""), 1.0
+
+
+def _shown(value: float, factor: float, unit: str) -> str:
+    return f"{value / factor:.6g}{' ' if unit else ''}{unit}"
+
+
+def _change(was: float, now: float) -> str:
+    if not math.isfinite(was) or was == 0:
+        return "–"
+    return f"{100 * (now - was) / abs(was):+.2f} %"
+
+
+def _front(found: Optimum, language: str) -> list[str]:
+    texts = [goal.text for goal in found.problem.goals]
+    addresses = [variable.address for variable in found.problem.variables]
+    rows = [["", *(label(found, text, language) for text in texts), *addresses]]
+    count = len(found)
+    listed = {round(k * (count - 1) / max(1, LISTED - 1)) for k in range(LISTED)} if count > LISTED else None
+    for number, choice in enumerate(found.choices, 1):
+        if listed is not None and number - 1 not in listed:
+            continue
+        cells = []
+        for text in texts:
+            symbol, factor = shown_unit(found.kinds[text])
+            cells.append(_shown(choice.numbers[text], factor, symbol))
+        cells += [each.shown(choice.values[each.address]) for each in found.problem.variables]
+        rows.append([str(number), *cells])
+    return aligned(rows, ">" * len(rows[0]))
+
+
+def _worst(found: Optimum) -> list[str]:
+    """What the numbers of the first design come to at the worst within the tolerances."""
+    said = []
+    for text, ends in found.best.worst.items():
+        symbol, factor = shown_unit(found.kinds[text])
+        shown = "..".join(f"{end / factor:.6g}" for end in sorted(ends))
+        said.append(f"{text} {shown}{' ' if symbol else ''}{symbol}")
+    return said
+
+
+def missing(found: Optimum) -> list[str]:
+    """The demands that the first design misses, with what is demanded and what it has."""
+    said = []
+    for text in found.best.missed:
+        symbol, factor = shown_unit(found.kinds[text])
+        ends = sorted(found.best.worst.get(text, (found.best.numbers[text],)))
+        wanted, has = _between(found, text, factor), "..".join(_shown(end, factor, symbol) for end in ends)
+        said.append(f"{text} {wanted}{' ' if symbol else ''}{symbol} ({has})")
+    return said
+
+
+def _between(found: Optimum, text: str, factor: float) -> str:
+    low, high = (each / factor for each in found.limits[text])
+    if math.isinf(low) or math.isinf(high):
+        return f"≤ {high:.6g}" if math.isinf(low) else f"≥ {low:.6g}"
+    return f"{low:.6g}..{high:.6g}"

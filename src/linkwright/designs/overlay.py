@@ -1,0 +1,58 @@
+"""Curves of several alternatives to draw over each other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.dataclass import dataclass
+from linkwright.designs.alternatives import Alternative
+
+
+@dataclass(frozen=True)
+class Overlay:
+    """One quantity of all alternatives: ``name`` (a key of the catalogue ``compare.curve``), its dimension; per label
+    the input passed since the cycle's begin (n,) (rad or m, in its direction of motion) and the values (n,), SI.
+
+    A hodograph has the two components of a force instead.
+    """
+
+    name: str
+    dimension: str
+    lines: Mapping[str, tuple[Floats, Floats]]
+
+
+def overlays(alternatives: Sequence[Alternative]) -> tuple[Overlay, ...]:
+    """Output, its rates, pivot reaction with its hodograph, input torque."""
+    found = [
+        _motion(alternatives, name, place)
+        for place, name in enumerate(("travel", "velocity", "acceleration"))
+    ]
+    if any(each.loaded for each in alternatives):
+        sizes = {a.label: (_passed(a), np.hypot(*a.pivot_force.T)) for a in alternatives}
+        hodograph = {a.label: (a.pivot_force[:, 0], a.pivot_force[:, 1]) for a in alternatives}
+        torque = {a.label: (_passed(a), a.forces.input_torque) for a in alternatives}
+        found += [
+            Overlay("pivot_reaction", "force", sizes),
+            Overlay("hodograph", "force", hodograph),
+            Overlay("input_torque", "torque", torque),
+        ]
+    return tuple(found)
+
+
+def _motion(alternatives: Sequence[Alternative], name: str, place: int) -> Overlay:
+    turning = all(each.output.kind == "angle" for each in alternatives)
+    kinds = (
+        ("angle", "angular_velocity", "angular_acceleration")
+        if turning
+        else ("length", "velocity", "acceleration")
+    )
+    return Overlay(name, kinds[place], {a.label: (_passed(a), a.travel()[place]) for a in alternatives})
+
+
+def _passed(alternative: Alternative) -> Floats:
+    """How far the input has gone since the cycle began."""
+    q = alternative.motion.input
+    return np.asarray(np.abs(q - q[0]))

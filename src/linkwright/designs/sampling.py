@@ -1,0 +1,47 @@
+"""Designs between the ends of ranges: every combination, or a Sobol sequence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.given import whole
+from linkwright.designs.ranges import Range
+from linkwright.errors import LinkwrightError, RequestError
+
+#: Designs of one study, at most.
+MOST = 1_000_000
+
+
+def grid(ranges: Sequence[Range]) -> dict[str, Floats]:
+    """Every combination of the values; the last range varies fastest."""
+    count = 1
+    for each in ranges:
+        count *= len(each.values)
+    if count > MOST:
+        raise RequestError("study.grid_large", count=count, most=MOST)
+    mesh = np.meshgrid(*(each.values for each in ranges), indexing="ij")
+    return {each.address: rows.ravel() for each, rows in zip(ranges, mesh, strict=True)}
+
+
+def sobol(ranges: Sequence[Range], samples: int, seed: int, sampling: str) -> dict[str, Floats]:
+    """``samples`` designs between the ends, by a scrambled Sobol sequence (Owen 1998); the same for the same seed.
+
+    Raises LinkwrightError for another sampling, fewer than one sample, and where scipy is missing.
+    """
+    if sampling != "sobol":
+        raise RequestError("study.no_sampling", sampling=sampling)
+    samples, seed = whole("samples", samples), whole("seed", seed)
+    if not 1 <= samples <= MOST:
+        raise RequestError("study.bad_samples", samples=samples, most=MOST)
+    if seed < 0:
+        raise RequestError("study.bad_seed", seed=seed)
+    try:
+        from scipy.stats import qmc
+    except ImportError as error:
+        raise LinkwrightError("study.needs_scipy") from error
+    power = max(0, (samples - 1).bit_length())
+    unit = qmc.Sobol(len(ranges), seed=seed).random_base2(power)[:samples]
+    return {each.address: each.low + unit[:, i] * (each.high - each.low) for i, each in enumerate(ranges)}

@@ -1,0 +1,313 @@
+"""Derivatives of outputs and of their summaries over the cycle with respect to dimensions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import field
+from typing import TYPE_CHECKING, Literal, get_args
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.attached import Plotted
+from linkwright.core.dataclass import dataclass
+from linkwright.core.given import one_of, one_or_more, require
+from linkwright.core.html import html_table
+from linkwright.core.read_only import Frozen, locked
+from linkwright.cycle.summary import Summary
+from linkwright.designs.known_loads import known_loads
+from linkwright.designs.objective import of_metrics
+from linkwright.designs.slopes import Slopes
+from linkwright.designs.traced_outputs import Traced
+from linkwright.designs.varied_dimensions import checked_addresses, refuse_misfits
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.formula.summaries import BACKENDS, Backend
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinetostatics.friction_stage import MOST
+from linkwright.kinetostatics.named_outputs import Quantity
+from linkwright.mechanism.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    import pandas
+
+
+Way = Literal["auto", "forward", "reverse"]
+
+#: From this number of dimensions on, the gradient of a summary is found by a reverse sweep.
+REVERSE_PAYS = 6
+
+
+@dataclass(eq=False)
+class Sensitivity(Plotted, Frozen):
+    """Values and exact derivatives at the mechanism as it is; SI units of the output per SI unit of the dimension.
+
+    ``by``: the dimensions. An output asked by name alone has curves (n,): :meth:`curve`, :meth:`slope`; one asked
+    with a kind (``driver.effort rms``) a number and a gradient: :meth:`value`, :meth:`gradient`.
+    """
+
+    mechanism: Mechanism
+    by: tuple[str, ...]
+    input: Floats
+    curves: Mapping[str, Floats]
+    slopes: Mapping[tuple[str, str], Floats]
+    values: Mapping[Summary, float] = field(default_factory=dict)
+    gradients: Mapping[Summary, Floats] = field(default_factory=dict)
+    quantities: Mapping[str, Quantity] = field(default_factory=dict)
+
+    def curve(self, output: str) -> Floats:
+        """An output over the positions, (n,)."""
+        self._asked(output)
+        return self.curves[output]
+
+    def slope(self, output: str, by: str) -> Floats:
+        """Derivative of an output with respect to a dimension at fixed input, (n,)."""
+        self._asked(output)
+        if by not in self.by:
+            raise RequestError("study.not_a_dimension", name=by, names=tuple(self.by))
+        return self.slopes[output, by]
+
+    def value(self, output: str, kind: str | None = None) -> float:
+        """A summary over the cycle."""
+        return self.values[self._summary(output, kind)]
+
+    def gradient(self, output: str, kind: str | None = None) -> Floats:
+        """Derivatives of a summary, (dimensions,) in the order of ``by``."""
+        return self.gradients[self._summary(output, kind)]
+
+    def by_name(self, output: str, kind: str | None = None) -> dict[str, float]:
+        """The same by the dimensions' addresses."""
+        return dict(zip(self.by, self.gradient(output, kind).tolist(), strict=True))
+
+    def relative(self, output: str, kind: str | None = None) -> Floats:
+        """Percent by which a summary changes per percent of each dimension: (p/y)·dy/dp, in the order of ``by``.
+
+        NaN where y is zero.
+        """
+        value = self.values[self._summary(output, kind)]
+        nominal = np.array([self.mechanism.dimension(by) for by in self.by])
+        return locked(nominal * self.gradient(output, kind) / (value or np.nan))
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """Summaries in rows, dimensions in columns; needs pandas."""
+        from linkwright.kinematics.table import dataframe
+
+        table = {"value": np.array(list(self.values.values()))}
+        table |= {by: np.array([row[i] for row in self.gradients.values()]) for i, by in enumerate(self.by)}
+        frame = dataframe(table)
+        frame.index = [summary.name for summary in self.gradients]
+        return frame
+
+    def text(self) -> str:
+        """Every summary with its derivative by each dimension, and what has curves."""
+        lines = [f"Sensitivity of {self.mechanism.name!r} (SI units)"]
+        width = max(map(len, self.by), default=0)
+        for summary, row in self.gradients.items():
+            lines.append(f"  {summary.name} = {self.values[summary]:.6g}")
+            lines += [f"    by {by:<{width}}  {slope:>12.6g}" for by, slope in zip(self.by, row, strict=True)]
+        if self.curves:
+            lines.append(f"  curves: {', '.join(self.curves)}; by {', '.join(self.by)}")
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        """Summaries and their derivatives as notebooks show them, SI."""
+        rows = [
+            [summary.name, *(f"{each:.6g}" for each in (self.values[summary], *row))]
+            for summary, row in self.gradients.items()
+        ]
+        return html_table(self.mechanism.name, ["", "", *self.by], rows)
+
+    def __repr__(self) -> str:
+        return self.text()
+
+    def _asked(self, output: str) -> None:
+        if output not in self.curves:
+            raise RequestError("study.no_curve", output=output)
+
+    def _summary(self, output: str, kind: str | None) -> Summary:
+        found = split(output if kind is None else (output, kind))
+        if not isinstance(found, Summary) or found not in self.values:
+            raise RequestError(
+                "study.no_summary_asked", output=output, names=tuple(s.name for s in self.values)
+            )
+        return found
+
+
+def sensitivity(
+    mechanism: Mechanism,
+    *,
+    of: Iterable[str | tuple[str, str]],
+    by: Iterable[str],
+    steps: int = 360,
+    way: Way = "auto",
+    backend: Backend = "auto",
+) -> Sensitivity:
+    """Exact derivatives of outputs, and of their summaries over the cycle, with respect to dimensions.
+
+    Args:
+        mechanism: where the derivatives are taken.
+        of: outputs (see :func:`sweep`), alone for their curves, or with a kind: ``driver.effort rms``. Kinds: min,
+            max, mean, rms, range, peak; the extremes are those of the positions. Or design numbers, as in
+            :func:`objective`.
+        by: addresses of dimensions (``pitman.length``, ``jaw.mass``) or names of parameters.
+        steps: positions over the cycle.
+        way: ``forward`` carries a derivative per dimension along with every line of the program, ``reverse`` sweeps
+            back from a summary to all dimensions at once; ``auto`` chooses.
+        backend: ``numpy``, ``llvm`` (compiled), or ``auto``.
+
+    Returns:
+        The derivatives at fixed input; those of loads that follow the motion (ramps between limit positions, tables,
+        expressions) are included by the chain rule.
+
+    Raises:
+        LinkwrightError: unknown names (nearest ones offered); friction near self-locking, or in more than 16 pairs
+            of one group; dimensions that wheels of given size fix, as the distance of their centres.
+        PositionError: the mechanism does not pass its cycle.
+
+    Where the size of a vector is zero its derivative is taken as zero.
+    """
+    require(mechanism, Mechanism)
+    one_of("way", way, get_args(Way))
+    one_of("backend", backend, BACKENDS)
+    positions = over_cycle(mechanism, steps)
+    dimensions = checked_addresses(mechanism, by)
+    if not dimensions:
+        raise RequestError("study.nothing_to_differentiate")
+    _refuse_input(dimensions)
+    refuse_misfits(mechanism, dimensions)
+    asked = [split(each) for each in one_or_more(of)]
+    if not asked:
+        raise RequestError("study.no_outputs")
+    traced = Traced(mechanism, dimensions, positions, turning=True)
+    if not traced.nominal.whole:
+        raise traced.nominal.refusal()
+    if traced.nominal.modes:
+        traced = Traced(mechanism, dimensions, positions, turning=True, flipping=True)
+    return _Derivation(traced, dimensions, asked, steps, way, backend).result()
+
+
+def split(each: str | tuple[str, str]) -> str | Summary:
+    """An output alone, or a summary of it; raises LinkwrightError for a kind that has no derivative."""
+    from linkwright.metrics.wanted import wanted
+
+    output = each if isinstance(each, str) else None
+    found = wanted([each])
+    if len(found) == 2 and output is not None:
+        return output
+    if found[0].kind in ("argmin", "argmax"):
+        raise RequestError("study.place_without_slope", name=found[0].name)
+    return found[0]
+
+
+def _refuse_input(by: Iterable[str]) -> None:
+    for address in by:
+        if address.startswith("cycle.") or address.endswith(".start"):
+            raise RequestError("study.moves_input", address=address)
+
+
+class _Derivation:
+    """The work of one call."""
+
+    def __init__(
+        self,
+        traced: Traced,
+        by: tuple[str, ...],
+        asked: list[str | Summary],
+        steps: int,
+        way: Way,
+        backend: Backend,
+    ) -> None:
+        self.traced, self.by, self.asked, self.steps = traced, by, asked, steps
+        names = [each.output if isinstance(each, Summary) else each for each in asked if not _is_number(each)]
+        loads = known_loads(traced, traced.program(traced.quantities(names)).fields, by)
+        if loads.names or loads.rubbing:
+            self.traced = traced = Traced(
+                traced.mechanism, by, traced.positions, turning=True,
+                flipping=bool(traced.solver.manner.flipping), along_input=loads.names,
+                rubbing=loads.rubbing,
+            )  # fmt: skip
+        self.quantities = traced.quantities(names)
+        self.work = Slopes(traced, self.quantities, by, backend, loads)
+        if not self.work.certain:
+            raise LinkwrightError("study.friction_slope", most=MOST)
+        self.back = way == "reverse" or (way == "auto" and len(by) >= REVERSE_PAYS)
+
+    def result(self) -> Sensitivity:
+        alone = [each for each in self.asked if isinstance(each, str)]
+        summaries = [each for each in self.asked if isinstance(each, Summary) and each.kind]
+        numbers = [each for each in self.asked if isinstance(each, Summary) and not each.kind]
+        slopes: dict[tuple[str, str], Floats] = {}
+        curves: dict[str, Floats] = {}
+        for name in alone:
+            curves[name] = self._curve(name)
+            slopes |= {(name, by): row for by, row in zip(self.by, self.work.forward(name), strict=True)}
+        values = {summary: self._value(summary) for summary in summaries}
+        gradients = {summary: self._gradient(summary) for summary in summaries}
+        for number in numbers:
+            values[number], gradients[number] = self._number(number.output)
+        input_ = self.traced.nominal.input if self.traced.mechanism.drivers else np.zeros(1)
+        return Sensitivity(
+            self.traced.mechanism, self.by, input_, curves, slopes, values, gradients, self.quantities
+        )
+
+    def _curve(self, name: str) -> Floats:
+        """Values of an output; an angle and what has one in its formula as the motion gives it, continuous over the
+        positions."""
+        quantity = self.quantities[name]
+        if quantity.output.of_course:
+            return self.traced.nominal.read(quantity.output)
+        return quantity.shown(self.work.values(name))
+
+    def _value(self, summary: Summary) -> float:
+        curve = self._curve(summary.output)
+        return float(_SUMMARIES[summary.kind](curve))
+
+    def _number(self, name: str) -> tuple[float, Floats]:
+        """A design number with its gradient."""
+        mechanism, found = self.traced.mechanism, np.zeros(len(self.by))
+        objective = of_metrics(mechanism, self.by, {name: 1.0}, self.steps, "numpy")
+        columns = {by: np.array([mechanism.dimension(by)]) for by in self.by}
+        value, slopes = objective.many(columns, 1)
+        found[[self.by.index(by) for by in objective.names]] = slopes[0]
+        return float(value[0]), found
+
+    def _gradient(self, summary: Summary) -> Floats:
+        """Derivatives of a summary, as a weighted sum of those at the positions."""
+        weights = self._weights(summary)
+        if self.back:
+            found = self.work.reverse(summary.output, weights)
+            if np.isfinite(found).all():
+                return found
+        return np.asarray(self.work.forward(summary.output) @ weights)
+
+    def _weights(self, summary: Summary) -> Floats:
+        """Derivative of the summary by the value at every position."""
+        curve = self._curve(summary.output)
+        n = len(curve)
+        if summary.kind == "mean":
+            return np.full(n, 1.0 / n)
+        if summary.kind == "rms":
+            value = self._value(summary)
+            return curve / (n * value) if value > 0.0 else np.zeros(n)
+        weights = np.zeros(n)
+        if summary.kind == "peak":
+            place = int(np.abs(curve).argmax())
+            weights[place] = 1.0 if curve[place] >= 0.0 else -1.0
+        if summary.kind in ("max", "range"):
+            weights[int(curve.argmax())] += 1.0
+        if summary.kind in ("min", "range"):
+            weights[int(curve.argmin())] -= 1.0 if summary.kind == "range" else -1.0
+        return weights
+
+
+def _is_number(each: str | Summary) -> bool:
+    return isinstance(each, Summary) and not each.kind
+
+
+_SUMMARIES: Mapping[str, Callable[[Floats], float]] = {
+    "mean": lambda curve: float(curve.mean()),
+    "rms": lambda curve: float(np.sqrt((curve * curve).mean())),
+    "min": lambda curve: float(curve.min()),
+    "max": lambda curve: float(curve.max()),
+    "range": lambda curve: float(np.ptp(curve)),
+    "peak": lambda curve: float(np.abs(curve).max()),
+}

@@ -1,0 +1,459 @@
+"""Parameter studies: designs over a grid or a Sobol sequence, with any metrics."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.attached import Plotted, attached
+from linkwright.core.dataclass import dataclass
+from linkwright.core.given import require
+from linkwright.core.html import columns_html
+from linkwright.core.progress import Progress, current_progress, part_of
+from linkwright.core.read_only import Frozen
+from linkwright.designs.alternatives import Alternative, output_of_machine
+from linkwright.designs.cluster import current, in_turn
+from linkwright.designs.criteria import Criterion, criteria
+from linkwright.designs.design_numbers import side_by_side
+from linkwright.designs.designs import sweep
+from linkwright.designs.failures import Failure
+from linkwright.designs.finished_parts import identity, once
+from linkwright.designs.ranges import Range
+from linkwright.designs.sampling import grid, sobol
+from linkwright.designs.varied_dimensions import varied_ranges
+from linkwright.errors import LinkwrightError, RequestError, with_remedy
+from linkwright.files.write import dump
+from linkwright.formula.machine_code import available
+from linkwright.formula.threads import chunks
+from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.evaluate import unloaded
+from linkwright.metrics.outputs import usual_output
+from linkwright.metrics.terms import Asked
+from linkwright.metrics.wanted import is_summary
+from linkwright.registry import offered
+from linkwright.units import si_unit
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    import pandas
+
+    from linkwright.designs.design_numbers import Numbers
+    from linkwright.formula.summaries import Backend
+
+Sampling = Literal["grid", "sobol"]
+_Piece = tuple[dict[str, Floats], dict[str, str], dict[str, None], dict[int, str]]
+
+#: Fewer designs than this are solved one by one; designs that a worker of a cluster takes at a time.
+FEW, PIECE = 8, 512
+#: Designs whose numbers are found at once before they are kept.
+AT_ONCE = 8192
+#: What is measured when nobody says what, as far as it applies.
+USUAL = ("travel", "transmission_angle", "peak_input_torque", "rms_input_torque", "peak_reaction")
+
+
+@dataclass(eq=False)
+class Study(Plotted, Frozen):
+    """Metrics of many designs; arrays (designs,), SI, NaN where a design cannot move or a metric does not apply.
+
+    ``ranges``: what varies; ``varied``: its values by address; ``metrics``: values by name; ``dimensions``: names of
+    their dimensions; ``ok``: which designs pass the cycle; ``failures``: how many do not, at which group, and why.
+    """
+
+    mechanism: Mechanism
+    ranges: tuple[Range, ...]
+    varied: Mapping[str, Floats]
+    metrics: Mapping[str, Floats]
+    dimensions: Mapping[str, str]
+    better: Mapping[str, str | None]
+    ok: Flags
+    failures: tuple[Failure, ...]
+    sampling: str = "grid"
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def designs(self) -> int:
+        """Number of designs."""
+        return len(self.ok)
+
+    def __getitem__(self, name: str) -> Floats:
+        """Values of a metric or of a varied dimension, (designs,)."""
+        for columns in (self.metrics, self.varied):
+            if name in columns:
+                return columns[name]
+        hint = offered(name, [*self.metrics, *self.varied])
+        raise RequestError(with_remedy(Sentence("study.not_in_study", name=name), hint))
+
+    def best(self, metric: str) -> int:
+        """Number of the design that is best in a metric.
+
+        Raises LinkwrightError for a metric that has no better direction, or no value in any design.
+        """
+        values, better = self[metric], self.better.get(metric)
+        if better is None:
+            raise RequestError("study.no_best", metric=metric)
+        if not np.isfinite(values).any():
+            raise LinkwrightError("study.no_value", metric=metric)
+        sizes = np.abs(values)
+        return int(np.nanargmax(sizes) if better == "higher" else np.nanargmin(sizes))
+
+    def design(self, index: int) -> Mechanism:
+        """One of the designs as a mechanism."""
+        return self.mechanism.with_dimensions({a: float(c[index]) for a, c in self.varied.items()})
+
+    def columns(self) -> dict[str, Floats]:
+        """Varied dimensions and metrics by name with their SI unit."""
+        found = {f"{each.address}": np.asarray(self.varied[each.address]) for each in self.ranges}
+        for name, values in self.metrics.items():
+            unit = si_unit(self.dimensions[name])
+            found[f"{name} [{unit}]" if unit else name] = np.asarray(values)
+        return found
+
+    @attached
+    def text(self, language: str = "en", rows: int = 40, width: int | None = None) -> str:
+        """The table (every row, or ``rows`` of them evenly chosen), the best designs, and what failed.
+
+        ``width``: characters across within which the heads of the table are folded.
+        """
+        raise NotImplementedError
+
+    def csv(self) -> str:
+        """The columns as CSV, SI; numbers to the last bit."""
+        columns = self.columns()
+        lines = [",".join(f'"{name}"' if "," in name else name for name in columns)]
+        lines += [
+            ",".join("" if np.isnan(v) else repr(float(v)) for v in row)
+            for row in zip(*columns.values(), strict=True)
+        ]
+        return "\n".join(lines) + "\n"
+
+    def data(self) -> dict[str, Any]:
+        """Plain data, SI."""
+        return {
+            "name": self.mechanism.name,
+            "sampling": self.sampling,
+            "designs": self.designs,
+            "movable": int(self.ok.sum()),
+            "varied": {address: values.tolist() for address, values in self.varied.items()},
+            "units": {each.address: each.si for each in self.ranges},
+            "metrics": {
+                name: {
+                    "unit": si_unit(self.dimensions[name]),
+                    "better": self.better[name],
+                    "values": values.tolist(),
+                }
+                for name, values in self.metrics.items()
+            },
+            "best": {name: self.best(name) for name in self.metrics if self.has_best(name)},
+            "failures": [
+                {
+                    "group": f.group,
+                    "kind": f.kind,
+                    "count": f.count,
+                    "designs": f.designs.tolist(),
+                    "example": f.example,
+                }
+                for f in self.failures
+            ],
+        }
+
+    def has_best(self, name: str) -> bool:
+        """Whether one design is best in a metric."""
+        return self.better[name] is not None and bool(np.isfinite(self.metrics[name]).any())
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The columns as a pandas table; needs pandas."""
+        from linkwright.kinematics.table import dataframe
+
+        return dataframe(self.columns())
+
+    def _repr_html_(self) -> str:
+        """The first designs as notebooks show them, SI."""
+        return columns_html(self.mechanism.name, self.columns())
+
+    def __repr__(self) -> str:
+        return (
+            f"Study({self.mechanism.name!r}: {self.designs} designs, {int(self.ok.sum())} can move; "
+            f"{', '.join(self.columns())})"
+        )
+
+
+def study(
+    mechanism: Mechanism,
+    vary: Mapping[str, str | ArrayLike],
+    *,
+    metrics: Iterable[str] | str | None = None,
+    sampling: Sampling = "grid",
+    samples: int = 64,
+    seed: int = 0,
+    output: str | None = None,
+    fluctuation: float = FLUCTUATION,
+    steps: int = 360,
+    progress: Progress | None = None,
+) -> Study:
+    """Metrics of the designs that come from varying some dimensions.
+
+    Args:
+        mechanism: the design to start from.
+        vary: by address of a dimension or name of a parameter, a range ``1.2..1.3 m:11`` (from, to, number of
+            values), values ``1.2, 1.25, 1.3 m``, or numbers in SI.
+        metrics: registered design numbers, ``travel``, ``flywheel`` and the others of :func:`compare`, or summaries
+            of outputs (``driver.effort rms``), which are computed for all designs at once. None: the usual ones.
+        sampling: ``grid``: every combination; ``sobol``: ``samples`` designs between the ends of the ranges, spread
+            evenly (needs scipy).
+        samples, seed: of the Sobol sequence.
+        output: the link or guide whose travel counts; None: the last one solved.
+        fluctuation: coefficient of speed fluctuation δ for flywheels.
+        steps: positions over the cycle.
+        progress: called with (designs done, designs); what it raises stops the study.
+
+    Returns:
+        The study; designs that cannot move are counted and explained, the others go on.
+
+    Raises:
+        LinkwrightError: an unknown parameter or metric (nearest ones offered), a text that is no range, or none of
+            the designs can move (how many fail, at which group, why).
+    """
+    require(mechanism, Mechanism)
+    flywheel_inertia(1.0, 1.0, fluctuation)
+    ranges = varied_ranges(mechanism, vary, sampled=sampling != "grid")
+    columns = grid(ranges) if sampling == "grid" else sobol(ranges, samples, seed, sampling)
+    work = _Work(mechanism, columns, _criteria(mechanism, metrics), output, fluctuation, steps, progress)
+    return work.study(ranges, sampling, usual=metrics is None)
+
+
+def _criteria(mechanism: Mechanism, metrics: Iterable[str] | str | None) -> list[Criterion]:
+    if metrics is not None:
+        return criteria(metrics)
+    return [each for each in criteria(USUAL) if mechanism.has_loads or not each.forces]
+
+
+class _Work:
+    """One study: summaries of outputs by one sweep, the other metrics design by design."""
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        columns: Mapping[str, Floats],
+        asked: list[Criterion],
+        output: str | None,
+        fluctuation: float,
+        steps: int,
+        progress: Progress | None,
+    ) -> None:
+        self.mechanism, self.columns, self.asked = mechanism, columns, asked
+        self.fluctuation, self.steps, self.progress = fluctuation, steps, progress or current_progress()
+        self.output = usual_output(mechanism) if output is None else output_of_machine(mechanism, output)
+        self.count = len(next(iter(columns.values())))
+        self.values = {each.name: np.full(self.count, np.nan) for each in asked}
+        self.dimensions = {each.name: "dimensionless" for each in asked}
+        self.notes: dict[str, None] = {}
+        self.troubled: dict[int, str] = {}
+
+    def study(self, ranges: tuple[Range, ...], sampling: str, *, usual: bool) -> Study:
+        summaries = [each.name for each in self.asked if is_summary(each.name)]
+        probe = summaries or ["closeness min" if self._closed() else self._any_output()]
+        numbers = [each for each in self.asked if not is_summary(each.name)]
+        parts = 1 + bool(numbers)
+        first = part_of(self.progress, 0, parts)
+        found = sweep(self.mechanism, self.columns, outputs=probe, steps=self.steps, progress=first)
+        self.progress = part_of(self.progress, parts - 1, parts)
+        for name in summaries:
+            summary = next(s for s in found.summaries if s.name == name or f"{s.output}.{s.kind}" == name)
+            self.values[name] = found.summaries[summary]
+            self.dimensions[name] = found.dimension(summary)
+        ok = found.ok.copy()
+        if not ok.any():
+            raise LinkwrightError(_none_moves(self.count, found.failures()))
+        client, designs = current(), np.flatnonzero(ok)
+        if client is not None and numbers and len(designs) > PIECE:
+            self._shared(client, numbers, designs)
+        elif numbers:
+            self.found(numbers, designs, len(designs) >= FEW)
+        failures = [*found.failures(), *self._troubles()]
+        ok[list(self.troubled)] = False
+        if not ok.any():
+            raise LinkwrightError(_none_moves(self.count, failures))
+        if usual:
+            self._leave_out_idle(ok)
+        self._refuse_idle(ok)
+        better = {each.name: each.better for each in self.asked}
+        return Study(
+            self.mechanism, ranges, self.columns, self.values, self.dimensions, better, ok, tuple(failures), sampling,
+            (*(found.notes if summaries else found.of_motion), *self.notes),
+        )  # fmt: skip
+
+    def found(
+        self, asked: list[Criterion], designs: Indices, together: bool, backend: Backend = "auto"
+    ) -> None:
+        """Numbers of the designs, at once as far as they are certain so (``together``), the others one by one."""
+        parts = 1 + together
+        certain = (
+            self._together(asked, designs, backend, part_of(self.progress, 0, parts)) if together else {}
+        )
+        tell = part_of(self.progress, parts - 1, parts)
+        for done, index in enumerate(designs.tolist(), 1):
+            single = [each for each in asked if index not in certain.get(each.name, ())]
+            if single:
+                self._measure(index, single)
+            if tell is not None:
+                tell(done, len(designs))
+
+    def _shared(self, client: Any, asked: list[Criterion], designs: Indices) -> None:
+        """The same in pieces on a cluster."""
+        parts = [designs[first : first + PIECE] for first in range(0, len(designs), PIECE)]
+        columns = ({a: c[part] for a, c in self.columns.items()} for part in parts)
+        rest = [each.name for each in asked], str(self.output), self.fluctuation, self.steps
+        tasks = [(self.mechanism, each, *rest) for each in columns]
+        pieces: dict[int, _Piece] = {}
+        for done, (number, piece) in enumerate(in_turn(client, _piece, tasks, self._own), 1):
+            pieces[number] = piece
+            if self.progress is not None:
+                self.progress(len(designs) * done // len(parts), len(designs))
+        for number, part in enumerate(parts):
+            values, dimensions, notes, troubled = pieces[number]
+            for name in rest[0]:
+                self.values[name][part] = values[name]
+            self.dimensions |= {name: kind for name, kind in dimensions.items() if kind != "dimensionless"}
+            self.notes |= notes
+            self.troubled |= {int(part[index]): why for index, why in troubled.items()}
+
+    def _together(
+        self, asked: list[Criterion], designs: Indices, backend: Backend, progress: Progress | None
+    ) -> dict[str, set[int]]:
+        """Numbers of many designs at once; which designs' they are certain of, by name."""
+        wanted = Asked(self.output, self.fluctuation)
+        sure: dict[str, set[int]] = {}
+        if len(designs) > AT_ONCE and backend == "auto" and available():
+            backend = "llvm"  # for the last of them as well, however few
+        cycles = side_by_side(self.mechanism, self.columns, [each.name for each in asked], wanted)
+        for k, cycle in enumerate(cycles):
+            tell = part_of(progress, k, len(cycles))
+            for first, end in chunks(len(designs), AT_ONCE):
+                some = designs[first:end]
+                values, certain = self._at_once(cycle, some, backend)
+                for term in cycle.terms:
+                    self.values[term.name][some[certain]] = values[term.name][certain]
+                    self.dimensions[term.name] = term.dimension
+                    sure.setdefault(term.name, set()).update(some[certain].tolist())
+                if tell is not None:
+                    tell(end, len(designs))
+        return sure
+
+    def _at_once(self, cycle: Numbers, designs: Indices, backend: Backend) -> tuple[dict[str, Floats], Flags]:
+        """Values of a cycle's terms and which are certain, which are kept where parts are kept."""
+        part = {address: column[designs] for address, column in self.columns.items()}
+
+        def found() -> tuple[dict[str, Floats], Flags]:
+            seen = cycle.evaluate(part, backend=backend)
+            return dict(seen.values), seen.certain
+
+        return once(found, lambda: (self._own, [term.name for term in cycle.terms], backend, part))
+
+    @cached_property
+    def _own(self) -> str:
+        """What the numbers of all designs depend on."""
+        return identity(
+            dump(replace(self.mechanism, optimize={})), str(self.output), self.fluctuation, self.steps
+        )
+
+    def _closed(self) -> bool:
+        """Whether there is a group with a closed form."""
+        from linkwright.kinematics.groups import dyad_shape
+        from linkwright.structure import structure
+
+        return any(group.cuts and dyad_shape(group) is not None for group in structure(self.mechanism).groups)
+
+    def _any_output(self) -> str:
+        return f"{list(self.mechanism.links)[-1]}.angular_velocity max"
+
+    def _measure(self, index: int, asked: list[Criterion]) -> None:
+        """Numbers of one design, which are kept where parts are kept."""
+        changes = {address: float(column[index]) for address, column in self.columns.items()}
+        names = [each.name for each in asked]
+        numbers, troubled, notes = once(
+            lambda: self._measured(changes, asked), lambda: (self._own, names, changes)
+        )
+        for name, (value, dimension) in numbers.items():
+            self.values[name][index], self.dimensions[name] = value, dimension
+        if troubled:
+            self.troubled[index] = troubled
+        self.notes |= dict.fromkeys(notes)
+
+    def _measured(
+        self, changes: dict[str, float], asked: list[Criterion]
+    ) -> tuple[dict[str, tuple[float, str]], str, list[str]]:
+        """Numbers with their dimensions, why others are missing, and notes."""
+        design, numbers, troubled = (
+            self.mechanism.with_dimensions(changes),
+            dict[str, tuple[float, str]](),
+            "",
+        )
+        each = Alternative(design.name, design, self.output, self.steps, self.fluctuation)
+        for criterion in asked:
+            try:
+                found = criterion.measure(each)
+            except RequestError:
+                raise
+            except LinkwrightError as error:
+                troubled = troubled or error.sentence
+                continue
+            if found is not None:
+                numbers[criterion.name] = found.value, found.dimension
+        return numbers, troubled, [*each.notes]
+
+    def _leave_out_idle(self, ok: Flags) -> None:
+        """Leaves out what nobody asked for and none of the designs that move has."""
+        found = {name: values for name, values in self.values.items() if not np.isnan(values[ok]).all()}
+        self.values = found or self.values
+
+    def _refuse_idle(self, ok: Flags) -> None:
+        """Raises for a metric that has a value for none of the designs that move."""
+        for name, values in self.values.items():
+            if np.isnan(values[ok]).all():
+                if (missing := unloaded(self.mechanism, [name])) is not None:
+                    raise RequestError(missing)
+                told = Sentence("study.does_not_apply", name=name, mechanism=self.mechanism.name)
+                if self.notes:
+                    raise RequestError("cli.about", name=told, cause=list(self.notes))
+                raise RequestError(with_remedy(told, Sentence("study.leave_out")))
+
+    def _troubles(self) -> list[Failure]:
+        """Designs for which a metric could not be found."""
+        if not self.troubled:
+            return []
+        numbers = np.array(sorted(self.troubled), dtype=np.intp)
+        return [Failure(None, "metric", numbers, self.troubled[int(numbers[0])])]
+
+
+def _piece(
+    mechanism: Mechanism,
+    columns: Mapping[str, Floats],
+    names: list[str],
+    output: str,
+    fluctuation: float,
+    steps: int,
+) -> _Piece:
+    """Numbers of some designs, on a worker of a cluster: values, dimensions, notes, and what is wrong with which."""
+    asked = criteria(names)
+    work = _Work(mechanism, columns, asked, output, fluctuation, steps, None)
+    work.found(
+        asked, np.arange(work.count), True, "llvm" if available() else "auto"
+    )  # as many designs have it
+    return work.values, work.dimensions, work.notes, work.troubled
+
+
+def _none_moves(count: int, failures: Iterable[Failure]) -> str:
+    told = [
+        Sentence(
+            "study.fails" if f.count == 1 else "study.fail", count=f.count, place=f.place, example=f.example
+        )
+        for f in failures
+    ]
+    return Sentence("study.none_passes", count=count, told=told)

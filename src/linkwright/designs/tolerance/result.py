@@ -1,0 +1,496 @@
+"""The spread of a mechanism's numbers: linear by exact derivatives, and by Monte Carlo through the engine."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.dataclass import dataclass
+from linkwright.cycle.summary import Summary
+from linkwright.designs.designs import Sweep, sweep
+from linkwright.designs.sensitivity import Sensitivity, sensitivity
+from linkwright.designs.tolerance.curves import CurveSpread, curve_spreads
+from linkwright.designs.tolerance.pins_in_motion import FollowedPins, follow
+from linkwright.designs.tolerance.pressed_pins import is_position, require_forces, shifts
+from linkwright.designs.tolerance.problem import Limit, Tolerances
+from linkwright.designs.varied_dimensions import design_values
+from linkwright.errors import LinkwrightError, ModelError
+from linkwright.kinetostatics.forces import Forces
+from linkwright.metrics.wanted import wanted
+from linkwright.parts.base import PERCENT, Block, Result, Row, fault, put, shown
+from linkwright.words import Say
+from linkwright.worked.page import Step
+
+#: Linear and Monte Carlo spread agree within this share.
+AGREE = 0.005
+#: A bend that explains less than this share of a difference is not its reason.
+SMALL = 0.1
+#: A cycle that comes nearer to a dead point than this (closeness, 0 at it) is near one.
+NEAR = 0.05
+#: Summaries that are values at one or two of the positions.
+EXTREMES = ("min", "max", "range", "peak", "argmin", "argmax")
+#: Shares of a normal distribution at ±3σ.
+QUANTILES = (0.00135, 0.99865)
+
+
+@dataclass(frozen=True)
+class Share:
+    """What a dimension or clearance contributes: derivative, its own standard deviation, part of the variance."""
+
+    name: str
+    slope: float
+    deviation: float
+    share: float
+
+
+@dataclass(frozen=True, repr=False)
+class Spread(Result):
+    """Spread of every summary and curve of a tolerance study, SI.
+
+    Linear: σ² = Σ (∂y/∂p · σ_p)², exact derivatives at the nominal mechanism; a free clearance c counts its two
+    components with c/√2 each. Monte Carlo: machines drawn by a scrambled Sobol sequence and solved whole. Pressed
+    clearances shift the numbers (see ``linkwright.designs.tolerance.pressed_pins``) and do not spread them.
+    """
+
+    area: ClassVar[str] = "tolerance"
+    study: Tolerances
+
+    def check(self) -> None:
+        """Solves what everything rests on; raises LinkwrightError where it cannot be."""
+        for text in self.study.of:
+            if len(wanted([text])) != 1:
+                raise ModelError([fault("tolerance.no_kind", f"of.{self.study.of.index(text)}", name=text)])
+            if self.study.holes("pressed") and not self.summaries[text].kind:
+                raise ModelError(
+                    [fault("tolerance.pressed_number", f"of.{self.study.of.index(text)}", name=text)]
+                )
+        _ = self.derivatives
+        if self.drawn:
+            design_values(self.study.prepared, self.drawn)
+        unseen = self.drawn and self.study.curves and not self.curves
+        if unseen or (self.swept is not None and not self.swept.ok.any()):
+            raise ModelError([fault("tolerance.none_passes", "dimensions", count=self.study.samples)])
+        if self.study.holes("pressed"):
+            _ = self.forces
+            if not all(is_position(self.study, output) for output in self._over_positions):
+                _ = self.followed
+
+    @property
+    def _over_positions(self) -> list[str]:
+        """Outputs over the positions: the curves, and those that the summaries are of."""
+        return [*self.study.curves, *(s.output for s in self.summaries.values() if s.kind)]
+
+    # linear ---------------------------------------------------------------------------------------
+    @cached_property
+    def summaries(self) -> dict[str, Summary]:
+        """The summaries by their texts."""
+        return {text: wanted([text])[0] for text in self.study.of}
+
+    @property
+    def addresses(self) -> list[str]:
+        """Everything that varies, in the prepared mechanism."""
+        holes = [a for kind in ("free", "pressed") for pair in self.study.holes(kind).values() for a in pair]
+        return [*self.study.deviating, *(a for a in holes if a not in self.study.deviating)]
+
+    @cached_property
+    def derivatives(self) -> Sensitivity:
+        """Exact derivatives of summaries and curves."""
+        curves = dict.fromkeys(self._over_positions if self.study.holes("pressed") else self.study.curves)
+        asked = [*(summary.name for summary in self.summaries.values()), *curves]
+        return sensitivity(self.study.prepared, of=asked, by=self.addresses, steps=self.study.steps)
+
+    @cached_property
+    def forces(self) -> Forces:
+        """Forces of the nominal mechanism, which press the pins."""
+        return require_forces(self.study)
+
+    @cached_property
+    def followed(self) -> FollowedPins:
+        """The pins led by their own reactions over the cycle, for rates and forces."""
+        return follow(self.study, self.forces)
+
+    def nominal(self, text: str) -> float:
+        """A summary of the nominal mechanism without clearances."""
+        return self.derivatives.values[self.summaries[text]]
+
+    def dimension(self, text: str) -> str:
+        """Name of the dimension of a summary or a curve."""
+        summary = self.summaries.get(text)
+        if summary is not None and not summary.kind:
+            assert self.swept is not None
+            return self.swept.dimension(summary)
+        output = text if summary is None else summary.output
+        return self.derivatives.quantities[output].dimension
+
+    def shares(self, text: str) -> list[Share]:
+        """What contributes to the linear spread of a summary, the largest first."""
+        gradient = self.derivatives.by_name(self.summaries[text].name)
+        parts = {
+            self.study.written(address): (gradient[address], tolerance.deviation)
+            for address, tolerance in self.study.deviating.items()
+        }
+        for pin, pair in self.study.holes("free").items():
+            slope = math.hypot(*(gradient[address] for address in pair))
+            parts[pin] = (slope, self.study.clearances[pin].clearance / math.sqrt(2))
+        total = sum((slope * deviation) ** 2 for slope, deviation in parts.values())
+        found = [
+            Share(name, slope, deviation, (slope * deviation) ** 2 / total if total else 0.0)
+            for name, (slope, deviation) in parts.items()
+        ]
+        return sorted(found, key=lambda each: -each.share)
+
+    def linear(self, text: str) -> float:
+        """Linear standard deviation of a summary."""
+        return math.sqrt(sum((each.slope * each.deviation) ** 2 for each in self.shares(text)))
+
+    def worst_case(self, text: str) -> float:
+        """Σ |∂y/∂p|·t: the largest deviation if all tolerances are used up at once."""
+        gradient = self.derivatives.by_name(self.summaries[text].name)
+        total = sum(abs(gradient[a]) * t.tolerance for a, t in self.study.deviating.items())
+        for pin, pair in self.study.holes("free").items():
+            total += math.hypot(*(gradient[a] for a in pair)) * self.study.clearances[pin].clearance
+        return total
+
+    def curve(self, output: str) -> tuple[Floats, Floats, Floats]:
+        """Input (n,), nominal curve shifted by the pressed pins (n,), its linear standard deviation (n,)."""
+        variance = np.zeros(len(self.derivatives.curve(output)))
+        for address, tolerance in self.study.deviating.items():
+            variance += (self.derivatives.slope(output, address) * tolerance.deviation) ** 2
+        for pin, pair in self.study.holes("free").items():
+            size = self.study.clearances[pin].clearance / math.sqrt(2)
+            for address in pair:
+                variance += (self.derivatives.slope(output, address) * size) ** 2
+        moved = self.derivatives.curve(output) + self.pressed(output)
+        return self.derivatives.input, moved, np.sqrt(variance)
+
+    def pressed(self, output: str) -> Floats:
+        """Change (n,) of an output by all pressed pins: of a position to first order; of rates and forces with the
+        pins led over the cycle, NaN where they cannot follow. Zero where no pin is pressed."""
+        count = len(self.derivatives.input)
+        if not self.study.holes("pressed"):
+            return np.zeros(count)
+        if not is_position(self.study, output):
+            return self.followed.curve(output) - self.derivatives.curve(output)
+        return shifts(self.study, lambda address: self.derivatives.slope(output, address), self.forces)
+
+    def shift(self, text: str) -> float:
+        """Change of a summary by all pressed pins; NaN where rates and forces cannot follow."""
+        summary = self.summaries[text]
+        if not self.study.holes("pressed"):
+            return 0.0
+        curve = self.derivatives.curve(summary.output)
+        return _summed(summary.kind, curve + self.pressed(summary.output)) - _summed(summary.kind, curve)
+
+    # Monte Carlo ----------------------------------------------------------------------------------
+    @cached_property
+    def drawn(self) -> dict[str, Floats]:
+        """Values (samples,) of everything that varies, by address in the prepared mechanism."""
+        from scipy.stats import qmc
+
+        free, nominal = self.study.holes("free"), self.study.prepared.dimensions()
+        dimensions = len(self.study.deviating) + len(free)
+        power = max(self.study.samples - 1, 1).bit_length()
+        even = qmc.Sobol(max(dimensions, 1), seed=self.study.seed).random_base2(power)[: self.study.samples].T
+        even = np.clip(even, 1e-12, 1 - 1e-12)
+        found = {
+            address: nominal[address] + tolerance.values(share)
+            for (address, tolerance), share in zip(self.study.deviating.items(), even, strict=False)
+        }
+        for (pin, (x, y)), share in zip(free.items(), even[len(self.study.deviating) :], strict=False):
+            size = self.study.clearances[pin].clearance
+            for address, part in ((x, np.cos(2 * math.pi * share)), (y, np.sin(2 * math.pi * share))):
+                found[address] = found.get(address, nominal[address]) + size * part
+        return found
+
+    @cached_property
+    def swept(self) -> Sweep | None:
+        """The drawn machines through the engine; None where nothing spreads or no summary is asked."""
+        if not self.drawn or not self.summaries:
+            return None
+        asked = [summary.name for summary in self.summaries.values()]
+        return sweep(self.study.prepared, self.drawn, outputs=asked, steps=self.study.steps)
+
+    @cached_property
+    def curves(self) -> dict[str, CurveSpread]:
+        """Every curve among the drawn machines, shifted by the pressed pins; empty where nothing spreads."""
+        if not self.drawn or not self.study.curves:
+            return {}
+        expected = {}
+        for output in self.study.curves:
+            expected[output] = self.derivatives.curve(output), self.curve(output)[2]
+        found = curve_spreads(self.study.prepared, self.drawn, expected, self.study.steps, QUANTILES)
+        return {output: spread.moved(self.pressed(output)) for output, spread in found.items()}
+
+    def values(self, text: str) -> Floats:
+        """A summary of the machines that pass the cycle, shifted by pressed pins, (machines,)."""
+        if self.swept is None:
+            return np.array([self.nominal(text) + self.shift(text)])
+        summary, shift = self.summaries[text], self.shift(text)
+        kept = self.swept[summary.name][self.swept.ok]
+        return np.asarray(kept + (0.0 if math.isnan(shift) else shift))
+
+    def monte_carlo(self, text: str) -> float:
+        """Standard deviation of a summary among the machines."""
+        values = self.values(text)
+        return float(values.std(ddof=1)) if len(values) > 1 else 0.0
+
+    @property
+    def failed(self) -> int:
+        """Machines that do not pass the cycle."""
+        return 0 if self.swept is None else int((~self.swept.ok).sum())
+
+    def ratio(self, text: str) -> float:
+        """Monte Carlo over linear standard deviation; NaN where the linear one is zero."""
+        linear = self.linear(text)
+        return self.monte_carlo(text) / linear if linear else math.nan
+
+    def passed(self, text: str) -> tuple[float, float, float, float]:
+        """Yield: share of machines within the limits of a summary, ends of its 95 % interval (Clopper and Pearson),
+        and the share of the linear normal distribution."""
+        from scipy import stats
+
+        limit = self.study.limits[text]
+        values, count = self.values(text), max(len(self.values(text)) + self.failed, 1)
+        good = int(((values >= limit.lower) & (values <= limit.upper)).sum())
+        low = float(stats.beta.ppf(0.025, good, count - good + 1)) if good else 0.0
+        high = float(stats.beta.ppf(0.975, good + 1, count - good)) if good < count else 1.0
+        return good / count, low, high, self._normal(text, limit)
+
+    def _normal(self, text: str, limit: Limit) -> float:
+        from scipy import stats
+
+        shift = self.shift(text)
+        middle, sigma = self.nominal(text) + (0.0 if math.isnan(shift) else shift), self.linear(text)
+        if not sigma:
+            return float(limit.lower <= middle <= limit.upper)
+        return float(
+            stats.norm.cdf((limit.upper - middle) / sigma) - stats.norm.cdf((limit.lower - middle) / sigma)
+        )
+
+    # why they differ ------------------------------------------------------------------------------
+    @cached_property
+    def closeness(self) -> tuple[float, float] | None:
+        """Least closeness over the nominal cycle (0 at a dead point), and the input there; None if not known."""
+        address = self.addresses[0]
+        one = {address: np.array([self.study.prepared.dimension(address)])}
+        asked = [("closeness", "min"), ("closeness", "argmin")]
+        try:
+            found = sweep(self.study.prepared, one, outputs=asked, steps=self.study.steps)
+        except LinkwrightError:
+            return None
+        return float(found["closeness", "min"][0]), float(found["closeness", "argmin"][0])
+
+    def bend(self, text: str) -> tuple[str, float]:
+        """The largest contributor, and how much the summary bends over ±2σ of it: |y₊ + y₋ − 2y₀|/|y₊ − y₋|."""
+        summary = self.summaries[text]
+        deviations = {a: (t.deviation, abs(self.derivatives.by_name(summary.name)[a]) * t.deviation)
+                      for a, t in self.study.deviating.items()}  # fmt: skip
+        for pair in self.study.holes("free").values():
+            for a in pair:
+                size = self.study.clearances[a.split(".")[-2]].clearance / math.sqrt(2)
+                deviations[a] = size, abs(self.derivatives.by_name(summary.name)[a]) * size
+        address = max(deviations, key=lambda a: deviations[a][1])
+        at = self.study.prepared.dimension(address) + deviations[address][0] * np.array([-2.0, 0.0, 2.0])
+        found = sweep(
+            self.study.prepared,
+            {address: at},
+            outputs=[summary.name],
+            steps=self.study.steps,
+        )[summary.name]
+        low, middle, high = found.tolist()
+        change = abs(high - low)
+        return self.study.written(address), abs(high + low - 2 * middle) / change if change else math.inf
+
+    def reason(self, text: str, say: Say) -> str:
+        """Whether linear and Monte Carlo agree, and if not, why."""
+        if self.swept is None or (self.failed == 0 and abs(self.ratio(text) - 1.0) <= AGREE):
+            return "" if self.swept is None else say("tolerance.agree", name=text)
+        lines = []
+        if abs(self.ratio(text) - 1.0) > AGREE or math.isnan(self.ratio(text)):
+            lines.append(self._difference(text, say))
+        close = self.closeness
+        if close is not None and close[0] < NEAR:
+            place = shown(close[1], "angle" if self.turning else "length", 4)
+            lines.append(say("tolerance.dead_point", closeness=f"{close[0]:.3g}", place=place))
+        if self.failed:
+            lines.append(say("tolerance.failed", failed=self.failed, count=self.study.samples))
+        return " ".join(lines)
+
+    def _difference(self, text: str, say: Say) -> str:
+        """Why the two spreads differ: the bend b of y over ±2σ makes its spread 1 + b²/4 times as large; where that
+        is far less than the difference, it is too few machines."""
+        name, bend = self.bend(text)
+        said = {"name": text, "ratio": f"{self.ratio(text):.4g}", "dimension": name}
+        said["bend"] = f"{100 * bend:.3g} %" if math.isfinite(bend) else "—"
+        if self.failed or not 0.25 * bend**2 < SMALL * abs(self.ratio(text) - 1.0):
+            return say("tolerance.differ", **said)
+        return say("tolerance.few_machines", count=len(self.values(text)), **said)
+
+    @property
+    def turning(self) -> bool:
+        """Whether the input is an angle."""
+        from linkwright.kinematics.cycle import over_cycle
+
+        return bool(next(iter(over_cycle(self.study.mechanism, 1).rotary.values()), True))
+
+    # what is said ---------------------------------------------------------------------------------
+    def columns(self) -> dict[str, Floats]:
+        """Input, every curve and its standard deviation; without curves the summaries of all machines."""
+        if self.study.curves:
+            found = {"input": self.derivatives.input}
+            for output in self.study.curves:
+                _, values, deviation = self.curve(output)
+                found |= {output: values, f"{output} standard deviation": deviation}
+                if output in self.curves:
+                    spread = self.curves[output]
+                    found |= {
+                        f"{output} mean, Monte Carlo": spread.mean,
+                        f"{output} standard deviation, Monte Carlo": spread.deviation,
+                        f"{output} 0.135 %": spread.low,
+                        f"{output} 99.865 %": spread.high,
+                    }
+            return found
+        return {text: self.values(text) for text in self.study.of}
+
+    def blocks(self, say: Say) -> list[Block]:
+        found = [block for text in self.study.of for block in self._summary_blocks(text, say)]
+        for output in self.study.curves:
+            found.append(self._curve_block(output, say))
+        return found
+
+    def _summary_blocks(self, text: str, say: Say) -> list[Block]:
+        kind = self.dimension(text)
+        rows = [Row("nominal", self.nominal(text), kind)]
+        shift = self.shift(text)
+        if self.study.holes("pressed"):
+            gaps = int((~self.followed.followed).sum()) if math.isnan(shift) else 0
+            unknown = say("tolerance.no_shift", count=gaps) if gaps else ""
+            rows.append(Row("shift", shift, kind, text=unknown))
+        if self.swept is not None:
+            values = self.values(text)
+            low, high = np.quantile(values, QUANTILES).tolist()
+            rows += [
+                Row("linear", self.linear(text), kind),
+                Row(
+                    "monte_carlo",
+                    self.monte_carlo(text),
+                    kind,
+                    "",
+                    say("tolerance.machines", count=len(values)),
+                ),
+                Row("mean", float(values.mean()), kind),
+                Row("range", low, kind, end=high),
+                Row("worst", self.worst_case(text), kind),
+            ]
+        if text in self.study.limits:
+            share, low, high, linear = self.passed(text)
+            note = say(
+                "tolerance.interval",
+                low=f"{100 * low:.3f}",
+                high=f"{100 * high:.3f}",
+                linear=f"{100 * linear:.3f}",
+            )
+            rows.append(Row("yield", share, note=note, scale=PERCENT))
+        parts = []
+        for each in self.shares(text):
+            slope = f"{each.slope:.5g} {self.study.per_unit(kind, each.name)}".rstrip()
+            note = say("tolerance.part", slope=slope)
+            percent = f"{100 * each.share:.2f} %"
+            parts.append(Row(each.name, each.share, label=each.name, note=note, text=percent))
+        remarks = [self.reason(text, say)]
+        if self.summaries[text].kind in EXTREMES:
+            remarks.append(say("tolerance.at_positions", name=text, count=self.study.steps))
+        found = [Block(text, text, rows, tuple(filter(None, remarks)))]
+        return (
+            [*found, Block(f"{text}: contributions", say("tolerance.contributions"), parts)]
+            if parts
+            else found
+        )
+
+    def _followed_remark(self, output: str, say: Say) -> tuple[str, ...]:
+        """How near the pins lie to where their reactions press them, and where they cannot."""
+        if not self.study.holes("pressed") or is_position(self.study, output):
+            return ()
+        kept = self.followed.followed
+        off = float(self.followed.residual[kept].max()) if kept.any() else math.nan
+        said = [say("tolerance.followed", off=shown(off, "angle", 2))] if kept.any() else []
+        if not kept.all():
+            said.append(say("tolerance.gaps", count=int((~kept).sum()), steps=len(kept)))
+        return (" ".join(said),)
+
+    def _curve_block(self, output: str, say: Say) -> Block:
+        kind = self.dimension(output)
+        place, _, deviation = self.curve(output)
+        rows = []
+        i = int(deviation.argmax())
+        note = say("tolerance.at", place=shown(float(place[i]), "angle" if self.turning else "length", 4))
+        rows.append(Row("largest_deviation", float(deviation[i]), kind, "", note))
+        if output in self.curves:
+            spread = self.curves[output]
+            k = int(spread.deviation.argmax())
+            place_k = shown(float(place[k]), "angle" if self.turning else "length", 4)
+            note = say("tolerance.at_of", place=place_k, count=spread.machines)
+            rows.append(Row("largest_monte_carlo", float(spread.deviation[k]), kind, "", note))
+            wide = spread.high - spread.low
+            k = int(np.nanargmax(wide))
+            note = say("tolerance.at", place=shown(float(place[k]), "angle" if self.turning else "length", 4))
+            rows.append(Row("widest", float(wide[k]), kind, "", note))
+        moved = self.pressed(output)
+        if np.isfinite(moved).any() and np.nanmax(np.abs(moved)) > 0.0:
+            i = int(np.nanargmax(np.abs(moved)))
+            note = say("tolerance.at", place=shown(float(place[i]), "angle" if self.turning else "length", 4))
+            rows.append(Row("largest_shift", float(moved[i]), kind, "", note))
+        title = say("tolerance.curve", name=output)
+        return Block(f"curve {output}", title, rows, self._followed_remark(output, say))
+
+    def steps(self, say: Say) -> list[Step]:
+        found: list[Step] = []
+        for text in self.study.of:
+            kind, step = self.dimension(text), Step(str(len(found) + 1), text)
+            step.say(say("tolerance.formula"))
+            for each in self.shares(text):
+                product = abs(each.slope * each.deviation)
+                put(
+                    step,
+                    f"|∂y/∂p|·σ ({each.name})",
+                    "",
+                    product,
+                    kind,
+                    numbers=f"{abs(each.slope):.6g}·{each.deviation:.6g}",
+                )
+            put(step, "σ", "√(Σ (∂y/∂p·σ)²)", self.linear(text), kind)
+            if self.swept is not None:
+                put(step, "s", "√(Σ (y − ȳ)²/(N − 1))", self.monte_carlo(text), kind)
+            reason = self.reason(text, say)
+            if reason:
+                step.say(reason)
+            found.append(step)
+        for pin in self.study.holes("pressed"):
+            step = Step(str(len(found) + 1), say("tolerance.pressed", pin=pin))
+            step.law("r = c·F/|F|; Δy(φ) = c·(∂y/∂x·F_x + ∂y/∂y·F_y)/|F|")
+            for text in self.study.of:
+                shift = self.shift(text)
+                if not math.isnan(shift):
+                    put(step, f"Δ {text}", "", shift, self.dimension(text))
+            found.append(step)
+        return found or [Step("1", say("tolerance.formula"))]
+
+
+def _summed(kind: str, curve: Floats) -> float:
+    """A summary of a curve over the positions; ``peak`` is the largest size."""
+    match kind:
+        case "min":
+            return float(curve.min())
+        case "max":
+            return float(curve.max())
+        case "mean":
+            return float(curve.mean())
+        case "rms":
+            return float(np.sqrt((curve * curve).mean()))
+        case "range":
+            return float(np.ptp(curve))
+    return float(np.abs(curve).max())

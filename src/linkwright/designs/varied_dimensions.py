@@ -1,0 +1,172 @@
+"""What varies: addresses of dimensions and the values of many designs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.core.arrays import Floats
+from linkwright.core.given import one_or_more, require
+from linkwright.designs.ranges import Range, parse_range
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.joints.toothed import Numbers, whole
+from linkwright.kinematics.assembly import AssemblyError
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.positions import Positions
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.registry import offered
+from linkwright.words.sentence import Sentence
+
+#: The change of a dimension with which it is tried, as share of its value or of the mechanism's size.
+SMALL = 1e-4
+
+
+def checked_addresses(mechanism: Mechanism, addresses: Iterable[str]) -> tuple[str, ...]:
+    """The addresses, each once; raises LinkwrightError for one that the mechanism does not have."""
+    known = mechanism.dimensions()
+    wanted = tuple(dict.fromkeys(one_or_more(addresses)))
+    for address in wanted:
+        if address not in known:
+            hint = offered(address, known, "study.such_as", most=6)
+            raise RequestError("study.no_dimension", address=address, name=mechanism.name, hint=hint)
+    return wanted
+
+
+def varied_ranges(
+    mechanism: Mechanism, vary: Mapping[str, str | ArrayLike], *, sampled: bool
+) -> tuple[Range, ...]:
+    """What varies, each a text or values (SI); ``sampled``: any value between the bounds may be taken.
+
+    Raises:
+        LinkwrightError: nothing varies, an unknown address, a text that is no range, fractions of teeth.
+    """
+    require(vary, Mapping)
+    checked_addresses(mechanism, vary)
+    ranges = tuple(parse_range(mechanism, address, given) for address, given in vary.items())
+    if not ranges:
+        raise RequestError("study.nothing_varies")
+    for each in ranges:
+        if not each.values.size:
+            raise RequestError("study.no_values", address=each.address)
+        if gives_part_of_tooth(mechanism, each.address, between(each)) and (
+            sampled or any(gives_part_of_tooth(mechanism, each.address, value) for value in each.values)
+        ):
+            low, high = math.ceil(each.low), math.floor(each.high)
+            count = max(1, high - low + 1)
+            raise RequestError("study.whole_teeth", address=each.address, low=low, high=high, count=count)
+    return ranges
+
+
+def between(bounds: Range) -> float:
+    """A value between the bounds that no range written by hand hits."""
+    return bounds.low + (bounds.high - bounds.low) / math.pi
+
+
+def gives_part_of_tooth(mechanism: Mechanism, address: str, value: float) -> bool:
+    """Whether a value makes a number of teeth that is not whole."""
+    try:
+        changed = mechanism.with_dimensions({address: float(value)})
+    except LinkwrightError:
+        return False
+    given = ((changed.declared(name), number) for name, number in changed.dimensions().items())
+    return any(isinstance(declared, Numbers) and not whole(number) for declared, number in given)
+
+
+def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[str, Floats]:
+    """Values (designs,) by address, SI; single numbers are repeated.
+
+    Raises:
+        LinkwrightError: an unknown address, columns of different lengths, a value that is no number or not finite, a
+            length that is not positive, a negative mass.
+    """
+    require(vary, Mapping)
+    checked_addresses(mechanism, vary)
+    if not vary:
+        raise RequestError("study.nothing_varied")
+    columns = {address: _column(address, values) for address, values in vary.items()}
+    lengths = {len(column) for column in columns.values() if len(column) != 1}
+    for address, column in columns.items():
+        if column.ndim != 1:
+            raise RequestError("study.bad_shape", address=address, shape=str(column.shape))
+        _check(mechanism, address, column)
+    if len(lengths) > 1:
+        told = ", ".join(f"{address}: {len(column)}" for address, column in columns.items())
+        raise RequestError("study.uneven", told=told)
+    count = lengths.pop() if lengths else 1
+    return {address: np.broadcast_to(column, (count,)) for address, column in columns.items()}
+
+
+def _column(address: str, values: ArrayLike) -> Floats:
+    try:
+        return np.atleast_1d(np.asarray(values, dtype=np.float64))
+    except (ValueError, TypeError):
+        raise RequestError("study.no_numbers", address=address, given=repr(values)[:60]) from None
+
+
+def _check(mechanism: Mechanism, address: str, column: Floats) -> None:
+    """Every value on its own must be one that the mechanism takes."""
+    if not len(column):
+        raise RequestError("study.no_values", address=address)
+    bad = np.flatnonzero(~np.isfinite(column))
+    if len(bad):
+        raise RequestError("study.bad_value", place=int(bad[0]), address=address, value=column[bad[0]])
+    for extreme in (column.min(), column.max()):
+        mechanism.with_dimensions({address: float(extreme)})
+
+
+def misfits(mechanism: Mechanism, address: str, change: float) -> list[Sentence]:
+    """What no longer fits of pairs of wheels when a dimension changes alone, SI."""
+    try:
+        changed = mechanism.with_dimensions({address: mechanism.dimension(address) + change})
+    except LinkwrightError:
+        return []
+    found = (joint.misfit(changed) for joint in changed.joints.values())
+    return [why for why in found if why is not None]
+
+
+def refuse_misfits(mechanism: Mechanism, addresses: Iterable[str]) -> None:
+    """Refuses dimensions that pairs of wheels fix, so that nothing can be said of a change of one of them alone.
+
+    Raises:
+        RequestError: with what would no longer fit.
+    """
+    if not mechanism.higher:
+        return
+    size = mechanism.size
+    for address in addresses:
+        wrong = misfits(mechanism, address, SMALL * max(abs(mechanism.dimension(address)), size))
+        if wrong:
+            raise RequestError("study.fixed_by_wheels", address=address, why=wrong[0])
+
+
+def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: Mapping[str, Floats]) -> None:
+    """Raises LinkwrightError for a dimension that moves the positions of the input themselves."""
+    for address, column in columns.items():
+        for value in (column.min(), column.max()):
+            changed = mechanism.with_dimensions({address: float(value)})
+            try:
+                moved = over_cycle(changed, positions.steps)
+            except AssemblyError:  # no position of its own; the design fails where all designs are solved
+                continue
+            if not _same(mechanism, positions, moved):
+                wheels = mechanism.cycle is None and changed.drivers == mechanism.drivers
+                raise RequestError(f"study.moves_{'cycle' if wheels else 'positions'}", address=address)
+
+
+def _same(mechanism: Mechanism, a: Positions, b: Positions) -> bool:
+    """Whether both have the same coordinates, but for the sign of a turn and the rate of a constant speed."""
+    if a.count != b.count:
+        return False
+    for name, rows in a.coordinates.items():
+        q, other = rows[0], b.coordinates[name][0]
+        if mechanism.drivers[name].law.constant_speed is None:
+            if not all(map(np.array_equal, rows, b.coordinates[name])):
+                return False
+            continue
+        mirrored = a.closed and a.rotary[name] and np.allclose(other - other[0], q[0] - q, rtol=0, atol=1e-9)
+        if not mirrored and not np.allclose(other, q, rtol=0, atol=1e-9):
+            return False
+    return True

@@ -1,0 +1,310 @@
+"""Values and gradients of formulas of summaries over the positions, for many designs at once.
+
+The value is followed back to the parameters (reverse derivatives); an extreme over the positions changes as the
+output does at its position (envelope theorem).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.core.arrays import Floats
+from linkwright.formula.adjoint_programs import along_positions, back_from_formulas, bar
+from linkwright.formula.program import Program
+from linkwright.formula.reductions import PLACE, VALID_COUNT, Accumulation, Reduction, Results
+from linkwright.formula.replay import across_designs
+from linkwright.formula.summaries import Arrays, Backend, Run, blocks, over_designs, reduced
+from linkwright.formula.table import Tables
+from linkwright.formula.trace import Trace
+
+#: Reductions whose adjoint is spread over all valid positions.
+_SPREAD = ("sum", "mean", "rms")
+#: Reductions without a slope.
+_STEPWISE = ("count", "argmin", "argmax")
+_VALUE = "value"
+#: Configurations of a block.
+_BLOCK = 1 << 23
+Columns = dict[str, ArrayLike]
+
+
+class Gradient:
+    """The value of ``total`` and its gradient by the parameters ``wrt``, all of them by default.
+
+    ``total``: a summary of the program's outputs, or a program per design with one output, whose parameters are
+    parameters of ``program`` and names of summaries as ``output.mean``. Only positions where the output ``valid``
+    holds enter (all, without such an output); ``complete``: a design with another one has no value.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        total: Program | Reduction,
+        wrt: Iterable[str] | None = None,
+        *,
+        valid: str | None = "valid",
+        complete: bool = False,
+    ) -> None:
+        self.program, self.complete = program, complete
+        self.total = total if isinstance(total, Program) else _of_one(total)
+        self.valid = valid if valid in program.output_names else None
+        if program.states:
+            raise ValueError(f"the states {', '.join(program.states)} have no gradient")
+        own = [name for name in self.total.parameters if name in program.parameters]
+        read = [name for name in self.total.parameters if name not in (*own, VALID_COUNT)]
+        self.read = {name: Reduction.named(name) for name in read}
+        needed = Accumulation(program, tuple(self.read.values()), self.valid).needed.parameters
+        self.parameters = tuple(name for name in program.parameters if name in {*needed, *own})
+        self.wrt = program.parameters if wrt is None else tuple(wrt)
+        unknown = [name for name in self.wrt if name not in program.parameters]
+        if unknown:
+            raise ValueError(f"the program has no parameter {', '.join(unknown)}")
+        self._programs: dict[tuple[str, ...], Program] = {}
+
+    # the way forwards -----------------------------------------------------------------------------------
+    @cached_property
+    def _values(self) -> Program:
+        return across_designs(self.total)
+
+    @cached_property
+    def _forwards(self) -> Accumulation:
+        """All summaries that the value and the way back need."""
+        asked = list(self.read.values())
+        places = [place for each in asked if (place := _place(each)) is not None]
+        program, lines = self.program, []
+        if self._fused is not None:
+            program, _ = self._along
+            lines = [name for name in program.output_names if name not in self.program.output_names]
+        sums = [Reduction(name, "sum") for name in lines]
+        return Accumulation(program, tuple(dict.fromkeys([*asked, *places, *sums])), self.valid)
+
+    @cached_property
+    def _fused(self) -> Reduction | None:
+        """The only summary over all positions, if it is the only one: its slopes are found on the way forwards."""
+        spread = {each for each in self.read.values() if each.kind in _SPREAD}
+        return spread.pop() if len(spread) == 1 else None
+
+    @cached_property
+    def _along(self) -> tuple[Program, Program]:
+        """What is summed over the positions on the way back, and what follows from the sums."""
+        spread = tuple(dict.fromkeys(each for each in self.read.values() if each.kind in _SPREAD))
+        return along_positions(self.program, spread, self.wrt, fused=self._fused is not None)
+
+    def values(
+        self,
+        table: ArrayLike,
+        positions: Arrays | None = None,
+        fields: Arrays | None = None,
+        *,
+        tables: Tables | None = None,
+        threads: int | None = None,
+        backend: Backend = "auto",
+    ) -> Floats:
+        """The value alone, (designs,)."""
+        plain = Accumulation(self.program, tuple(self.read.values()), self.valid)
+        parts = [
+            self._value(numbers, self._reduced(plain, numbers, rows, run), run)
+            for numbers, rows, run in blocks(
+                self.parameters,
+                table,
+                positions,
+                fields,
+                tables=tables,
+                threads=threads,
+                backend=backend,
+                size=_BLOCK,
+            )
+        ]
+        return np.concatenate(parts)
+
+    def _reduced(self, sums: Accumulation, numbers: Floats, fields: Arrays, run: Run) -> Results:
+        if sums.parameters != self.parameters:
+            places = [self.parameters.index(name) for name in sums.parameters]
+            numbers = np.ascontiguousarray(numbers[:, places])
+        return reduced(sums, numbers, _own(sums, fields), None, run)
+
+    def _columns(self, numbers: Floats, results: Results) -> Columns:
+        return {**dict(zip(self.parameters, numbers.T, strict=True)), **results}
+
+    @cached_property
+    def _alone(self) -> str | None:
+        """The summary that the value is; None for a formula of some."""
+        ((_, line),) = self.total.outputs
+        name = self.total.nodes[line].name if not self.total.nodes[line].args else None
+        return name if name in self.read else None
+
+    def _value(self, numbers: Floats, results: Results, run: Run) -> Floats:
+        if self._alone is not None:
+            value: Floats = np.array(results[self._alone], dtype=np.float64)
+        else:
+            columns = self._columns(numbers, results)
+            given = {name: np.asarray(columns[name], dtype=np.float64) for name in self._values.positions}
+            value = over_designs(self._values, given, len(numbers), run)[0].copy()
+        if self.complete:
+            value[results[VALID_COUNT] != run.length] = np.nan
+        return value
+
+    # the way back ---------------------------------------------------------------------------------------
+    def evaluate(
+        self,
+        table: ArrayLike,
+        positions: Arrays | None = None,
+        fields: Arrays | None = None,
+        *,
+        tables: Tables | None = None,
+        threads: int | None = None,
+        backend: Backend = "auto",
+    ) -> tuple[Floats, Floats]:
+        """Value (designs,) and gradient (designs, wrt); NaN for designs without the value.
+
+        ``table``: (designs, parameters); ``positions``: (n,) per name; ``fields``: (designs, n) per name.
+        """
+        values, gradients = [], []
+        for numbers, rows, run in blocks(
+            self.parameters,
+            table,
+            positions,
+            fields,
+            tables=tables,
+            threads=threads,
+            backend=backend,
+            size=_BLOCK,
+        ):
+            ahead = self._forwards
+            results = self._reduced(ahead, numbers, rows, run)
+            value = self._value(numbers, results, run)
+            with np.errstate(all="ignore"):
+                bars = self._back(numbers, results, rows, run)
+            gradient = np.zeros((len(numbers), len(self.wrt)))
+            for column, name in enumerate(self.wrt):
+                gradient[:, column] = bars.get(name, 0.0)
+            gradient[np.isnan(value)] = np.nan
+            values.append(value)
+            gradients.append(gradient)
+        return np.concatenate(values), np.concatenate(gradients)
+
+    def _back(self, numbers: Floats, results: Results, fields: Arrays, run: Run) -> dict[str, Floats]:
+        """Derivatives of the value by the parameters, (designs,) by name."""
+        columns = self._columns(numbers, results)
+        if self._alone is not None:
+            return self._from_summaries({self._alone: np.ones(len(numbers))}, columns, fields, run)
+        found = self._through(
+            self.total, self.total.output_names, (*self.wrt, *self.read),
+            {**columns, bar(self.total.output_names[0]): np.ones(len(numbers))}, len(numbers), run,
+        )  # fmt: skip
+        bars = {name: each for name, each in found.items() if name in self.wrt}
+        _add(bars, self._from_summaries(found, columns, fields, run))
+        return bars
+
+    def _from_summaries(
+        self, found: Mapping[str, Floats], columns: Columns, fields: Arrays, run: Run
+    ) -> dict[str, Floats]:
+        """From derivatives by the summaries those by the parameters."""
+        bars: dict[str, Floats] = {}
+        count = len(np.asarray(columns[VALID_COUNT]))
+        weights: dict[Reduction, Floats] = {}
+        for name, reduction in self.read.items():
+            if name in found and reduction.kind not in _STEPWISE:
+                weights[reduction] = weights.get(reduction, 0.0) + found[name]
+        spread = {each: weight for each, weight in weights.items() if each.kind in _SPREAD}
+        if spread:
+            _add(bars, self._through_positions(columns, spread, fields, run))
+        places: dict[Reduction, dict[str, Floats]] = {}
+        for each, weight in weights.items():
+            place = _place(each)
+            if place is not None:
+                there = places.setdefault(place, {})
+                there[each.output] = there.get(each.output, 0.0) + weight
+        for place, outputs in places.items():
+            there_columns = {**columns, **self._there(columns[place.name], fields, run)}
+            there_columns |= {bar(name): weight for name, weight in outputs.items()}
+            _add(
+                bars,
+                self._through(self.program, tuple(outputs), self.wrt, there_columns, count, run),
+            )
+        return bars
+
+    def _through(
+        self,
+        source: Program,
+        outputs: Sequence[str],
+        active: Sequence[str],
+        columns: Columns,
+        count: int,
+        run: Run,
+    ) -> dict[str, Floats]:
+        """From derivatives by outputs, columns of their own, those by inputs at one position of every design."""
+        key = (str(source is self.program), *outputs)
+        if key not in self._programs:
+            self._programs[key] = back_from_formulas(source, outputs, active)
+        return _evaluated(self._programs[key], columns, count, run)
+
+    def _through_positions(
+        self, columns: Columns, spread: Mapping[Reduction, Floats], fields: Arrays, run: Run
+    ) -> dict[str, Floats]:
+        """Derivatives by what is summed over all valid positions."""
+        count = np.asarray(columns[VALID_COUNT], dtype=np.float64)
+        shares: dict[Reduction, Floats] = {}
+        for each, weight in spread.items():
+            shares[each] = weight if each.kind == "sum" else weight / count
+            if each.kind == "rms":
+                shares[each] = shares[each] / np.asarray(columns[each.name])
+        along, after = self._along
+        if self._fused is None:
+            names = [name for name in along.output_names if name not in self.program.output_names]
+            sums = Accumulation(along, tuple(Reduction(name, "sum") for name in names), self.valid)
+            given: Columns = {**columns, **{bar(name): 0.0 for name in self.read}}
+            given |= {bar(each.name): share for each, share in shares.items()}
+            table = np.empty((len(count), len(sums.parameters)))
+            for column, name in enumerate(sums.parameters):
+                table[:, column] = given[name]
+            columns = {**columns, **reduced(sums, table, _own(sums, fields), None, run)}
+        found = _evaluated(after, columns, len(count), run)
+        if self._fused is not None:
+            found = {name: each * shares[self._fused] for name, each in found.items()}
+        return found
+
+    def _there(self, places: ArrayLike, fields: Arrays, run: Run) -> dict[str, Floats]:
+        """The inputs at one position of every design, NaN where there is none."""
+        numbers = np.asarray(places, dtype=np.float64)
+        missing = ~(numbers >= 0.0)
+        index, designs = np.where(missing, 0.0, numbers).astype(np.int64), np.arange(len(numbers))
+        found = {name: np.asarray(run.positions[name])[index] for name in self.program.positions}
+        found |= {name: np.asarray(fields[name])[designs, index] for name in self.program.fields}
+        return {name: np.where(missing, np.nan, values) for name, values in found.items()}
+
+
+def _own(accumulation: Accumulation, fields: Arrays) -> Arrays:
+    return {name: fields[name] for name in accumulation.needed.fields}
+
+
+def _of_one(reduction: Reduction) -> Program:
+    """A summary as a program per design."""
+    t = Trace()
+    return Program.of(t, {_VALUE: t.parameter(reduction.name)})
+
+
+def _evaluated(program: Program, columns: Columns, count: int, run: Run) -> dict[str, Floats]:
+    """Derivatives that a program over the designs gives, by the names of the inputs."""
+    given = {name: np.asarray(columns[name], dtype=np.float64) for name in program.positions}
+    rows = over_designs(program, given, count, run)
+    return {name.removeprefix(bar("")): row for name, row in zip(program.output_names, rows, strict=True)}
+
+
+def _place(reduction: Reduction) -> Reduction | None:
+    """The number of the one position whose value a reduction is."""
+    if reduction.kind in ("first", "last"):
+        return Reduction(PLACE, reduction.kind)
+    if reduction.of:
+        return Reduction(PLACE, reduction.kind, reduction.of)
+    if reduction.kind == "min":
+        return Reduction(PLACE, "at_min", reduction.output)
+    return Reduction(PLACE, "at_max", reduction.output) if reduction.kind == "max" else None
+
+
+def _add(into: dict[str, Floats], more: Mapping[str, Floats]) -> None:
+    for name, value in more.items():
+        into[name] = into[name] + value if name in into else value

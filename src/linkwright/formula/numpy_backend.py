@@ -1,0 +1,309 @@
+"""Evaluation by NumPy: the reference, always there."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Container, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkwright.core.arrays import Floats
+from linkwright.formula.bound import BoundPlan
+from linkwright.formula.lines import Lines
+from linkwright.formula.program import Program
+from linkwright.formula.recently_made import Recent
+from linkwright.formula.registers import Registers
+from linkwright.formula.scalar_backend import LineRunner, start_values
+from linkwright.formula.table import Table, Tables, given_tables
+
+Arrays = Mapping[str, ArrayLike]
+Source = tuple[str, tuple[str, ...], Any]
+
+#: Numbers in one buffer of a block; all buffers of a block together stay in a core's cache.
+_CACHE_NUMBERS = 120_000
+_KEPT_PLANS = 6
+
+
+class NumpyProgram:
+    """A program evaluated over arrays of positions, for one or many designs.
+
+    What depends on the design only is evaluated once per design. Division by zero and roots of
+    negative numbers give infinities and NaN without warnings. Truth values among the outputs
+    are 1.0 or 0.0. May be used from several threads. ``late``: parameters and fields that :meth:`run_in_turn` takes
+    later than all others.
+    """
+
+    def __init__(self, program: Program, late: Container[str] = ()) -> None:
+        self.program = program
+        self.lines = Lines.of(program)
+        self.registers = Registers.of(self.lines)
+        lines = self.lines.lines
+        self._start = start_values(lines)
+        self._parameter_lines = [i for i, line in enumerate(lines) if line.op == "parameter"]
+        inputs = {"parameter": program.parameters, "field": program.fields}
+        begin = (i for i, x in enumerate(lines) if x.op in inputs and inputs[x.op][x.place] in late)
+        self._late = next(begin, len(lines))
+        places = list(zip(self._parameter_lines, program.parameters, strict=True))
+        self._known = [each for each in places if each[0] < self._late]
+        self._found = [each for each in places if each[0] >= self._late]
+        design = self.lines.design_lines()
+        self._design = LineRunner(lines, [i for i in design if i < self._late])
+        self._late_design = LineRunner(lines, [i for i in design if i >= self._late])
+        self._own = threading.local()
+
+    def run(
+        self,
+        parameters: ArrayLike,
+        positions: Arrays,
+        fields: Arrays | None = None,
+        states: Arrays | None = None,
+        *,
+        length: int | None = None,
+        tables: Tables | None = None,
+    ) -> Floats:
+        """Outputs of one design, shape (outputs, n).
+
+        ``parameters``: (parameters,) in the order of ``program.parameters``. ``positions``,
+        ``fields``, ``states``: one (n,) array per name; names that the program does not need are ignored.
+        ``length``: n, where no input is an array. ``tables``: those that the program looks up, by name.
+        Raises ValueError for missing inputs and unequal lengths.
+        """
+        fields, states = fields or {}, states or {}
+        n = self._length(positions, {**fields, **states}, length)
+        plan = self._plan(None, n)
+        self._set_design(plan, _numbers(parameters), tables)
+        for kind, names, arrays in self._sources(positions, fields, states):
+            for buffer, name in zip(plan.inputs[kind], names, strict=True):
+                buffer[...] = arrays[name]
+        with np.errstate(all="ignore"):
+            plan.run()
+        return plan.outputs.copy()
+
+    def run_in_turn(
+        self,
+        parameters: Mapping[str, float],
+        positions: Arrays,
+        late: Callable[[Floats], Mapping[str, Any] | None],
+        *,
+        early: int,
+        length: int | None = None,
+        tables: Tables | None = None,
+    ) -> Floats | None:
+        """As :meth:`run` without states, of a program whose late inputs stand last (see ``Program.last``).
+
+        ``parameters``: by name; ``late`` takes the outputs (outputs, n), of which the first ones, so many as are
+        ``early`` and need no late input, are there already, and gives the late inputs by name; with None the
+        evaluation ends with None.
+        """
+        n = self._length(positions, {}, length)
+        plans, key = self._plans(), (None, n)
+        plan = plans.pop(key, None) or self._new_plan(None, n)
+        plan.numbers = None
+        plan.tables[:] = given_tables(self.program.tables, tables)
+        values = [*self._start, *plan.tables]
+        for index, name in self._known:
+            values[index] = parameters[name]
+        self._design.run(values)
+        plan.set_design(values)
+        for buffer, name in zip(plan.inputs["position"], self.program.positions, strict=True):
+            buffer[...] = positions[name]
+        with np.errstate(all="ignore"):
+            plan.run_early()
+        found = np.empty(plan.outputs.shape)
+        found[:early] = plan.outputs[:early]
+        given = late(found)
+        if given is not None:
+            for index, name in self._found:
+                values[index] = given[name]
+            self._late_design.run(values)
+            plan.set_design(values)
+            for buffer, name in zip(plan.inputs["field"], self.program.fields, strict=True):
+                buffer[...] = given[name]
+            with np.errstate(all="ignore"):
+                plan.run_late()
+            found[early:] = plan.outputs[early:]
+        plans[key] = plan
+        return None if given is None else found
+
+    def _set_design(self, plan: BoundPlan, numbers: list[float], tables: Tables | None) -> None:
+        """The lines per design; those of the call before where the same numbers are given again."""
+        if numbers == plan.numbers and not self.program.tables:
+            return
+        plan.tables[:] = given_tables(self.program.tables, tables)
+        values = [*self._start, *plan.tables]
+        for index, value in zip(self._parameter_lines, numbers, strict=True):
+            values[index] = value
+        self._design.run(values)
+        self._late_design.run(values)
+        plan.set_design(values)
+        plan.numbers = numbers
+
+    def run_designs(
+        self,
+        parameters: ArrayLike,
+        positions: Arrays,
+        fields: Arrays | None = None,
+        states: Arrays | None = None,
+        *,
+        start: ArrayLike | None = None,
+        length: int | None = None,
+        tables: Tables | None = None,
+    ) -> Floats:
+        """Outputs of many designs, shape (designs, outputs, n).
+
+        ``parameters``: (designs, parameters); ``fields`` and ``states``: (designs, n) per name. A program with
+        states takes either these, or ``start``, the (designs, states) values before the first position, carried on
+        from there; otherwise as :meth:`run`.
+        """
+        table = self._table(parameters)
+        n = self._length(positions, {**(fields or {}), **(states or {})}, length)
+        result = np.empty((len(table), len(self.program.outputs), n))
+        blocks = self.blocks(table, positions, fields, states, start=start, length=n, tables=tables)
+        for designs, columns, outputs in blocks:
+            result[designs, :, columns] = outputs.transpose(1, 0, 2)
+        return result
+
+    def blocks(
+        self,
+        table: Floats,
+        positions: Arrays,
+        fields: Arrays | None = None,
+        states: Arrays | None = None,
+        *,
+        start: ArrayLike | None = None,
+        length: int | None = None,
+        tables: Tables | None = None,
+    ) -> Iterator[tuple[slice, slice, Floats]]:
+        """Outputs block by block: (designs, positions, outputs (outputs, designs, positions)).
+
+        Inputs as for :meth:`run_designs`. A block's outputs are overwritten by the next block.
+        """
+        fields, states = fields or {}, states or {}
+        n = self._length(positions, {**fields, **states}, length)
+        continued = bool(self.program.states) and not states
+        starts = self._starts(start, len(table)) if continued else None
+        found = given_tables(self.program.tables, tables)
+        size, width = self.block(n, continued)
+        for first in range(0, len(table), size):
+            part = slice(first, min(first + size, len(table)))
+            own_states = None if continued else _cut(states, part)
+            sources = self._sources(positions, _cut(fields, part), own_states)
+            own = None if starts is None else starts[part]
+            for columns, outputs in self._columns(table[part], sources, own, found, n, width):
+                yield part, columns, outputs
+
+    def _columns(
+        self,
+        table: Floats,
+        sources: list[Source],
+        starts: Floats | None,
+        tables: list[Table],
+        n: int,
+        width: int,
+    ) -> Iterator[tuple[slice, Floats]]:
+        """Some designs, ``width`` positions at a time."""
+        plan: BoundPlan | None = None
+        for first in range(0, n, width):
+            columns = slice(first, min(first + width, n))
+            previous, plan = plan, self._plan(len(table), columns.stop - first)
+            with np.errstate(all="ignore"):
+                if plan is not previous:
+                    plan.tables[:] = tables
+                    _start_designs(plan, table, starts)
+                for kind, names, arrays in sources:
+                    for buffer, name in zip(plan.inputs[kind], names, strict=True):
+                        buffer[...] = np.asarray(arrays[name])[..., columns]
+                plan.run()
+                if starts is not None:
+                    plan.carry()
+            yield columns, plan.outputs
+
+    def block(self, n: int, continued: bool = False) -> tuple[int, int]:
+        """Designs and positions of one block, so that its buffers stay in the cache."""
+        buffers = self.registers.numbers + len(self.program.outputs) + len(self.program.fields) + 2
+        room = max(256, 4 * _CACHE_NUMBERS // buffers)
+        if continued:
+            return room, 1
+        width = min(n, room) or 1
+        return max(1, room // width), width
+
+    def _starts(self, start: ArrayLike | None, designs: int) -> Floats:
+        if start is None:
+            names = ", ".join(self.program.states)
+            raise ValueError(f"the program carries the states {names}: give their arrays, or their start")
+        given = np.asarray(start, dtype=np.float64)
+        return np.broadcast_to(given, (designs, len(self.program.states)))
+
+    def _sources(self, positions: Arrays, fields: Arrays, states: Arrays | None) -> list[Source]:
+        sources: list[Source] = [
+            ("position", self.program.positions, positions),
+            ("field", self.program.fields, fields),
+        ]
+        if states is not None:
+            sources.append(("state", self.program.states, states))
+        for kind, names, arrays in sources:
+            missing = [name for name in names if name not in arrays]
+            if missing:
+                raise ValueError(f"the program needs the {kind} inputs {', '.join(missing)}: give them")
+        return sources
+
+    def _length(self, positions: Arrays, others: Arrays, length: int | None) -> int:
+        lengths = {np.shape(positions[name])[-1] for name in self.program.positions if name in positions}
+        wanted = (*self.program.fields, *self.program.states)
+        lengths |= {np.shape(others[name])[-1] for name in wanted if name in others}
+        if length is not None:
+            lengths.add(length)
+        if not lengths:
+            lengths = {np.shape(array)[-1] for array in positions.values()}
+        if len(lengths) != 1:
+            raise ValueError(f"inputs over the positions must have one length, but have {sorted(lengths)}")
+        return int(lengths.pop())
+
+    def _table(self, parameters: ArrayLike) -> Floats:
+        table = np.asarray(parameters, dtype=np.float64)
+        if table.ndim != 2 or table.shape[1] != len(self.program.parameters):
+            wanted = len(self.program.parameters)
+            raise ValueError(f"parameters must have the shape (designs, {wanted}), but have {table.shape}")
+        return table
+
+    def _plans(self) -> dict[tuple[int | None, int], BoundPlan]:
+        """Of this thread."""
+        return self._own.__dict__.setdefault("plans", {})  # type: ignore[no-any-return]
+
+    def _plan(self, designs: int | None, n: int) -> BoundPlan:
+        plans, key = self._plans(), (designs, n)
+        if key not in plans:
+            if len(plans) >= _KEPT_PLANS:
+                plans.pop(next(iter(plans)))
+            plans[key] = self._new_plan(designs, n)
+        return plans[key]
+
+    def _new_plan(self, designs: int | None, n: int) -> BoundPlan:
+        return BoundPlan(self.lines, self.registers, designs, n, self._late)
+
+
+def numpy_program(program: Program) -> NumpyProgram:
+    """The evaluator of a program; the same one for the same program, as long as it is of use."""
+    return _evaluators.get(program, None, lambda: NumpyProgram(program))
+
+
+_evaluators: Recent[Program, NumpyProgram] = Recent(64)
+
+
+def _start_designs(plan: BoundPlan, table: Floats, starts: Floats | None) -> None:
+    for place, buffer in enumerate(plan.inputs["parameter"]):
+        buffer[:, 0] = table[:, place]
+    plan.run_design()
+    if starts is not None:
+        for place, buffer in enumerate(plan.inputs["state"]):
+            buffer[:, 0] = starts[:, place]
+
+
+def _numbers(parameters: ArrayLike) -> list[float]:
+    return [float(p) for p in np.asarray(parameters, dtype=np.float64).ravel().tolist()]
+
+
+def _cut(arrays: Arrays, part: slice) -> dict[str, Floats]:
+    return {name: np.asarray(array, dtype=np.float64)[part] for name, array in arrays.items()}

@@ -1,0 +1,160 @@
+"""A finished straight-line program: inputs, lines that matter, outputs; inspectable."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Container, Iterable, Mapping, Sequence
+from functools import cached_property
+
+from linkwright.core.dataclass import dataclass
+from linkwright.formula.node import COMPARISONS, Entry, Node, needed
+from linkwright.formula.trace import Scalar, Trace
+
+SYMBOLS = {
+    "add": "+",
+    "sub": "-",
+    "mul": "*",
+    "div": "/",
+    "less": "<",
+    "less_equal": "<=",
+    "and": "&",
+    "or": "|",
+}
+
+
+@dataclass(frozen=True)
+class Program:
+    """Lines in the order of evaluation, by name of their fields in ``nodes``; outputs and next states by line number.
+
+    ``parameters``: one number per design; ``positions``: one per position; ``fields``: one per
+    design and position; ``states``: carried from a position to the next; ``tables``: data of a call.
+    """
+
+    entries: tuple[Entry, ...]
+    outputs: tuple[tuple[str, int], ...]
+    next_states: tuple[tuple[str, int], ...] = ()
+
+    @classmethod
+    def of(
+        cls,
+        trace: Trace,
+        outputs: Mapping[str, Scalar | bool],
+        next_states: Mapping[str, Scalar] | None = None,
+    ) -> Program:
+        """What of a trace the named outputs need, renumbered."""
+        wanted = {name: trace.lift(value) for name, value in outputs.items()}
+        carried = {name: trace.lift(value) for name, value in (next_states or {}).items()}
+        kept = trace.needed([*wanted.values(), *carried.values()])
+        number = {old: new for new, old in enumerate(kept)}
+        return cls(
+            tuple([trace.entry(old, number) for old in kept]),
+            tuple((name, number[old]) for name, old in wanted.items()),
+            tuple((name, number[old]) for name, old in carried.items()),
+        )
+
+    def only(self, names: list[str]) -> Program:
+        """The same program for some of its outputs."""
+        entries, by_name = self.entries, dict(self.outputs)
+        outputs = [(name, by_name[name]) for name in names]
+        wanted = [i for _, i in (*outputs, *self.next_states)]
+        return self._of(needed(lambda index: entries[index][1], wanted), outputs)
+
+    def last(self, inputs: Container[str]) -> Program:
+        """The same program with all lines that need some of its parameters or fields behind those that do not."""
+        late: set[int] = set()
+        for index, (_, args, _, name, _) in enumerate(self.entries):
+            if (not args and name in inputs) or not late.isdisjoint(args):
+                late.add(index)
+        return self._of([i for i in range(len(self.entries)) if i not in late] + sorted(late), self.outputs)
+
+    def _of(self, order: Sequence[int], outputs: Iterable[tuple[str, int]]) -> Program:
+        """Lines in a new order."""
+        number = {old: new for new, old in enumerate(order)}
+        return Program(
+            tuple(_renumbered(self.entries[old], number) for old in order),
+            tuple((name, number[i]) for name, i in outputs),
+            tuple((name, number[i]) for name, i in self.next_states),
+        )
+
+    @cached_property
+    def nodes(self) -> tuple[Node, ...]:
+        """The lines with names for their fields."""
+        return tuple(map(Node._make, self.entries))
+
+    @cached_property
+    def output_names(self) -> tuple[str, ...]:
+        return tuple(name for name, _ in self.outputs)
+
+    @cached_property
+    def parameters(self) -> tuple[str, ...]:
+        return self._inputs("parameter")
+
+    @cached_property
+    def positions(self) -> tuple[str, ...]:
+        return self._inputs("position")
+
+    @cached_property
+    def fields(self) -> tuple[str, ...]:
+        return self._inputs("field")
+
+    @cached_property
+    def states(self) -> tuple[str, ...]:
+        return self._inputs("state")
+
+    @cached_property
+    def tables(self) -> tuple[str, ...]:
+        """The tables that are looked up, each once."""
+        return tuple(dict.fromkeys(self._inputs("lookup")))
+
+    @property
+    def names(self) -> dict[str, list[str]]:
+        """The names of the outputs, and of the inputs of every kind, in their order."""
+        kinds = ("parameters", "positions", "fields", "states", "tables")
+        return {"outputs": list(self.output_names), **{kind: list(getattr(self, kind)) for kind in kinds}}
+
+    def _inputs(self, kind: str) -> tuple[str, ...]:
+        return tuple(name for op, _, _, name, _ in self.entries if op == kind)
+
+    @cached_property
+    def key(self) -> str:
+        """A hash of everything that decides what the program computes."""
+        import hashlib
+
+        return hashlib.blake2b(self.text().encode(), digest_size=16).hexdigest()
+
+    def counts(self) -> dict[str, dict[str, int]]:
+        """Numbers of operations, done once per design and once per position."""
+        tally: dict[str, Counter[str]] = {"design": Counter(), "position": Counter()}
+        for op, args, _, _, varies in self.entries:
+            if args:
+                tally["position" if varies else "design"][op] += 1
+        return {level: dict(sorted(counter.items())) for level, counter in tally.items()}
+
+    def text(self) -> str:
+        """The program as lines ``v12 = v3 * v7``."""
+        lines = [f"v{i} = {_spelled(*entry)}" for i, entry in enumerate(self.entries)]
+        lines += [f"output {name} = v{i}" for name, i in self.outputs]
+        lines += [f"carry {name} = v{i}" for name, i in self.next_states]
+        return "\n".join(lines)
+
+    def yields_truth(self, index: int) -> bool:
+        """Whether a line holds a truth value instead of a number."""
+        return self.entries[index][0] in COMPARISONS
+
+
+def _spelled(op: str, args: tuple[int, ...], constant: float, name: str, _: bool) -> str:
+    if op == "constant":
+        return repr(constant)
+    if not args:
+        return f"{op} {name}"
+    names = [f"v{i}" for i in args]
+    if op == "lookup":
+        return f"lookup[{name}, {constant:.0f}]({names[0]})"
+    if op in SYMBOLS:
+        return f"{names[0]} {SYMBOLS[op]} {names[1]}"
+    return f"{op}({', '.join(names)})"
+
+
+def _renumbered(entry: Entry, number: Mapping[int, int]) -> Entry:
+    op, args, constant, name, varies = entry
+    return (op, tuple([number[i] for i in args]), constant, name, varies) if args else entry

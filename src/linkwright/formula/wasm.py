@@ -1,0 +1,67 @@
+"""Programs as WebAssembly modules for browsers, by the same text that native code is made of.
+
+Positions are taken in vectors of four numbers (two of SIMD128 at a time); a program with states has one design.
+Square roots, absolute values and floors are instructions; the other functions are imported from the host
+(``env.linkwright_sin`` …), as native code takes them from the C library. The only other import is the memory.
+Function ``kernel`` takes the address of the program's call block (see ``ir_kernel.Block``; 64 bits per place,
+addresses below 2³²).
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from functools import cache
+from typing import Any
+
+from linkwright.formula.ir_kernel import kernel
+from linkwright.formula.ir_module import ENTRY
+from linkwright.formula.lines import Lines
+from linkwright.formula.machine_code import module_for
+from linkwright.formula.program import Program
+from linkwright.formula.wasm_module import linked
+
+_TRIPLE = "wasm32-unknown-unknown"
+#: Positions in one step of a loop; programs that carry states have one design.
+WIDTH = 4
+#: Functions of a module besides its kernels: written into these, since vectors would pass between them on a stack.
+_INTERNAL = re.compile(r"(?m)^(define internal .*) nounwind \{$")
+
+
+def wasm_module(program: Program) -> bytes | None:
+    """The module of a program, every output stored; None where llvmlite or its WebAssembly target is missing."""
+    machine = _machines() if importlib.util.find_spec("llvmlite") else None
+    if machine is None:
+        return None
+    text, level = kernel(Lines.of(program), 1 if program.next_states else WIDTH, None, library=True)
+    text = _INTERNAL.sub(r"\1 alwaysinline nounwind {", text.replace(f"@{ENTRY}(", "@kernel("))
+    return linked(_object(text, machine[level]), {"kernel": 0})
+
+
+def _object(text: str, machine: Any) -> bytes:
+    import llvmlite.binding as binding
+
+    module = module_for(binding, machine, text)
+    builder = binding.create_pass_builder(machine, binding.create_pipeline_tuning_options())
+    passes = binding.create_new_module_pass_manager()
+    passes.add_always_inliner_pass()
+    passes.add_global_dead_code_eliminate_pass()
+    passes.run(module, builder)
+    return bytes(machine.emit_object(module))
+
+
+@cache
+def _machines() -> dict[int, Any] | None:
+    """The compilers for WebAssembly by how much they optimise."""
+    try:
+        import llvmlite.binding as binding
+
+        binding.initialize_all_targets()
+        binding.initialize_all_asmprinters()
+        target = binding.Target.from_triple(_TRIPLE)
+        return {
+            level: target.create_target_machine(opt=level, features="+simd128,+bulk-memory")
+            for level in (0, 3)
+        }
+    except (ImportError, OSError, RuntimeError):
+        return None
