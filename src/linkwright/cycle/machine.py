@@ -47,7 +47,7 @@ from linkwright.loads.sizes import Formula as Expression
 from linkwright.loads.sizes import Table
 from linkwright.mechanism.mechanism import Mechanism
 
-#: Change of an angle from a line, rad, up to which there is no doubt how often it turned.
+#: Change of an angle between two positions, or from a line, rad, up to which there is no doubt how often it turned.
 CLEAR = 0.75 * np.pi
 #: The output that is 1 where a position is reached, its rotations counted and its friction certain.
 VALID = "valid"

@@ -11,6 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.cycle.load_limits import FoundLimits
+from linkwright.cycle.machine import CLEAR
 from linkwright.cycle.summary import KINDS, Summary
 from linkwright.designs.loaded_cycle import (
     LoadedCycle,
@@ -19,7 +20,7 @@ from linkwright.designs.loaded_cycle import (
     with_limits,
 )
 from linkwright.designs.objective_terms import PathError
-from linkwright.designs.traced_outputs import CLEAR, VALID, Traced
+from linkwright.designs.traced_outputs import VALID, Traced
 from linkwright.errors import RequestError
 from linkwright.events.following import ITERATIONS
 from linkwright.events.tracked_states import TrackedStates, tracked_states

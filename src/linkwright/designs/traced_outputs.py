@@ -11,6 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.outputs import row_name
+from linkwright.cycle.machine import CLEAR, line_near
 from linkwright.errors import RequestError
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Mask, Scalar, absolute, select
@@ -30,8 +31,6 @@ from linkwright.mechanism.mechanism import Mechanism
 VALID = "valid"
 #: The output that tells how near the dyads are to a change point.
 NEAREST = "nearest change point"
-#: Change of an angle between two positions, or from a line, rad, up to which there is no doubt how often it turned.
-CLEAR = 0.75 * np.pi
 
 
 class TurnsThrough(RequestError):
@@ -144,7 +143,7 @@ class Traced:
         if not good.any():
             return 0.0, 0.0
         q = self.nominal.input[good] if rotary else np.zeros(int(good.sum()))
-        line = _line_near(rotation[good], q)
+        line = line_near(rotation[good], q)
         if line is None:
             raise TurnsThrough("study.turns_unevenly", link=link)
         return line
@@ -164,16 +163,6 @@ class Traced:
         gaps = np.diff(np.append(around, around[0] + 2 * np.pi))
         widest = int(np.argmax(gaps))
         return float(around[widest] + 0.5 * gaps[widest] - np.pi)
-
-
-def _line_near(rotation: Floats, q: Floats) -> tuple[float, float] | None:
-    """The line near which a rotation (n,) runs over the input (n,), rad where that is zero and turns in a turn of it;
-    None where it is too far from any."""
-    way = float(q[-1] - q[0])
-    whole = max(1.0, np.round(abs(way) / (2.0 * np.pi)))
-    turns = float(np.round(whole * (rotation[-1] - rotation[0]) / way) / whole) if way else 0.0
-    rest = rotation - turns * q
-    return (0.5 * float(rest.max() + rest.min()), turns) if np.ptp(rest) < 2.0 * CLEAR else None
 
 
 def design_table(names: Sequence[str], known: Mapping[str, float], columns: Mapping[str, Floats]) -> Floats:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,15 +18,14 @@ from linkwright.formula.adjoint_programs import along_positions, back_from_formu
 from linkwright.formula.program import Program
 from linkwright.formula.reductions import PLACE, VALID_COUNT, Accumulation, Reduction, Results
 from linkwright.formula.replay import across_designs
-from linkwright.formula.summaries import Arrays, Backend, Run, blocks, over_designs, reduced
-from linkwright.formula.table import Tables
+from linkwright.formula.summaries import Arrays, How, Run, in_blocks, over_designs, reduced
 from linkwright.formula.trace import Trace
 
 #: Reductions whose adjoint is spread over all valid positions.
 _SPREAD = ("sum", "mean", "rms")
 #: Reductions without a slope.
 _STEPWISE = ("count", "argmin", "argmax")
-_VALUE = "value"
+_VALUE, _SLOPES = "value", "slopes"
 #: Configurations of a block.
 _BLOCK = 1 << 23
 Columns = dict[str, ArrayLike]
@@ -98,33 +98,21 @@ class Gradient:
         table: ArrayLike,
         positions: Arrays | None = None,
         fields: Arrays | None = None,
-        *,
-        tables: Tables | None = None,
-        threads: int | None = None,
-        backend: Backend = "auto",
+        **how: Unpack[How],
     ) -> Floats:
         """The value alone, (designs,)."""
         plain = Accumulation(self.program, tuple(self.read.values()), self.valid)
-        parts = [
-            self._value(numbers, self._reduced(plain, numbers, rows, run), run)
-            for numbers, rows, run in blocks(
-                self.parameters,
-                table,
-                positions,
-                fields,
-                tables=tables,
-                threads=threads,
-                backend=backend,
-                size=_BLOCK,
-            )
-        ]
-        return np.concatenate(parts)
+
+        def found(numbers: Floats, rows: Arrays, run: Run) -> Results:
+            return {_VALUE: self._value(numbers, self._reduced(plain, numbers, rows, run), run)}
+
+        return np.asarray(in_blocks(found, _BLOCK, self.parameters, table, positions, fields, **how)[_VALUE])
 
     def _reduced(self, sums: Accumulation, numbers: Floats, fields: Arrays, run: Run) -> Results:
         if sums.parameters != self.parameters:
             places = [self.parameters.index(name) for name in sums.parameters]
             numbers = np.ascontiguousarray(numbers[:, places])
-        return reduced(sums, numbers, _own(sums, fields), None, run)
+        return reduced(sums, numbers, _own(sums, fields), run)
 
     def _columns(self, numbers: Floats, results: Results) -> Columns:
         return {**dict(zip(self.parameters, numbers.T, strict=True)), **results}
@@ -153,38 +141,26 @@ class Gradient:
         table: ArrayLike,
         positions: Arrays | None = None,
         fields: Arrays | None = None,
-        *,
-        tables: Tables | None = None,
-        threads: int | None = None,
-        backend: Backend = "auto",
+        **how: Unpack[How],
     ) -> tuple[Floats, Floats]:
         """Value (designs,) and gradient (designs, wrt); NaN for designs without the value.
 
         ``table``: (designs, parameters); ``positions``: (n,) per name; ``fields``: (designs, n) per name.
         """
-        values, gradients = [], []
-        for numbers, rows, run in blocks(
-            self.parameters,
-            table,
-            positions,
-            fields,
-            tables=tables,
-            threads=threads,
-            backend=backend,
-            size=_BLOCK,
-        ):
-            ahead = self._forwards
-            results = self._reduced(ahead, numbers, rows, run)
-            value = self._value(numbers, results, run)
-            with np.errstate(all="ignore"):
-                bars = self._back(numbers, results, rows, run)
-            gradient = np.zeros((len(numbers), len(self.wrt)))
-            for column, name in enumerate(self.wrt):
-                gradient[:, column] = bars.get(name, 0.0)
-            gradient[np.isnan(value)] = np.nan
-            values.append(value)
-            gradients.append(gradient)
-        return np.concatenate(values), np.concatenate(gradients)
+        found = in_blocks(self._sloped, _BLOCK, self.parameters, table, positions, fields, **how)
+        return np.asarray(found[_VALUE]), np.asarray(found[_SLOPES])
+
+    def _sloped(self, numbers: Floats, fields: Arrays, run: Run) -> Results:
+        """Value and gradient of some designs."""
+        results = self._reduced(self._forwards, numbers, fields, run)
+        value = self._value(numbers, results, run)
+        with np.errstate(all="ignore"):
+            bars = self._back(numbers, results, fields, run)
+        gradient = np.zeros((len(numbers), len(self.wrt)))
+        for column, name in enumerate(self.wrt):
+            gradient[:, column] = bars.get(name, 0.0)
+        gradient[np.isnan(value)] = np.nan
+        return {_VALUE: value, _SLOPES: gradient}
 
     def _back(self, numbers: Floats, results: Results, fields: Arrays, run: Run) -> dict[str, Floats]:
         """Derivatives of the value by the parameters, (designs,) by name."""
@@ -261,7 +237,7 @@ class Gradient:
             table = np.empty((len(count), len(sums.parameters)))
             for column, name in enumerate(sums.parameters):
                 table[:, column] = given[name]
-            columns = {**columns, **reduced(sums, table, _own(sums, fields), None, run)}
+            columns = {**columns, **reduced(sums, table, _own(sums, fields), run)}
         found = _evaluated(after, columns, len(count), run)
         if self._fused is not None:
             found = {name: each * shares[self._fused] for name, each in found.items()}

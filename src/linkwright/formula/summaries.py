@@ -3,9 +3,9 @@ for."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +18,7 @@ from linkwright.formula.recently_made import Recent
 from linkwright.formula.reductions import Accumulation, Reduction, Results, accumulate
 from linkwright.formula.scalar_backend import ScalarProgram
 from linkwright.formula.table import Tables
-from linkwright.formula.threads import chunks, cores, spread_over
+from linkwright.formula.threads import cores, spread_over
 
 if TYPE_CHECKING:
     from linkwright.formula.llvm_backend import CompiledProgram
@@ -29,8 +29,6 @@ Arrays = Mapping[str, ArrayLike]
 
 #: Below this number of configurations NumPy has answered before a program is compiled.
 WORTH_COMPILING = 20_000
-#: As many configurations, or more, count the designs of a position where states go on to the next one.
-_IN_TURN = 64
 #: From this number of designs on, what is the same for all of them is found beforehand.
 _WORTH_PARTING = 4
 #: Lines of a program that Python has evaluated before NumPy or a compiled one is called.
@@ -38,6 +36,14 @@ _SHORT = 120
 _NUMPY_CHUNK = 1 << 18
 #: Configurations of a block.
 _BLOCK = 1 << 26
+
+
+class How(TypedDict, total=False):
+    """``tables``: those that a program looks up; ``threads``: None for all cores."""
+
+    tables: Tables | None
+    threads: int | None
+    backend: Backend
 
 
 @dataclass(frozen=True)
@@ -75,10 +81,7 @@ class Summaries:
         table: ArrayLike,
         positions: Arrays | None = None,
         fields: Arrays | None = None,
-        *,
-        tables: Tables | None = None,
-        threads: int | None = None,
-        backend: Backend = "auto",
+        **how: Unpack[How],
     ) -> Results:
         """The summaries by their names, (designs,) each.
 
@@ -87,15 +90,11 @@ class Summaries:
         ``backend`` ``auto`` compiles where that pays and llvmlite is there. Memory does not grow with the designs,
         but for fields and results. Raises ValueError for unknown back ends, missing inputs and wrong shapes.
         """
-        parts = []
-        for numbers, rows, run in blocks(
-            self.parameters, table, positions, fields, tables=tables, threads=threads, backend=backend
-        ):
-            own = numbers if self._places is None else np.ascontiguousarray(numbers[:, self._places])
-            parts.append(reduced(self._accumulation, own, rows, None, run))
-        if len(parts) == 1:
-            return parts[0]
-        return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+        return in_blocks(self._found, _BLOCK, self.parameters, table, positions, fields, **how)
+
+    def _found(self, numbers: Floats, fields: Arrays, run: Run) -> Results:
+        own = numbers if self._places is None else np.ascontiguousarray(numbers[:, self._places])
+        return reduced(self._accumulation, own, fields, run)
 
 
 def summaries(program: Program, reductions: Sequence[Reduction], valid: str | None = "valid") -> Summaries:
@@ -107,18 +106,19 @@ def summaries(program: Program, reductions: Sequence[Reduction], valid: str | No
 _summaries: Recent[Program, Summaries] = Recent(64)
 
 
-def blocks(
+def in_blocks(
+    find: Callable[[Floats, Arrays, Run], Results],
+    size: int,
     parameters: Sequence[str],
     table: ArrayLike,
     positions: Arrays | None,
     fields: Arrays | None,
     *,
-    tables: Tables | None,
-    threads: int | None,
-    backend: Backend,
-    size: int | None = None,
-) -> Iterator[tuple[Floats, dict[str, Floats], Run]]:
-    """Some designs after another: their numbers (designs, parameters), their fields, and how they are evaluated;
+    tables: Tables | None = None,
+    threads: int | None = None,
+    backend: Backend = "auto",
+) -> Results:
+    """What is found of some designs after the other, from their numbers (designs, parameters) and their fields;
     ``size``: most configurations of one block."""
     if backend not in BACKENDS:
         raise ValueError(f"there is no back end '{backend}': use auto, numpy or llvm")
@@ -132,10 +132,14 @@ def blocks(
         raise ValueError(f"inputs over the positions must have one length, but have {sorted(lengths)}")
     n = lengths.pop()
     run = Run(positions or {}, n, tables, cores() if threads is None else threads, backend)
-    for first, end in (
-        chunks(len(numbers), max(1, (size or _BLOCK) // max(n, 1))) if len(numbers) else [(0, 0)]
-    ):
-        yield numbers[first:end], {name: array[first:end] for name, array in given.items()}, run
+    several = max(1, size // max(n, 1))
+    parts = [
+        find(numbers[k : k + several], {name: each[k : k + several] for name, each in given.items()}, run)
+        for k in range(0, len(numbers) or 1, several)
+    ]
+    return (
+        parts[0] if len(parts) == 1 else {name: np.concatenate([p[name] for p in parts]) for name in parts[0]}
+    )
 
 
 def over_designs(program: Program, columns: Mapping[str, ArrayLike], count: int, run: Run) -> Floats:
@@ -162,9 +166,7 @@ def _one_design(program: Program, columns: Mapping[str, ArrayLike], run: Run) ->
 _short: Recent[Program, ScalarProgram] = Recent(64)
 
 
-def reduced(
-    accumulation: Accumulation, table: Floats, fields: Arrays, start: Floats | None, run: Run
-) -> Results:
+def reduced(accumulation: Accumulation, table: Floats, fields: Arrays, run: Run) -> Results:
     """Reductions of some designs, by their own names, on the back end that is asked for.
 
     ``table``: (designs, parameters) in the order of ``accumulation.parameters``.
@@ -176,15 +178,9 @@ def reduced(
         run = Run({**run.positions, **found}, run.length, run.tables, run.threads, run.backend)
     compiled = code_for(accumulation.program, accumulation, run, len(table))
     if compiled is None:
-        return _by_numpy(accumulation, table, fields, start, run)
+        return _by_numpy(accumulation, table, fields, run)
     return compiled.sweep(
-        table,
-        run.positions,
-        fields,
-        start=start,
-        threads=run.threads,
-        length=run.length,
-        tables=run.tables,
+        table, run.positions, fields, threads=run.threads, length=run.length, tables=run.tables
     )
 
 
@@ -192,8 +188,7 @@ def code_for(
     program: Program, accumulation: Accumulation | None, run: Run, designs: int
 ) -> CompiledProgram | None:
     """The compiled program; None where NumPy is asked for, is all there is, or has answered before."""
-    count = max(designs, _IN_TURN) if program.states else designs
-    if run.backend == "numpy" or (run.backend == "auto" and count * run.length < WORTH_COMPILING):
+    if run.backend == "numpy" or (run.backend == "auto" and designs * run.length < WORTH_COMPILING):
         return None
     from linkwright.formula.llvm_backend import compile_program
 
@@ -203,9 +198,7 @@ def code_for(
     return compiled
 
 
-def _by_numpy(
-    accumulation: Accumulation, table: Floats, fields: Arrays, start: Floats | None, run: Run
-) -> Results:
+def _by_numpy(accumulation: Accumulation, table: Floats, fields: Arrays, run: Run) -> Results:
     """In blocks that fit the cache."""
     evaluator = numpy_program(accumulation.needed)
     names = accumulation.needed.output_names
@@ -214,9 +207,8 @@ def _by_numpy(
 
     def work(first: int, end: int) -> None:
         rows = {name: np.asarray(array)[first:end] for name, array in fields.items()}
-        own = None if start is None else start[first:end]
         part, numbers = sums[first:end], table[first:end, :count]
-        blocks = evaluator.blocks(numbers, run.positions, rows, start=own, length=n, tables=run.tables)
+        blocks = evaluator.blocks(numbers, run.positions, rows, length=n, tables=run.tables)
         for designs, columns, outputs in blocks:
             with np.errstate(all="ignore"):
                 accumulate(accumulation, part[designs], outputs, names, columns.start)

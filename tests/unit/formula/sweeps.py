@@ -5,9 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.formula.llvm_backend import compile_program
+from linkwright.formula.numpy_backend import numpy_program
 from linkwright.formula.program import Program
-from linkwright.formula.reductions import Accumulation, Kind, Reduction, Results
-from linkwright.formula.summaries import Arrays, Backend, Run, Summaries, reduced
+from linkwright.formula.reductions import Accumulation, Kind, Reduction, Results, accumulate
+from linkwright.formula.summaries import Arrays, Backend, Summaries
 from linkwright.formula.table import Tables
 
 
@@ -36,8 +38,15 @@ def sweep(
         return sums.evaluate(parameters, positions, fields, tables=tables, threads=threads, backend=backend)
     table = np.asarray(parameters, dtype=np.float64)
     accumulation = Accumulation(program, wanted, valid if valid in program.output_names else None)
-    taken = [program.parameters.index(name) for name in accumulation.parameters]
-    count = length or len(np.asarray(next(iter(positions.values()))))
-    begin = np.broadcast_to(np.asarray(start, dtype=np.float64), (len(table), len(program.states)))
-    run = Run(positions, count, tables, threads or 1, backend)
-    return reduced(accumulation, np.ascontiguousarray(table[:, taken]), fields or {}, begin, run)
+    own = np.ascontiguousarray(table[:, [program.parameters.index(name) for name in accumulation.parameters]])
+    compiled = None if backend == "numpy" else compile_program(program, accumulation)
+    if compiled is not None:
+        return compiled.sweep(own, positions, fields or {}, start=start, length=length, tables=tables)
+    evaluator, count = numpy_program(accumulation.needed), length or np.size(next(iter(positions.values())))
+    sums, names = accumulation.start(len(table)), accumulation.needed.output_names
+    own = own[:, : len(accumulation.needed.parameters)]
+    for part, columns, outputs in evaluator.blocks(
+        own, positions, fields or {}, start=start, length=count, tables=tables
+    ):
+        accumulate(accumulation, sums[part], outputs, names, columns.start)
+    return accumulation.finish(sums, count)
