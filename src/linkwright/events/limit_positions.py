@@ -96,6 +96,11 @@ def _limits(motion: Motion, output: Output) -> tuple[LimitPosition, ...]:
     return tuple(replace(each, index=int(order[each.index])) for each in limits)
 
 
+def bend_times(motion: Motion) -> Floats:
+    """Times of a motion, s, at which it passes change points, or a joint goes over to another formula."""
+    return np.concatenate([cuts for _, cuts in _Way(motion).cut])
+
+
 def limit_inputs(motion: Motion, output: Output) -> list[tuple[float, str]]:
     """The first driver's coordinates at which an output reverses, with the kinds of limits, in no order.
 
@@ -151,8 +156,15 @@ class _Way:
     @property
     def parts(self) -> list[Stretches]:
         """The cycle, or every stretch that is reached, with these cuts."""
-        found = self.motion.kept("cuts", lambda: [(each, self._cuts(each)) for each in self._courses()])
-        return [Stretches(_span(course), [], cuts) for course, cuts in found]
+        return [Stretches(one_span(course), [], cuts) for course, cuts in self.cut]
+
+    @property
+    def cut(self) -> list[tuple[Course, Floats]]:
+        """The same as courses with the times, s, of their cuts."""
+        found: list[tuple[Course, Floats]] = self.motion.kept(
+            "cuts", lambda: [(each, self._cuts(each)) for each in self._courses()]
+        )
+        return found
 
     def _courses(self) -> list[Course]:
         if self.whole:
@@ -171,7 +183,7 @@ class _Way:
         for bends in bending:
             rows, phase = bend_rows(bends), self.motion.mechanism.dimension(bends.phase)
             signals = SolvedAgain(self.between, self.reach, rows, of_bends(bends, phase), len(bends.angles))
-            for k, each in enumerate(events(signals, NO_NUMBERS, ONE, Stretches(_span(course), []))):
+            for k, each in enumerate(events(signals, NO_NUMBERS, ONE, Stretches(one_span(course), []))):
                 cosines, _ = of_bends(bends, phase, cosines=True)(self.rows(rows, each.time))
                 found.append(each.time[cosines[k] > 0.0])
         time = np.concatenate(found)
@@ -200,7 +212,8 @@ class _Found(NamedTuple):
     rows: Floats
 
 
-def _span(course: Course) -> Span:
+def one_span(course: Course) -> Span:
+    """That of one machine."""
     return Span(course, np.array([course.duration]), np.zeros(1))
 
 

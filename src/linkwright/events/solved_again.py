@@ -23,46 +23,62 @@ FEW = 4
 Made = Callable[[Floats], tuple[Floats, Floats]]
 
 
-class SolvedAgain:
-    """Signals ``made`` of rows ``names`` of the program of a motion; ``count``: how many."""
+class OfTimes:
+    """Signals (count, m) that a function gives at times (m,), s; slopes from their values ``beside`` these, s."""
 
-    def __init__(
-        self, between: Between, reach: Reach, names: tuple[str, ...], made: Made, count: int = 1
-    ) -> None:
-        self.between, self.reach, self.names, self.made = between, reach, names, made
-        self.outputs = tuple(map(str, range(count)))
+    def __init__(self, values: Callable[[Floats], Floats], count: int, beside: float) -> None:
+        self.values, self._beside = values, beside
+        self.outputs = _numbers(count)
 
     def run(self, known: Known, columns: Columns, nodes: Floats) -> Floats:
         """The signals, (nodes, signals, pieces)."""
-        return self._both(columns, nodes)[0]
+        time = columns[LOW] + (columns[HIGH] - columns[LOW]) * nodes[:, None]
+        return self.values(time.ravel()).reshape(-1, *time.shape).swapaxes(0, 1)
 
     @property
     def with_slope(self) -> _WithSlope:
         """The signals and, behind each, its derivative by the place in the piece."""
         return _WithSlope(self)
 
-    def _both(self, columns: Columns, nodes: Floats) -> tuple[Floats, Floats]:
-        low, high = columns[LOW], columns[HIGH]
-        time = low + (high - low) * nodes[:, None]
-        rows = solved_at(self.between, self.reach, self.names, time.ravel())
-        value, slope = (each.reshape(-1, *time.shape).swapaxes(0, 1) for each in self.made(rows))
-        return value, slope * (high - low)
+    def both(self, time: Floats) -> tuple[Floats, Floats]:
+        """Values and slopes by the time, (signals, m) each."""
+        value, there = np.split(self.values(np.append(time, time + self._beside)), 2, axis=1)
+        return value, (there - value) / self._beside
+
+
+class SolvedAgain(OfTimes):
+    """Signals ``made`` of rows ``names`` of the program of a motion; ``count``: how many."""
+
+    def __init__(
+        self, between: Between, reach: Reach, names: tuple[str, ...], made: Made, count: int = 1
+    ) -> None:
+        super().__init__(lambda time: made(solved_at(between, reach, names, time))[0], count, 0.0)
+        self.between, self.reach, self.names, self.made = between, reach, names, made
+
+    def both(self, time: Floats) -> tuple[Floats, Floats]:
+        return self.made(solved_at(self.between, self.reach, self.names, time))
 
 
 class _WithSlope:
-    """Signals with their slopes."""
+    """Signals with, behind each, its slope by the place in the piece."""
 
-    def __init__(self, signals: SolvedAgain) -> None:
-        self._signals = signals
-        self.outputs = tuple(name for each in signals.outputs for name in (each, f"{each}'"))
+    def __init__(self, signals: OfTimes) -> None:
+        self._signals, self.outputs = signals, _numbers(2 * len(signals.outputs))
 
     @property
     def with_slope(self) -> _WithSlope:
         raise NotImplementedError
 
     def run(self, known: Known, columns: Columns, nodes: Floats) -> Floats:
-        value, slope = self._signals._both(columns, nodes)
-        return np.stack([value, slope], axis=2).reshape(len(nodes), len(self.outputs), -1)
+        width = columns[HIGH] - columns[LOW]
+        time = columns[LOW] + width * nodes[:, None]
+        value, slope = (each.reshape(-1, *time.shape) for each in self._signals.both(time.ravel()))
+        both = np.stack([value, slope * width], axis=1)
+        return both.reshape(len(self.outputs), *time.shape).swapaxes(0, 1)
+
+
+def _numbers(count: int) -> tuple[str, ...]:
+    return tuple(map(str, range(count)))
 
 
 def solved_at(between: Between, reach: Reach, names: tuple[str, ...], time: Floats) -> Floats:

@@ -342,7 +342,7 @@ class Analysis(PartlyReached):
             return None
         try:
             if self._machine is None:
-                cuts = SolvedCuts(self.motion, self.forces, self.resolver).times
+                cuts = SolvedCuts(self.motion, self.forces, self.resolver).stretches.begin
             else:
                 known = self._solved if not self._machine.traces.programs.signed else []
                 cuts = (known or [Cycle(self._machine, ()).solve({})])[0].stretches.begin
