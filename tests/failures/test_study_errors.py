@@ -168,6 +168,13 @@ def test_teeth_that_change_the_cycle_are_told_to_have_one() -> None:
     assert "0.06 m" in fixed.text()
 
 
+@pytest.mark.parametrize("term", ["peak_input_torque", "driver.effort max"])
+def test_an_objective_of_a_dimension_that_changes_the_cycle_says_what_to_write(term: str) -> None:
+    geared = lw.load("gallery:geared_fivebar")
+    with refused("study.moves_cycle", address="mesh.radii.0"):
+        lw.objective(geared, term, vary=["crank_1.length", "mesh.radii.0"])
+
+
 def test_numbers_of_forces_of_a_machine_that_carries_nothing(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -22,7 +22,7 @@ from linkwright.formula.machine_code import available
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.summaries import BACKENDS, Backend
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.positions import at_inputs
+from linkwright.kinematics.positions import Positions, at_inputs
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
@@ -190,6 +190,7 @@ def of_metrics(
         return OverMetrics(hulls.dimensions, hulls, weights, backend)
     cycle = numbers_of_designs(mechanism, names, weights, steps=steps)
     if cycle is None:
+        _refuse_moved_cycle(mechanism, names, over_cycle(mechanism, steps))
         raise RequestError(_refusal(mechanism, steps))
     missing = [name for name in weights if name not in {term.name for term in cycle.terms}]
     if missing:
@@ -238,9 +239,14 @@ def _of_positions(
         raise RequestError("motion.no_positions")
     if points and positions.count != points:
         raise RequestError("study.objective_count", points=points, positions=positions.count)
-    known = mechanism.dimensions()
     if at is None:
-        refuse_moved_positions(
-            mechanism, positions, {name: np.array([1.001 * known[name] or 1e-3]) for name in names}
-        )
+        _refuse_moved_cycle(mechanism, names, positions)
     return Builder(mechanism, names, positions, given).built(backend)
+
+
+def _refuse_moved_cycle(mechanism: Mechanism, names: Iterable[str], positions: Positions) -> None:
+    """Raises RequestError for a dimension with which the cycle changes, so that its numbers have no derivative."""
+    known = mechanism.dimensions()
+    refuse_moved_positions(
+        mechanism, positions, {name: np.array([1.001 * known[name] or 1e-3]) for name in names}
+    )
