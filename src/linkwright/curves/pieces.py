@@ -1,10 +1,9 @@
 """Signals of many designs as polynomials on pieces of their cycles: sizes, means, integrals, extremes.
 
 Every piece has sixteen Gauss points; one that its polynomial does not meet, and that matters for what is asked, is
-halved
-(Trefethen, Approximation Theory and Approximation Practice, ch. 8 and 18). Pieces of all designs lie behind each
-other, by design and time, so that designs may have as many as each needs: what belongs to a design is ``reduceat``
-over its pieces. Arrays are (POINTS, signals, pieces).
+halved (Trefethen, Approximation Theory and Approximation Practice, ch. 8 and 18). Pieces of all designs lie behind
+each other, by design and time, so that designs may have as many as each needs: what belongs to a design is
+``reduceat`` over its pieces. Arrays are (POINTS, signals, pieces).
 """
 
 from __future__ import annotations
@@ -64,14 +63,16 @@ class Signals(Protocol):
 
 @dataclass(frozen=True)
 class Wanted:
-    """What pieces must be met for: signals ``even`` everywhere, sides (signal, sign) near their extremes; ``alike``:
-    the number of its dimension for every signal, of which sizes are compared; ``joined``: neighbours meet each other
-    too, but at ends of stretches."""
+    """What pieces must be met for: signals ``even`` everywhere, sides (signal, sign) near their extremes.
+
+    ``alike``: numbers of signals of one dimension, of which sizes are compared; ``joined``: neighbours meet each
+    other too, but at ends of stretches.
+    """
 
     even: tuple[int, ...] = ()
     sides: tuple[tuple[int, float], ...] = ()
     met: float = MET
-    alike: Sequence[int] = ()
+    alike: Sequence[Indices] = ()
     crowd: int = CROWD
     wide: float = WIDE
     joined: bool = False
@@ -119,9 +120,8 @@ class Pieces:
     """Signals on pieces of a layout and on the halves of those that are not met.
 
     ``stretch``, ``first`` and ``last`` share of it, ``design``: (pieces,); ``top``, ``bottom``, ``rough`` (size of
-    the last
-    orders), ``whole`` (mean): (signals, pieces); ``size``: (signals, designs); ``unmet`` (designs,): a piece that
-    matters is not met, and is halved no more.
+    the last orders), ``whole`` (mean): (signals, pieces); ``size``: (signals, designs); ``unmet`` (designs,): a piece
+    that matters is not met, and is halved no more.
     """
 
     def __init__(
@@ -217,14 +217,11 @@ class Pieces:
 
     def _sizes(self) -> Floats:
         """Sizes of the signals, of such as are small beside others of their dimension a share of these."""
-        if not len(self.wanted.alike):
+        if not self.wanted.alike:
             return self.size
         found = self.size.copy()
-        kinds = np.asarray(self.wanted.alike)
-        for kind in dict.fromkeys(self.wanted.alike):
-            rows = np.flatnonzero(kinds == kind)
-            if len(rows) > 1:
-                found[rows] = np.maximum(found[rows], ALIKE * self.size[rows].max(axis=0))
+        for rows in self.wanted.alike:
+            found[rows] = np.maximum(found[rows], ALIKE * self.size[rows].max(axis=0))
         return found
 
     def values(self, signals: Indices | int, pieces: Indices | None = None) -> Floats:
@@ -294,10 +291,12 @@ class Pieces:
         self, sides: Sequence[tuple[int, float]], parts: Sequence[Flags | None]
     ) -> tuple[Floats, Indices, Indices]:
         """Values (POINTS, k) times the sign of all sides on the pieces that may hold their largest one, with the
-        number of
-        the side and the piece; every piece where nothing is a number. ``parts``: the pieces in which a side is asked
-        for."""
-        signals, signs = np.array([k for k, _ in sides]), np.array([sign for _, sign in sides])
+        number of the side and the piece; every piece where nothing is a number.
+
+        ``parts``: the pieces in which a side is asked for, None for all.
+        """
+        signals = np.array([k for k, _ in sides], dtype=np.intp)
+        signs = np.array([sign for _, sign in sides])
         highest = np.where(signs[:, None] > 0.0, self.top[signals], -self.bottom[signals])
         for n, part in enumerate(parts):
             if part is not None:

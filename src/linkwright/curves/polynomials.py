@@ -31,10 +31,8 @@ SLOPE = np.vstack([chebyshev.chebder(np.eye(POINTS)), np.zeros((1, POINTS))])
 TO_SLOPE = chebyshev.chebvander(_X, POINTS - 1) @ SLOPE @ SERIES
 UP_TO = chebyshev.chebvander(_X, POINTS) @ (0.5 * chebyshev.chebint(np.eye(POINTS), lbnd=-1) @ SERIES)
 #: How much higher than at its nodes a signal may rise in a piece that is met, as share of its span there: half of
-#: the gap
-#: between two nodes, squared, is 0.009 of it, and up to the ends it may rise by 0.025; where it is not met, in
-#: multiples
-#: of the size of its last orders.
+#: the gap between two nodes, squared, is 0.009 of it, and up to the ends it may rise by 0.025; where it is not met,
+#: in multiples of the size of its last orders.
 SLACK, HIDDEN = 0.03, 8.0
 #: So many polynomials, or more, are climbed by machine code.
 COMPILED = 1000

@@ -28,12 +28,14 @@ Columns = dict[str, Floats]
 
 
 class Acting(ABC):
-    """When one load acts; ``events``: where it begins and ends to."""
+    """When one load acts; ``events``: where it begins and ends to; ``by_dimensions``: derivatives (designs,) by those
+    that are its ends, gathered on the way back."""
 
     events: list[Ends]
 
     def __init__(self, load: Load, span: Span) -> None:
         self.name, self.ramp, self.span = load.name, load.magnitude.size.ramp, span
+        self.by_dimensions: dict[str, Floats] = {}
 
     @property
     @abstractmethod
@@ -135,7 +137,7 @@ class WithinInput(Acting):
     """While an input that follows a law, or goes a part of a turn, is within an interval, angles modulo one turn.
 
     ``ends``: the values (designs,) of the input at both ends; ``heading``: 1 where it only grows, -1 where it only
-    falls, else 0; ``by_ends`` (2, designs): derivatives by these values, gathered on the way back.
+    falls, else 0.
     """
 
     def __init__(
@@ -148,7 +150,8 @@ class WithinInput(Acting):
         through = gap - TURN * np.floor(gap / TURN)
         around = (gap < 0.0) & (heading > 0) & self._rotary
         self.length = np.where(around, np.where(through <= 0.0, TURN, through), gap)
-        self.events, self.by_ends = events, np.zeros((2, span.count))
+        self.events = events
+        self.by_dimensions = {input_end(load.name, which): np.zeros(span.count) for which in (0, 1)}
 
     @property
     def missing(self) -> Flags:
@@ -169,8 +172,12 @@ class WithinInput(Acting):
         acts = self.columns(design, middle)[f"{ACTS}:{self.name}"] > 0.5
         bars = self._bars(acts, by_columns)
         if bars is not None:
-            np.add.at(self.by_ends[0], design, bars[0] - bars[1])
-            np.add.at(self.by_ends[1], design, bars[1])
+            self.pull_reach(0, design, bars[0] - bars[1])
+            self.pull_reach(1, design, bars[1])
+
+    def pull_reach(self, which: int, design: Indices, bars: Floats) -> None:
+        """Enters derivatives by the ends."""
+        np.add.at(self.by_dimensions[input_end(self.name, which)], design, bars)
 
 
 class InPart(Acting):
@@ -236,6 +243,30 @@ class InPart(Acting):
         """From derivatives by these values those by the limits."""
         share = self.shares[which]
         self._by_limits(design, bars * (1.0 - share), bars * share)
+
+
+class Never(Acting):
+    """A load whose phase no design has."""
+
+    def __init__(self, load: Load, span: Span) -> None:
+        super().__init__(load, span)
+        self.events = []
+
+    @property
+    def missing(self) -> Flags:
+        return np.ones(self.span.count, dtype=np.bool_)
+
+    def columns(self, design: Indices, middle: Floats) -> Columns:
+        nothing = np.zeros(len(design))
+        return self._named(nothing > 0.0, nothing, nothing + 1.0)
+
+    def pull(self, design: Indices, middle: Floats, by_columns: Mapping[str, Floats]) -> None:
+        """Nothing follows from it."""
+
+
+def input_end(load: str, which: int) -> str:
+    """The dimension that is the input at which a load begins (0) or ends (1) to act."""
+    return f"loads.{load}.phase.input.{which}"
 
 
 def part_of(phase: SwingPhase) -> tuple[tuple[float, float], tuple[float, float]]:

@@ -323,6 +323,19 @@ class Machine:
                 self._numbers[name] = self._number(name)
         return found
 
+    def varying(self, key: Hashable, outputs: Callable[[], Mapping[str, Scalar]]) -> Formula | None:
+        """Those of some outputs that change over the cycle, as a formula; None where none does."""
+        names = self.formula(key, outputs).varying
+        if not names:
+            return None
+        return self.formula(("varying", key), lambda: {k: v for k, v in outputs().items() if k in names})
+
+    def taken(self, formulas: Iterable[Formula]) -> frozenset[str]:
+        """The dimensions that vary which some formulas take, or the input."""
+        first = self.course.first.name
+        names = {name for formula in formulas for name in formula.columns}
+        return frozenset(self.varied) & (names | {f"{first}.speed", f"{first}.start"})
+
     def tells(self, words: str) -> bool:
         """Whether a formula gives an output: not the angle of a link that turns through."""
         try:

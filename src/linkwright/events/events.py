@@ -1,10 +1,9 @@
 """Events: where a signal changes its sign over the cycles of many designs, all found at once.
 
 The signal is looked at on polynomial pieces, which are halved until they meet it; places where it is rounding of
-zero decide
-nothing. Between two places that do, in one stretch without cuts, Newton's steps of the formula itself find the root;
-elsewhere the sign changes at a cut, or over a rest, of which the middle counts. What is found is flat: so many
-events as there are, by design and time.
+zero decide nothing. Between two places that do, in one stretch without cuts, Newton's steps of the formula itself
+find the root; elsewhere the sign changes at a cut, or over a rest, of which the middle counts. What is found is flat:
+so many events as there are, by design and time.
 """
 
 from __future__ import annotations

@@ -1,9 +1,8 @@
 """Pointwise formulas: outputs at places of pieces of a cycle, with slopes, and weighted sums differentiated.
 
 A piece is one design between two times. A formula takes the columns of a piece (its ends ``low`` and ``high``,
-dimensions that
-vary, what loads do in it) and a place in it, its node; nothing goes over from one place to the next. Pieces are the
-lanes of the machine code, nodes its outer loop.
+dimensions that vary, what loads do in it) and a place in it, its node; nothing goes over from one place to the next.
+Pieces are the lanes of the machine code, nodes its outer loop.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ NODE, ROW = "node", "row"
 #: Below this number of places NumPy has answered before a program is compiled.
 WORTH_COMPILING = 20_000
 #: So many places at most are evaluated one by one on plain numbers.
-FEW = 3
+FEW = 4
 #: The field of all formulas that take others of paths: the place in a path's step.
 PLACE = "place in the step"
 
@@ -170,11 +169,12 @@ class Formula:
             self._pulls[names] = Formula(Program.of(replay.trace, bars))
         return self._pulls[names]
 
-    def varying(self, name: str) -> list[str]:
-        """The outputs that change with an input."""
+    @cached_property
+    def varying(self) -> list[str]:
+        """The outputs that change with the place in the piece."""
         found: set[int] = set()
         for k, node in enumerate(self.program.nodes):
-            if (not node.args and node.name == name) or any(each in found for each in node.args):
+            if (not node.args and node.name == NODE) or any(each in found for each in node.args):
                 found.add(k)
         return [each for each, k in self.program.outputs if k in found]
 

@@ -17,7 +17,7 @@ class AtInput:
     """When the input has a ``value`` (designs,), rad, and comes back to it after so many turns, ``every``: (k,) by
     design.
 
-    ``address``: of the dimension that the value is, "" for none; ``bar``: derivatives by the times.
+    ``address``: of the dimension that the value is; ``bar``: derivatives by the times.
     """
 
     span: Span
@@ -41,7 +41,7 @@ class AtInput:
         self.bar: Floats = np.zeros(len(at))
 
     def pull(self, driver: str) -> tuple[Indices, Mapping[str, Floats]]:
-        """Derivatives by the dimensions of the designs, where the driver's and the value's are varied."""
+        """Derivatives by the dimensions of the designs that are the driver's and the value."""
         by_value = self.bar / self.speed[self.design]
         found = {f"{driver}.start": -by_value, f"{driver}.speed": -by_value * self.time}
-        return self.design, {**found, self.address: by_value} if self.address else found
+        return self.design, {**found, self.address: by_value}

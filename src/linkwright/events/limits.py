@@ -44,7 +44,7 @@ class Limits:
     def _first(self, kind: str) -> Indices:
         """Of every design the first in time of the limits that are outermost; -1 where it has none."""
         events, found = self.events, np.full(self.span.count, -1)
-        ours = np.flatnonzero(self.is_outermost() & (events.rising == (kind == "min")))
+        ours = np.flatnonzero(self.is_outermost & (events.rising == (kind == "min")))
         begin = (events.time[ours] - self.span.begin) / self.span.period[events.design[ours]]
         ours = ours[np.lexsort((begin - np.floor(begin + 1e-12), events.design[ours]))]
         owner = events.design[ours]
@@ -57,16 +57,17 @@ class Limits:
         """Designs that have limits of both kinds, (designs,)."""
         return (self.outermost["max"] >= 0) & (self.outermost["min"] >= 0)
 
-    @cached_property
-    def tied(self) -> Flags:
-        """Designs with other outermost limits than one of each kind, (designs,)."""
-        outer = self.is_outermost()
-        counts = [
-            np.bincount(self.events.design[outer & (self.events.rising == kind)], minlength=self.span.count)
+    def single(self, *, outermost: bool) -> Flags:
+        """Designs with one limit of each kind, or one outermost one, (designs,)."""
+        design, rising = self.events.design, self.events.rising
+        counted = self.is_outermost if outermost else np.ones_like(rising)
+        sides = [
+            np.bincount(design[counted & (rising == kind)], minlength=self.span.count)
             for kind in (False, True)
         ]
-        return np.asarray((counts[0] != 1) | (counts[1] != 1))
+        return np.asarray((sides[0] == 1) & (sides[1] == 1))
 
+    @cached_property
     def is_outermost(self) -> Flags:
         """Which limits have the largest or the smallest value, (k,); such as are alike to a share of the way
         count."""

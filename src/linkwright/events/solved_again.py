@@ -12,13 +12,11 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import row_name, row_names
 from linkwright.curves.pieces import HIGH, LOW, Columns
-from linkwright.events.formula import Known
+from linkwright.events.formula import FEW, Known
 from linkwright.joints.base import Bends
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.reached_stretches import Reach
 
-#: As many times at most are solved one by one, on plain numbers.
-FEW = 4
 #: From rows of a program (names, m) values and slopes by the time of signals, (signals, m) each.
 Made = Callable[[Floats], tuple[Floats, Floats]]
 

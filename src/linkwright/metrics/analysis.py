@@ -14,8 +14,9 @@ from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, row_names
 from linkwright.core.search import first_largest
-from linkwright.cycle.cycle import Cycle, Solved
+from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.machine import Machine, NotTogether
+from linkwright.cycle.solved import Solved
 from linkwright.cycle.summary import STROKES, TRUE_SPEED, Extreme, Summary, one, signal_of
 from linkwright.errors import LinkwrightError
 from linkwright.events.limit_positions import limit_positions
@@ -201,7 +202,7 @@ class Analysis(PartlyReached):
             limited = [each for each in swinging if self.limits(each) and self._machine.tells(each.name)]
             parts = [each for each in parts if told[each]]
             self._together |= dict.fromkeys(told)
-            solved = Cycle(self._machine, parts, limited).solve({})
+            solved = Solved(Cycle(self._machine, parts, limited), {})
             self._solved.append(solved)
             self._together |= {each: self._read_of(solved, each) for each in parts}
         return self._together[text]
@@ -345,7 +346,7 @@ class Analysis(PartlyReached):
                 cuts = SolvedCuts(self.motion, self.forces, self.resolver).stretches.begin
             else:
                 known = self._solved if not self._machine.traces.programs.signed else []
-                cuts = (known or [Cycle(self._machine, ()).solve({})])[0].stretches.begin
+                cuts = (known or [Solved(Cycle(self._machine, ()), {})])[0].stretches.begin
             found = SolvedPieces.of_cycle(self.motion, self.resolver, cuts)
             return found if found.reached else None
         except LinkwrightError:

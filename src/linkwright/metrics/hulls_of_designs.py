@@ -10,9 +10,10 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.curves.pieces import HIGH, LOW
-from linkwright.cycle.cycle import Cycle, Signal, Solved
+from linkwright.cycle.cycle import Cycle, Signal
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine, NotTogether
+from linkwright.cycle.solved import Solved
 from linkwright.events.course import moves
 from linkwright.formula.summaries import Backend
 from linkwright.formula.threads import cores, spread_over
@@ -111,9 +112,9 @@ class HullsOfDesigns:
         self.machine.compiled = None if backend == "auto" else backend == "llvm"
 
         def work(first: int, end: int) -> None:
-            solved = self.cycle.solve({name: column[first:end] for name, column in own.items()})
+            solved = Solved(self.cycle, {name: column[first:end] for name, column in own.items()})
             if not own:
-                solved = self.cycle.solve({})
+                solved = Solved(self.cycle, {})
             rows = [solved.pieces.values(self.cycle.number[Signal(each)]) for each in self._words]
             weights = np.zeros((len(factors), len(rows), *rows[0].shape))
             for k in np.flatnonzero(solved.passed & ~solved.pieces.unmet).tolist():

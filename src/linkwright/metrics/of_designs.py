@@ -11,9 +11,10 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.cycle.cycle import Cycle, Signal, Solved
+from linkwright.cycle.cycle import Cycle, Signal
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine, NotTogether
+from linkwright.cycle.solved import Solved
 from linkwright.cycle.summary import TRUE_SPEED, one
 from linkwright.errors import RequestError
 from linkwright.events.course import moves
@@ -140,7 +141,7 @@ class NumbersOfDesigns:
         cycle = self._compiled(designs, backend)
 
         def work(first: int, end: int) -> None:
-            solved = cycle.solve({address: column[first:end] for address, column in columns.items()})
+            solved = Solved(cycle, {address: column[first:end] for address, column in columns.items()})
             parts, certain[first:end] = self._parts(solved)
             found = _of(self._formulas, parts)
             for each in self.terms:
@@ -157,7 +158,7 @@ class NumbersOfDesigns:
         for number in each.numbers:
             ways = [self.cycle.limited.get(part) for part in number.parts if one(part).kind.startswith("arg")]
             if len(ways) == 2 and ways[0] is not None and ways[0] in solved.limits:
-                values = np.where(solved.limits[ways[0]].tied, np.nan, values)
+                values = np.where(solved.limits[ways[0]].single(outermost=True), values, np.nan)
         return values
 
     def _compiled(self, designs: int, backend: Backend) -> Cycle:
@@ -199,7 +200,7 @@ class NumbersOfDesigns:
         cycle = self._compiled(designs, backend)
 
         def work(first: int, end: int) -> None:
-            solved = cycle.solve({address: column[first:end] for address, column in columns.items()})
+            solved = Solved(cycle, {address: column[first:end] for address, column in columns.items()})
             parts, sure = self._parts(solved)
             for number, weights in enumerate(sums):
                 value, slope = self._gradient(solved, parts, weights)

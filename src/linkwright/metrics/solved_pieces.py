@@ -19,7 +19,7 @@ from linkwright.core.cached_property import cached_property
 from linkwright.curves.curve import increasing
 from linkwright.curves.pieces import HIGH, LOW, Columns, Layout, Pieces, Wanted
 from linkwright.curves.polynomials import NODES, WEIGHTS, best_of, climbed, largest
-from linkwright.cycle.cycle import PIECES
+from linkwright.cycle.solved import PIECES
 from linkwright.cycle.summary import Extreme
 from linkwright.events.course import Course
 from linkwright.kinematics.motion import Motion

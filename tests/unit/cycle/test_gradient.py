@@ -8,6 +8,7 @@ import linkwright as lw
 from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine
+from linkwright.cycle.solved import Solved
 
 PARTS = ["driver.effort mean", "driver.effort rms", "driver.effort peak", "power max", "driver.effort excess"]
 #: Machines with parts, what varies (the speed, the ends of phases, cams and lengths), outputs with limits.
@@ -34,12 +35,12 @@ def test_gradients_are_differences_of_fourth_order(name: str) -> None:
     parts = [*PARTS, f"{output} range", f"{output} argmax"]
     cycle = Cycle(Machine(mechanism, motion, varied), parts, limited)
     nominal = {each: mechanism.dimension(each) for each in varied}
-    solved = cycle.solve({each: np.array([value]) for each, value in nominal.items()})
+    solved = Solved(cycle, {each: np.array([value]) for each, value in nominal.items()})
     steps = {each: 2e-4 * abs(value) for each, value in nominal.items()}
     for address in varied:
         columns = {each: np.full(4, value) for each, value in nominal.items()}
         columns[address] = columns[address] + steps[address] * np.array([-2.0, -1.0, 1.0, 2.0])
-        beside = cycle.solve(columns).values
+        beside = Solved(cycle, columns).values
         for part in every(parts, least=3):
             far = beside[part]
             expected = (far[0] - 8.0 * far[1] + 8.0 * far[2] - far[3]) / (12.0 * steps[address])

@@ -18,6 +18,7 @@ from linkwright.curves.pieces import HIGH, LOW
 from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine
+from linkwright.cycle.solved import Solved
 from linkwright.events.following import ITERATIONS, Paths
 from linkwright.events.formula import ROW
 from linkwright.events.tracked_states import TrackedStates
@@ -121,7 +122,7 @@ def test_the_cycle_of_designs_is_that_of_each_alone(name: str) -> None:
     names = varied(machine)
     designs, parts = near(machine, names, 3), ["driver.effort peak", "driver.effort rms", "driver.effort max"]
     cycle = Cycle(Machine(machine, lw.solve_motion(machine), names), parts)
-    solved = cycle.solve(designs)
+    solved = Solved(cycle, designs)
     assert solved.passed.all()
     for index in range(3):
         changed = machine.with_dimensions({each: float(column[index]) for each, column in designs.items()})
@@ -133,7 +134,7 @@ def test_the_cycle_of_designs_is_that_of_each_alone(name: str) -> None:
     for each in names:
         h = 2e-5 * designs[each]
         ends = [
-            cycle.solve({**designs, each: designs[each] + k * h}).values[parts[1]] for k in (-2, -1, 1, 2)
+            Solved(cycle, {**designs, each: designs[each] + k * h}).values[parts[1]] for k in (-2, -1, 1, 2)
         ]
         difference = (ends[0] - 8.0 * ends[1] + 8.0 * ends[2] - ends[3]) / (12.0 * h)
         assert slopes[each] == pytest.approx(difference, rel=1e-8)
@@ -144,7 +145,7 @@ def test_one_machine_is_solved_without_machine_code_as_with_it() -> None:
     motion = lw.solve_motion(machine)
     plain, compiled = Machine(machine, motion), Machine(machine, motion)
     compiled.compiled = True
-    one, other = (Cycle(each, parts).solve({}).values for each in (plain, compiled))
+    one, other = (Solved(Cycle(each, parts), {}).values for each in (plain, compiled))
     for part in parts:
         assert one[part] == pytest.approx(other[part], rel=1e-12)
 

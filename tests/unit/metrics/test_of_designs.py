@@ -30,6 +30,7 @@ from tests.invariants.turned_cams import UNEVEN as CAM_ON_A_LINKAGE
 from tests.store import machine as stored
 
 import linkwright as lw
+from linkwright.cycle.solved import Solved
 from linkwright.designs.design_numbers import side_by_side
 from linkwright.designs.one_by_one import OneByOne
 from linkwright.designs.prepared import Prepared
@@ -316,7 +317,7 @@ def test_bends_of_a_lift_are_passed_on_the_way_to_and_again_on_the_way_back() ->
     assert bends is not None
     there = np.array(bends.angles) + machine.dimension("lobe.phase")
     passed = np.mod(there - angle.min(), 2.0 * np.pi) < np.ptp(angle)
-    solved = cycle.cycle.solve({by: np.array([machine.dimension(by)]) for by in cycle.machine.varied})
+    solved = Solved(cycle.cycle, {by: np.array([machine.dimension(by)]) for by in cycle.machine.varied})
     assert sum(len(each.time) for each in solved.bends) == 2 * passed.sum() > 0
 
 
@@ -325,7 +326,7 @@ def test_a_cam_behind_wheels_takes_no_more_pieces_than_its_bends_ask_for() -> No
     machine = lw.loads(CAM_BEHIND_GEARS.replace("teeth: [30, 60]", "teeth: [15, 75]"))
     cycle, bends = found(machine, ["slide.mass"], ["rms_input_torque"]), machine.joints["lobe"].bends
     assert bends is not None
-    solved = cycle.cycle.solve({"slide.mass": np.array([0.5])})
+    solved = Solved(cycle.cycle, {"slide.mass": np.array([0.5])})
     assert sum(len(each.time) for each in solved.bends) == len(bends.angles)
     assert len(solved.pieces.stretch) <= 24 * len(bends.angles)
     values = cycle.evaluate({"slide.mass": np.array([0.5])}).values
