@@ -61,8 +61,16 @@ def _bounds(samples: Array, closed: bool) -> tuple[float, float]:
     low = np.where(smooth, top - worst, b)
     high = np.where(smooth, top + worst, b + 1.5 * np.minimum(before, after))
     peaks = (b >= a) & (b >= c)
-    ends = (-np.inf, -np.inf) if closed else (max(samples[0], samples[-1]),) * 2
-    return max(low[peaks].max(initial=-np.inf), ends[0]), max(high[peaks].max(initial=-np.inf), ends[1])
+    ends = np.empty((2, 0)) if closed else np.array([_end(samples), _end(samples[::-1])]).T
+    tops = low[peaks].max(initial=-np.inf), high[peaks].max(initial=-np.inf)
+    return max((tops[0], *ends[0])), max((tops[1], *ends[1]))
+
+
+def _end(samples: Array) -> tuple[float, float]:
+    """Bounds of the value at the first sample of an open course: where it jumps from the next one, it may be there
+    for that instant alone, as of a load that acts from rest on."""
+    first, following = samples[0], np.abs(np.diff(samples[: REACH + 1]))
+    return (min(first, samples[1]) if following[0] > REACH * following[1:].max() else first), first
 
 
 def minimum(samples: Array, closed: bool) -> Bounded:
