@@ -25,10 +25,6 @@ WAYS = {
 NUMBERS = ["peak_reaction", "rms_reaction", "rms_input_torque", "transmission_angle", "swept_area"]
 
 
-#: How much more of a stroke a part of it holds, a share: a position at its very end belongs to it.
-NEAR = 1e-9
-
-
 def _alone(machine: lw.Mechanism, columns: dict[str, np.ndarray], k: int) -> lw.Forces:
     design = machine.with_dimensions({name: float(column[k]) for name, column in columns.items()})
     return lw.solve_forces(design)
@@ -172,7 +168,7 @@ def work_inwards(course: str, load: str, crank: complex, rod: complex) -> comple
         begin, end = first + 0.0 * crank, last + 0.0 * crank
         outer, inner = (ram_place(angle, crank, rod) for angle in (begin, end))
     if forces is None:
-        return 100.0 * (0.02 + NEAR * (outer - inner))
+        return complex(100.0 * 0.02)
     start = begin if begin.real > first else first
     nodes, weights = np.polynomial.legendre.leggauss(60)
     angle = start + 0.5 * (end - start) * (1.0 + nodes)

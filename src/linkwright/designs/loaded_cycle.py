@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Indices
+from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import Output, kind_of, owners_of
+from linkwright.core.outputs import kind_of, owners_of
 from linkwright.cycle.load_limits import FoundLimits, LoadLimits
 from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.designs.traced_outputs import Traced, design_table
@@ -48,14 +49,25 @@ class LoadedCycle:
         known = {**self.traced.solver.nominal.parameters, **self.constants}
         return design_table(names, known, {**part, **limits})
 
-    def doubtful(self, results: Results, limits: FoundLimits | None) -> Indices:
-        """Numbers of the designs that pass all positions, but with limits or friction that are not certain, or loads
-        that have no value somewhere."""
-        count = self.traced.positions.count
-        found = doubtful(results, self.loads, count)
-        if limits is None:
-            return found
-        return np.union1d(found, np.flatnonzero(~limits.certain & (results[VALID_COUNT] == count)))
+    @cached_property
+    def doubts(self) -> dict[str, Scalar]:
+        """Traced values whose sums tell where loads have no value, and where friction is not certain."""
+        found: dict[str, Scalar] = {}
+        if self.loads.fallible:
+            found[SIZES] = self.loads.sizes(self.traced.solver.motion)
+        if self.loads.rubbing:
+            found[RUBBING] = friction_doubt(self.traced)
+        return found
+
+    def doubtful(self, results: Results, limits: FoundLimits | None) -> Flags:
+        """Designs with limits or friction that are not certain, or loads that have no value somewhere."""
+        doubt = np.zeros(len(results[VALID_COUNT]))
+        if self.loads.fallible:
+            doubt += 0.0 * results[f"{SIZES}.sum"]
+        if self.loads.rubbing:
+            doubt += results[f"{RUBBING}.sum"]
+        sure = doubt == 0.0
+        return np.asarray(~(sure if limits is None else sure & limits.certain))
 
 
 def loaded_cycle(traced: Traced, varied: Collection[str], fields: Iterable[str]) -> LoadedCycle | None:
@@ -148,30 +160,6 @@ def friction_doubt(traced: Traced) -> Scalar:
     """1 where the traced friction is not certain, as a traced value."""
     friction = traced.forces.programs.friction
     return 0.0 if friction is None else select(friction.certain, 0.0, 1.0)
-
-
-def doubts(traced: Traced, loads: AlongInput) -> dict[str, Scalar]:
-    """Traced values whose sums tell where loads have no value, and where friction is not certain."""
-    found: dict[str, Scalar] = {}
-    if loads.fallible:
-        found[SIZES] = loads.sizes(traced.solver.motion)
-    if loads.rubbing:
-        found[RUBBING] = friction_doubt(traced)
-    return found
-
-
-def doubtful(results: Results, loads: AlongInput, count: int, limits: Iterable[Output] = ()) -> Indices:
-    """Numbers of the designs that pass all ``count`` positions, but with limits or friction that are not certain, or
-    loads that have no value somewhere."""
-    doubt = np.zeros(len(results[VALID_COUNT]))
-    for each in limits:
-        doubt += results[f"doubt:{each}"]
-    if loads.fallible:
-        doubt += 0.0 * results[SIZES]
-    if loads.rubbing:
-        doubt += results[RUBBING]
-    doubt[results[VALID_COUNT] != count] = 0.0
-    return np.flatnonzero(~(doubt == 0.0))
 
 
 def whole_turns(traced: Traced, varied: Iterable[str] = ()) -> int:

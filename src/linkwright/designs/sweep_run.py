@@ -1,4 +1,4 @@
-"""The work of one sweep: block by block, plain designs together, others one by one."""
+"""The work of one sweep: block by block, designs together, where they can be, else one by one."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.core.inputs import Input, mode_groups
 from linkwright.core.progress import Progress, current_progress, paced
+from linkwright.cycle.load_limits import FoundLimits
 from linkwright.cycle.summary import Summary, finished, reductions
 from linkwright.designs.change_points import ChangePoints, near_enough
 from linkwright.designs.finished_parts import identity, once
-from linkwright.designs.loaded_cycle import LoadedCycle, doubts, loaded_cycle
-from linkwright.designs.one_by_one import OneByOne, changes_of
+from linkwright.designs.loaded_cycle import LoadedCycle, loaded_cycle
+from linkwright.designs.one_by_one import changes_of, motion_alone, outputs_alone, places_in, summary_of
 from linkwright.designs.traced_outputs import NEAREST, VALID, Traced
 from linkwright.errors import LinkwrightError, SelfCheckError
 from linkwright.events.following import ITERATIONS
@@ -27,8 +27,8 @@ from linkwright.formula.machine_code import available
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
-from linkwright.formula.reductions import Reduction, Results
-from linkwright.formula.states import inputs_as_fields
+from linkwright.formula.reductions import VALID_COUNT, Reduction, Results
+from linkwright.formula.states import states_as_fields
 from linkwright.formula.summaries import WORTH_COMPILING, Backend, summaries
 from linkwright.formula.threads import chunks, cores
 from linkwright.formula.trace import Scalar
@@ -43,8 +43,8 @@ from linkwright.mechanism.mechanism import Mechanism
 PASSED = "passed"
 #: The result that says how far a design's most doubtful step was from being refused.
 MARGIN = "branch margin"
-#: Designs of one block, of one whose loads are found together, and of one whose inputs are found design by design.
-BLOCK, TOGETHER_BLOCK, LOADED_BLOCK = 1 << 16, 1 << 13, 1 << 9
+#: Designs of one block, of one whose loads are found together, and of one whose designs are found alone.
+BLOCK, TOGETHER_BLOCK, ALONE_BLOCK = 1 << 16, 1 << 13, 1 << 9
 #: Designs whose states at all positions are held at a time.
 TRACKED_BLOCK = 1 << 11
 #: Designs whose curves are held at a time.
@@ -68,8 +68,9 @@ _few: Recent[Mechanism, dict[int, str]] = Recent(64)
 
 
 class SweepRun:
-    """Summaries of all designs; ``unloaded``: sentences of the designs whose loads cannot be found; ``margins``:
-    see :attr:`linkwright.designs.designs.Sweep.branch_margin`."""
+    """Summaries of all designs; ``unloaded``: sentences of the designs whose loads cannot be found; ``alone``:
+    numbers of those that are found each by itself; ``margins``: see
+    :attr:`linkwright.designs.designs.Sweep.branch_margin`."""
 
     def __init__(
         self,
@@ -91,29 +92,27 @@ class SweepRun:
         self.reductions = [*reductions(asked, self.quantities), Reduction(NEAREST, "min")]
         self.program = self.traced.program(self.quantities)
         self.unloaded: dict[int, str] = {}
-        self.through: set[int] = set()
-        self._programs: dict[tuple[tuple[str, ...], int], tuple[list[Quantity], Program]] = {}
-        self.alone = bool(self.program.fields or self.traced.nominal.modes)
+        self.alone: set[int] = set()
+        self._programs: dict[tuple[str, ...], tuple[list[Quantity], Program]] = {}
         self.margins = None if self._tracked is None else np.full(self.designs, np.nan)
 
     def swept(self) -> tuple[Whole, Flags, dict[Summary, Floats]]:
         """Assembled positions (designs,), whether each design passes its cycle, and every summary (designs,)."""
         assembled, passed = np.zeros(self.designs, dtype=np.int64), np.zeros(self.designs, dtype=np.bool_)
         values = {summary: np.empty(self.designs) for summary in self.asked}
-        size = TOGETHER_BLOCK if self._together else LOADED_BLOCK if self.alone else BLOCK
+        size = ALONE_BLOCK if self._loaded is None else TOGETHER_BLOCK if self.program.fields else BLOCK
         size = size if self._tracked is None else TRACKED_BLOCK
         for first, end in chunks(self.designs, size):
             results = self._block(
                 {address: column[first:end] for address, column in self.columns.items()}, first
             )
-            assembled[first:end], passed[first:end] = results["valid.count"], results[PASSED]
+            assembled[first:end], passed[first:end] = results[VALID_COUNT], results[PASSED] > 0
             if self.margins is not None:
                 self.margins[first:end] = results[MARGIN]
             for summary, into in values.items():
-                found = finished(summary, self.quantities[summary.output], results, self._input())
+                into[first:end] = results[summary.name]
                 if not self.manner.partial:
-                    found[~passed[first:end]] = np.nan
-                into[first:end] = found
+                    into[first:end][~passed[first:end]] = np.nan
             self.tell(end)
         self.unloaded |= self._unsound()
         for into in values.values():
@@ -167,43 +166,42 @@ class SweepRun:
     def _curves_found(
         self, names: Sequence[str], part: Mapping[str, Floats], first: int
     ) -> dict[str, Floats]:
-        end = first + len(next(iter(part.values())))
-        passed = self._block(part, first)[PASSED]
-        flipping = np.array([k in self.through for k in range(first, end)])
-        if self.traced.nominal.modes:
-            flipping[:] = True
-        values = np.full((end - first, len(names), self.positions.count), np.nan)
-        for chosen, source in ((passed & ~flipping, None), (passed & flipping, self._flipping)):
-            if chosen.any():
-                columns = {address: column[chosen] for address, column in part.items()}
-                values[chosen] = self._values(names, columns, source)
+        passed = self._block(part, first)[PASSED] > 0
+        alone = np.isin(np.arange(first, first + len(passed)), list(self.alone))
+        values = np.full((len(passed), len(names), self.positions.count), np.nan)
+        if (chosen := passed & ~alone).any():
+            values[chosen] = self._stored(names, {a: column[chosen] for a, column in part.items()})
+        for k in np.flatnonzero(passed & alone).tolist():
+            motion = motion_alone(self.traced, changes_of(part, k))
+            found = outputs_alone(motion, (self.quantities[name] for name in names))
+            values[k] = np.stack([*found.values()])[:, places_in(motion, self.positions)]
         return {name: values[:, k] for k, name in enumerate(names)}
 
-    def _values(self, names: Sequence[str], part: Mapping[str, Floats], source: OneByOne | None) -> Floats:
-        """Outputs (designs, names, n) of designs that pass the cycle."""
-        traced = self.traced if source is None else source.traced
-        quantities, program = self._stored(tuple(names), traced)
-        fields: Mapping[str, Floats] = {}
-        if source is None and self._tracked is not None and not self.alone:
-            fields, _ = self._tracked.of(part, self.manner.threads or cores())
-        elif source is not None or program.fields:
-            fields, _, _ = (source or self._single).rows(program.fields, part)
-        table, inputs, n = traced.table(program, part), self.positions.arrays, self.positions.count
+    def _stored(self, names: Sequence[str], part: Mapping[str, Floats]) -> Floats:
+        """Outputs (designs, names, n) of designs that pass the cycle together."""
+        assert self._loaded is not None
+        quantities, program = self._curve_program(tuple(names))
+        numbers, states, _, _ = self._known(self._loaded, program, part)
+        inputs, n, tables = self.positions.arrays, self.positions.count, self._loaded.loads.tables
         code = None if self.manner.backend == "numpy" else compile_program(program)
         if code is None:
-            found = NumpyProgram(program).run_designs(table, inputs, fields, length=n)
+            found = NumpyProgram(program).run_designs(numbers, inputs, states, length=n, tables=tables)
         else:
-            found = code.store(table, inputs, fields, threads=self.manner.threads or cores(), length=n)
+            threads = self.manner.threads or cores()
+            found = code.store(numbers, inputs, states, threads=threads, length=n, tables=tables)
         return np.stack([q.shown(found[:, k]) for k, q in enumerate(quantities)], axis=1)
 
-    def _stored(self, names: tuple[str, ...], traced: Traced) -> tuple[list[Quantity], Program]:
-        """What a program stores of some outputs, and it; what is found design by design are its fields."""
-        if (names, id(traced)) not in self._programs:
-            quantities = list(traced.quantities(names).values())
-            program = Program.of(traced.solver.motion.trace, {q.name: q.carrier for q in quantities})
-            self._programs[names, id(traced)] = quantities, _fed(program)
-        return self._programs[names, id(traced)]
+    def _curve_program(self, names: tuple[str, ...]) -> tuple[list[Quantity], Program]:
+        """What a program stores of some outputs, and it; what is tracked are its fields."""
+        if names not in self._programs:
+            assert self._loaded is not None
+            quantities = list(self._loaded.traced.quantities(names).values())
+            carriers = {each.name: each.carrier for each in quantities}
+            program = Program.of(self._loaded.traced.solver.motion.trace, carriers)
+            self._programs[names] = quantities, states_as_fields(program)
+        return self._programs[names]
 
+    @cached_property
     def _input(self) -> Floats:
         rows = [rows[0] for rows in self.positions.coordinates.values()]
         return rows[0] if rows else np.zeros(1)
@@ -218,20 +216,20 @@ class SweepRun:
         """The results of a block, with what they have of single designs; kept where parts are kept."""
 
         def found() -> tuple[Results, dict[int, str], list[int]]:
-            unloaded, through = dict(self.unloaded), set(self.through)
+            unloaded, alone = dict(self.unloaded), set(self.alone)
             results = self._in_pieces(part, first)
             new = {k - first: why for k, why in self.unloaded.items() if k not in unloaded}
-            return results, new, [k - first for k in self.through - through]
+            return results, new, [k - first for k in self.alone - alone]
 
-        results, unloaded, through = once(found, lambda: (self.own, part))
+        results, unloaded, alone = once(found, lambda: (self.own, part))
         self.unloaded |= {first + k: why for k, why in unloaded.items()}
-        self.through |= {first + k for k in through}
+        self.alone |= {first + k for k in alone}
         return results
 
     def _in_pieces(self, part: Mapping[str, Floats], first: int) -> Results:
         """The results of a block; in pieces of a short time each, where somebody asks how far it is. Loads that are
         found for many designs at once are found so fast that a block is one piece."""
-        if self.progress is None or (self.alone and self._together):
+        if self.progress is None or (self.program.fields and self._loaded is not None):
             return self._computed(part, first)
         pieces, count = [], len(next(iter(part.values())))
         self.backend = self.manner.backend
@@ -243,154 +241,117 @@ class SweepRun:
         return {name: np.concatenate([each[name] for each in pieces]) for name in pieces[0]}
 
     def _computed(self, part: Mapping[str, Floats], first: int) -> Results:
-        numbers = np.arange(first, first + len(next(iter(part.values()))))
-        if self.traced.nominal.modes:
-            return self._noted(self._one_by_one(self._flipping, part), numbers)
-        if self._together:
-            results = self._noted(self._again(*self._with_loads(part), part), numbers)
-        elif self.alone:
-            results = self._noted(self._one_by_one(self._single, part), numbers)
+        """The number of positions, whether each design passes, and all summaries, by name."""
+        count = len(next(iter(part.values())))
+        if self._loaded is None:
+            results: Results = {each.name: np.full(count, np.nan) for each in self.asked}
+            results |= {name: np.zeros(count, dtype=np.int64) for name in (VALID_COUNT, PASSED)}
+            alone = np.arange(count)
         else:
-            results = self._reduced(self.traced, self.program, part, {})
-        return self._through_change_points(results, part, first)
+            results, alone = self._together(self._loaded, part)
+        for k in alone.tolist():
+            self.alone.add(first + k)
+            for name, value in self._alone(changes_of(part, k), first + k).items():
+                results[name][k] = value
+        return results
 
-    def _one_by_one(self, source: OneByOne, part: Mapping[str, Floats]) -> tuple[Results, dict[int, str]]:
-        """Two passes: the motion of each design with its loads, then the summaries of the block."""
-        quantities = source.traced.quantities(self.quantities)
-        program = _fed(source.traced.program(quantities, {VALID: source.valid}))
-        rows, failed, through = source.rows(program.fields, part)
-        results = self._reduced(source.traced, program, part, rows)
-        results[PASSED] = np.logical_and(results[PASSED], through)
-        return results, failed
-
-    @property
-    def _together(self) -> bool:
-        """Whether the loads, and the states, of the designs of a block are found at once."""
-        return (self.alone or bool(self.program.states)) and self._loaded is not None
+    def _alone(self, changes: Mapping[str, float], number: int) -> dict[str, float]:
+        """The same of one design as a machine by itself; why it has no forces is kept under its ``number``."""
+        found: dict[str, float] = {PASSED: False, **{each.name: np.nan for each in self.asked}}
+        try:
+            motion = motion_alone(self.traced, changes)
+            partly = self.manner.partial or motion.breaks or motion.modes
+            reached = motion.ok if partly else motion.outcome_codes == 0
+            found[VALID_COUNT] = int(reached.sum())
+            outputs = outputs_alone(motion, self.quantities.values())
+            places = places_in(motion, self.positions)
+            for each in self.asked:
+                values = outputs[each.output][places]
+                found[each.name] = summary_of(each, values, motion.ok[places], self._input)
+            found[PASSED] = motion.whole
+        except LinkwrightError as error:
+            self.unloaded[number] = error.sentence
+        return found
 
     @cached_property
     def _loaded(self) -> LoadedCycle | None:
-        """The loads and the friction where these are traced; None where some are not."""
-        if (self.alone and self.manner.partial) or self.traced.nominal.modes:
+        """What the cycles of designs are found with together; None where each is found alone."""
+        if self.traced.nominal.modes:
             return None
         return loaded_cycle(self.traced, self.columns, self.program.fields)
 
     @cached_property
-    def _doubts(self) -> dict[str, Scalar]:
-        return {} if self._loaded is None else doubts(self._loaded.traced, self._loaded.loads)
-
-    @cached_property
-    def _traced_loads(self) -> Program:
-        """The program in which the loads are traced; states are given per design and position."""
-        assert self._loaded is not None
-        traced = self._loaded.traced
-        more: dict[str, Scalar | bool] = dict(self._doubts)
-        if self._tracked is not None:
-            motion = traced.solver.motion
-            more[VALID] = motion.trace.logic("and", motion.valid, self._tracked.on_path)
-        return _fed(traced.program(traced.quantities(self.quantities), more))
-
-    @cached_property
     def _tracked(self) -> TrackedStates | None:
-        """What tracks groups without closed form, and counts turns; None where nothing must be, or loads are not
-        traced."""
+        """What tracks groups without closed form, and counts turns; None where nothing must be."""
         if not self.program.states or self._loaded is None:
             return None
         solver, compiled = self._loaded.traced.solver, self.manner.backend != "numpy"
         return tracked_states(self.traced.nominal, solver, compiled)
 
-    def _with_loads(self, part: Mapping[str, Floats]) -> tuple[Results, Indices]:
-        """The results of a block whose loads are traced, and whose states are tracked, and the numbers of the designs
-        of which these are not certain."""
-        program, loaded = self._traced_loads, self._loaded
-        assert loaded is not None
+    @cached_property
+    def _of_all(self) -> Program:
+        """The program of all designs together, in which loads are traced; tracked states are given per design and
+        position."""
+        assert self._loaded is not None
+        traced = self._loaded.traced
+        more: dict[str, Scalar | bool] = dict(self._loaded.doubts)
+        if self._tracked is not None:
+            motion = traced.solver.motion
+            more[VALID] = motion.trace.logic("and", motion.valid, self._tracked.on_path)
+        return states_as_fields(traced.program(traced.quantities(self.quantities), more))
+
+    def _known(
+        self, loaded: LoadedCycle, program: Program, part: Mapping[str, Floats]
+    ) -> tuple[Floats, Mapping[str, Floats], Floats | None, FoundLimits | None]:
+        """What a program takes of the designs of a block: numbers and states; margins of these, limits of loads."""
         threads = self.manner.threads or cores()
         states, margin = ({}, None) if self._tracked is None else self._tracked.of(part, threads)
-        wanted = [*self.reductions, *(Reduction(name, "sum") for name in self._doubts)]
         limits = loaded.solve(part)
-        results = summaries(program, wanted, VALID).evaluate(
-            loaded.table(program.parameters, part, {} if limits is None else limits.numbers),
+        return (
+            loaded.table(program.parameters, part, limits.numbers if limits else {}),
+            states,
+            margin,
+            limits,
+        )
+
+    def _together(self, loaded: LoadedCycle, part: Mapping[str, Floats]) -> tuple[Results, Indices]:
+        """The results of a block, and the numbers of the designs that are to be found alone.
+
+        That are those of which loads, limits or friction are not certain, and those that touch a change point between
+        two positions or cannot pass there; if asked for in part, all that do not pass.
+        """
+        table, states, margin, limits = self._known(loaded, self._of_all, part)
+        wanted = [*self.reductions, *(Reduction(name, "sum") for name in loaded.doubts)]
+        found = summaries(self._of_all, wanted, VALID).evaluate(
+            table,
             self.positions.arrays,
             states,
             tables=loaded.loads.tables,
             threads=self.manner.threads,
             backend=self.backend,
         )
-        results |= {name: results.pop(f"{name}.sum") for name in self._doubts}
+        count = np.asarray(found[VALID_COUNT])
+        whole = count == self.positions.count
+        results: Results = {VALID_COUNT: found[VALID_COUNT], PASSED: whole.astype(np.int64)}
+        for each in self.asked:
+            results[each.name] = finished(each, self.quantities[each.output], found, self._input)
         if margin is not None:
             results[MARGIN] = margin
-        return results, loaded.doubtful(results, limits)
+        alone = whole & loaded.doubtful(found, limits) | self._touching(found, part, whole)
+        return results, np.flatnonzero(alone | (self.manner.partial & ~whole & (count > 0)))
 
-    def _again(
-        self, results: Results, doubtful: Indices, part: Mapping[str, Floats]
-    ) -> tuple[Results, dict[int, str]]:
-        """The results of all designs together, those of which something is not certain found one by one."""
-        results[PASSED] = results["valid.count"] == self.positions.count
-        if not len(doubtful):
-            return results, {}
-        again, failed = self._one_by_one(self._single, {a: c[doubtful] for a, c in part.items()})
-        for name, column in again.items():
-            results[name][doubtful] = column
-        return results, {int(doubtful[index]): sentence for index, sentence in failed.items()}
-
-    def _noted(self, found: tuple[Results, dict[int, str]], numbers: Indices) -> Results:
-        """The results; sentences of designs that failed are kept under their numbers in the whole sweep."""
-        results, failed = found
-        self.unloaded.update({int(numbers[index]): sentence for index, sentence in failed.items()})
-        return results
+    def _touching(self, found: Results, part: Mapping[str, Floats], whole: Flags) -> Flags:
+        """Which designs of a block that reach the ``whole`` cycle touch a change point between two positions, or
+        cannot pass there."""
+        touching = np.zeros(len(whole), dtype=np.bool_)
+        if not self.program.states and self.positions.count >= 3:
+            with np.errstate(invalid="ignore"):
+                near = np.flatnonzero(whole & (found[f"{NEAREST}.min"] < near_enough(self.positions)))
+            if len(near):
+                near = near[self._change_points.designs({a: c[near] for a, c in part.items()})]
+            touching[near] = True
+        return touching
 
     @cached_property
-    def _touching(self) -> ChangePoints:
+    def _change_points(self) -> ChangePoints:
         return ChangePoints(self.traced, self.backend)
-
-    @cached_property
-    def _single(self) -> OneByOne:
-        """For designs whose loads follow their own motion."""
-        return OneByOne(self.traced)
-
-    @cached_property
-    def _flipping(self) -> OneByOne:
-        """For designs that pass change points."""
-        return OneByOne(Traced(self.mechanism, self.columns, self.positions, flipping=True), flipping=True)
-
-    def _through_change_points(self, results: Results, part: Mapping[str, Floats], first: int) -> Results:
-        """The same results, those of designs that touch a change point between two positions, or cannot pass there,
-        done again over the positions that they reach; if asked for in part, of all that do not pass."""
-        if self.program.states or self.positions.count < 3:
-            return results
-        count = np.asarray(results["valid.count"])
-        whole = count == self.positions.count
-        with np.errstate(invalid="ignore"):
-            near = np.flatnonzero(
-                (np.asarray(results[f"{NEAREST}.min"]) < near_enough(self.positions)) & whole
-            )
-        if len(near):
-            near = near[self._touching.designs({a: c[near] for a, c in part.items()})]
-        if self.manner.partial:
-            near = np.append(near, np.flatnonzero(~whole & (count > 0)))
-        self.through.update((first + near).tolist())
-        if len(near):
-            found = self._one_by_one(self._flipping, {a: c[near] for a, c in part.items()})
-            again = self._noted(found, first + near)
-            for name, column in again.items():
-                results[name][near] = column
-        return results
-
-    def _reduced(
-        self, traced: Traced, program: Program, part: Mapping[str, Floats], rows: Mapping[str, Floats]
-    ) -> Results:
-        results = summaries(program, self.reductions, VALID).evaluate(
-            traced.table(program, part),
-            self.positions.arrays,
-            rows,
-            threads=self.manner.threads,
-            backend=self.backend,
-        )
-        results[PASSED] = results["valid.count"] == self.positions.count
-        return results
-
-
-def _fed(program: Program) -> Program:
-    """The same program with states and signs of assembly modes as inputs per design and position."""
-    modes = [Input("mode", group).name for group in mode_groups(program.positions)]
-    return inputs_as_fields(program, [*program.states, *modes])

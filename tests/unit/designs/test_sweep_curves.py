@@ -13,7 +13,7 @@ from tests.every import every
 import linkwright as lw
 from linkwright.designs import sweep
 from linkwright.designs.designs import sweep_curves
-from linkwright.designs.one_by_one import OneByOne
+from linkwright.designs.sweep_run import SweepRun
 from linkwright.formula.summaries import Backend
 
 Floats = NDArray[np.float64]
@@ -33,21 +33,19 @@ def test_loads_on_groups_that_newton_solves(
 ) -> None:
     """All designs together, but where an output has more than two limits; against every design alone."""
     alone: list[int] = []
-    rows = OneByOne.rows
+    solved = SweepRun._alone
 
-    def counted(
-        self: OneByOne, names: tuple[str, ...], columns: dict[str, Floats]
-    ) -> tuple[dict[str, Floats], dict[int, str]]:
-        alone.append(len(columns["crank.A.x"]))
-        return rows(self, names, columns)
+    def counted(self: SweepRun, changes: dict[str, float], number: int) -> dict[str, float]:
+        alone.append(number)
+        return solved(self, changes, number)
 
-    monkeypatch.setattr(OneByOne, "rows", counted)
+    monkeypatch.setattr(SweepRun, "_alone", counted)
     text = lw.dump(store.machine("triad"))
     text += f"\nloads:\n  push: {{kind: force, on: plate, at: R, direction: 90 deg, {size}}}\n"
     mechanism = lw.loads(text).with_dimensions({"driver.speed": speed})
     varied = np.array([0.029, 0.03, 0.031])
     found = sweep(mechanism, {"crank.A.x": varied}, outputs=["driver.effort rms", "load push mean"], steps=90)
-    assert sum(alone) == (3 if limits == 4 else 0)
+    assert alone == ([0, 1, 2] if limits == 4 else [])
     for index, value in enumerate(varied):
         forces = lw.solve_forces(mechanism.with_dimensions({"crank.A.x": float(value)}), steps=90)
         rms = np.sqrt((forces.input_torque**2).mean())

@@ -32,8 +32,8 @@ from tests.store import machine as stored
 import linkwright as lw
 from linkwright.cycle.solved import Solved
 from linkwright.designs.design_numbers import side_by_side
-from linkwright.designs.one_by_one import OneByOne
 from linkwright.designs.prepared import Prepared
+from linkwright.designs.sweep_run import SweepRun
 from linkwright.metrics import METRICS
 from linkwright.metrics.of_designs import NumbersOfDesigns, numbers_of_designs
 
@@ -83,7 +83,7 @@ SWEPT: dict[str, tuple[Callable[[], lw.Mechanism], str, str]] = {
 def test_a_sweep_solves_no_design_by_itself(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     make, address, output = SWEPT[name]
     machine = make()
-    monkeypatch.setattr(OneByOne, "rows", lambda *_, **__: pytest.fail("found one by one"))
+    monkeypatch.setattr(SweepRun, "_alone", lambda *_, **__: pytest.fail("found one by one"))
     values = machine.dimension(address) * np.array([1.0, 0.998])
     assert lw.sweep(machine, {address: values}, outputs=[output], steps=24).ok.all()
 
