@@ -12,17 +12,15 @@ Exit code: 0 nothing wrong, 1 something wrong, 2 wrong use.
 
 from __future__ import annotations
 
-import argparse
 import sys
 import time
 import traceback
-import warnings
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from tests.gradients import machines, named
+from tests.gradients import main
 from tests.state.comparing import LEAST
 
 import linkwright as lw
@@ -139,20 +137,5 @@ def run(chosen: Iterator[tuple[str, lw.Mechanism, int]], count: int) -> int:
     return int(wrong.total() > 0)
 
 
-def main() -> int:
-    """Reads the options."""
-    parser = argparse.ArgumentParser(prog="python -m tests.designs_alone", description=__doc__.split("\n")[0])
-    parser.add_argument("--count", type=int, default=20, help="how many machines (default 20)")
-    parser.add_argument("--seed", type=int, default=1, help="which sequence of machines (default 1)")
-    parser.add_argument("--only", nargs="+", metavar="NAME", help="of the gallery, or numbers of random ones")
-    given = parser.parse_args()
-    if given.count < 1:
-        parser.error("--count is a number above zero")
-    warnings.simplefilter("error")
-    if given.only:
-        return run(map(named, given.only), len(given.only))
-    return run(machines(given.seed), given.count)
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(run, __doc__))

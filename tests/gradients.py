@@ -20,7 +20,7 @@ import time
 import traceback
 import warnings
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import zip_longest
 
@@ -238,9 +238,10 @@ def run(chosen_machines: Iterator[tuple[str, lw.Mechanism, int]], count: int) ->
     return int(wrong + refused[CRASH] > 0)
 
 
-def main() -> int:
-    """Reads the options."""
-    parser = argparse.ArgumentParser(prog="python -m tests.gradients", description=__doc__.split("\n")[0])
+def main(run: Callable[[Iterator[tuple[str, lw.Mechanism, int]], int], int] = run, doc: str = __doc__) -> int:
+    """Reads the options, and runs what judges the machines that they name."""
+    title, call = doc.split("\n", maxsplit=1)[0], doc.split("\n")[2].strip()
+    parser = argparse.ArgumentParser(prog=" ".join(call.split()[:3]), description=title)
     parser.add_argument("--count", type=int, default=20, help="how many machines (default 20)")
     parser.add_argument("--seed", type=int, default=1, help="which sequence of machines (default 1)")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="of the gallery, or numbers of random ones")
