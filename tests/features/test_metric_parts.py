@@ -13,6 +13,7 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
+from linkwright.cycle.summary import Summary
 from linkwright.metrics import METRICS, Analysis, coupler_curve, metrics
 from linkwright.metrics.base import Metric, Number
 
@@ -40,7 +41,7 @@ def test_summaries_of_angles_and_places(output: str, forces: bool) -> None:
         "mean": values.mean(), "rms": np.sqrt((values**2).mean()),
     }  # fmt: skip
     for kind, value in exact.items():
-        part = analysis.part(f"{output} {kind}")
+        part = analysis.part(Summary(output, kind))
         assert part.value == pytest.approx(value, rel=1e-6, abs=1e-7), kind
         assert part.exact
         if kind in ("max", "min", "peak"):
@@ -48,21 +49,21 @@ def test_summaries_of_angles_and_places(output: str, forces: bool) -> None:
             assert (abs(there) if kind == "peak" else there) == pytest.approx(part.value, rel=1e-5)
             assert part.time == pytest.approx(part.input / 10.0)
     for kind, place in (("argmax", values.argmax()), ("argmin", values.argmin())):
-        part = analysis.part(f"{output} {kind}")
+        part = analysis.part(Summary(output, kind))
         assert part.value == part.input == pytest.approx(inputs[place], abs=2e-3)
 
 
 def test_a_link_that_turns_through_has_its_largest_angle_where_the_cycle_ends() -> None:
     analysis = Analysis.of(lw.solve_motion(MACHINE, steps=36))
-    assert analysis.part("crank.angle max").value == pytest.approx(2 * np.pi)
-    assert analysis.part("crank.angle mean").value == pytest.approx(np.pi)
+    assert analysis.part(Summary("crank.angle", "max")).value == pytest.approx(2 * np.pi)
+    assert analysis.part(Summary("crank.angle", "mean")).value == pytest.approx(np.pi)
 
 
 def test_nothing_is_summarised_of_positions_that_are_not_reached() -> None:
     short = MACHINE.with_dimensions({"coupler.length": 0.2})
     analysis = Analysis.of(lw.solve_motion(short, failures="mark", steps=36))
     for kind in ("max", "min", "range", "peak"):
-        part = analysis.part(f"coupler.P.x {kind}")
+        part = analysis.part(Summary("coupler.P.x", kind))
         assert np.isnan(part.value) and not part.exact
 
 
@@ -72,8 +73,10 @@ def test_samples_of_inputs_of_ones_own_are_what_is_there() -> None:
     motion = lw.solve_motion(MACHINE, at=at)
     analysis = Analysis.of(motion)
     x = motion.point("coupler.P").position[:, 0]
-    assert analysis.part("coupler.P.x mean").value == pytest.approx(np.trapezoid(x, at) / 2.6, rel=2e-2)
-    low, high = analysis.part("coupler.P.x min"), analysis.part("coupler.P.x max")
+    assert analysis.part(Summary("coupler.P.x", "mean")).value == pytest.approx(
+        np.trapezoid(x, at) / 2.6, rel=2e-2
+    )
+    low, high = analysis.part(Summary("coupler.P.x", "min")), analysis.part(Summary("coupler.P.x", "max"))
     assert 0.3 <= low.input <= 2.9 + 1e-12 and 0.3 <= high.input <= 2.9 + 1e-12
     assert low.value <= x.min() + 1e-12 and high.value >= x.max() - 1e-12
     assert high.value == pytest.approx(sampled("coupler.P.x")[0].max(), rel=1e-5)

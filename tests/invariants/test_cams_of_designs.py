@@ -14,6 +14,7 @@ from tests.refusals import findings
 from tests.store import machine as stored
 
 import linkwright as lw
+from linkwright.cycle.summary import Summary
 from linkwright.metrics import METRICS, Analysis
 
 Floats = NDArray[np.float64]
@@ -151,7 +152,7 @@ def test_numbers_of_one_machine_with_a_cam_are_those_of_a_dense_quadrature() -> 
     machine = lw.loads(UNEVEN.partition("  press:")[0])
     expected = dense(machine, 1.0 / 3.0)
     analysis = Analysis.of(lw.solve_forces(machine))
-    found = [analysis.part(part).value for part in ("power mean", "driver.effort rms")]
+    found = [analysis.part(Summary.of(part)).value for part in ("power mean", "driver.effort rms")]
     assert found[1] == pytest.approx(expected[1], rel=1e-12)
     assert found[0] == pytest.approx(expected[0], abs=1e-12 * 6.0 * np.pi * expected[1])
 

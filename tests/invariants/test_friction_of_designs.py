@@ -11,6 +11,7 @@ from tests.reference.random_mechanisms import random_mechanism
 from tests.store import machine as stored
 
 import linkwright as lw
+from linkwright.cycle.summary import Summary
 from linkwright.metrics import Analysis
 
 STEPS = 48
@@ -316,5 +317,5 @@ def test_numbers_of_one_yoke_pressed_from_both_sides_are_those_of_statics() -> N
     for point in [(0.2, 0.3, 10.0), (0.5, 0.4, 10.0), (0.01, 0.7, 10.0)]:
         by = ["slot.friction", "bed.friction", "yoke.mass"]
         analysis = Analysis.of(lw.solve_forces(machine.with_dimensions(dict(zip(by, point, strict=True)))))
-        found = [analysis.part(part).value for part in ("driver.effort rms", "power mean")]
+        found = [analysis.part(Summary.of(part)).value for part in ("driver.effort rms", "power mean")]
         assert found == pytest.approx(yoke_numbers(*point).real, rel=1e-12)

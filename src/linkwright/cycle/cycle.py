@@ -17,7 +17,7 @@ from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.cycle.block import Swings
 from linkwright.cycle.loads import input_end
 from linkwright.cycle.machine import VALID, Machine
-from linkwright.cycle.summary import STROKES, TRUE_SPEED, Summary, one, output_of, signal_of
+from linkwright.cycle.summary import StrokeSummary, Summary
 from linkwright.events.formula import Formula
 from linkwright.formula.trace import Scalar, absolute
 from linkwright.kinetostatics.friction import FrictionTerm
@@ -26,7 +26,6 @@ from linkwright.loads.phases import MovingPhase, SwingPhase
 #: Sides of a signal on which its summaries lie.
 SIDES: Mapping[str, tuple[float, ...]] = {
     "max": (1.0,), "min": (-1.0,), "peak": (1.0, -1.0), "range": (1.0, -1.0), "argmax": (1.0,), "argmin": (-1.0,),
-    **dict.fromkeys(STROKES.values(), (-1.0,)),
 }  # fmt: skip
 EVEN = ("mean", "rms", "excess")
 #: A side of a signal: its number, sign, and the output on whose rising or falling strokes it is asked for.
@@ -45,7 +44,7 @@ class Signal:
 
 
 class Cycle:
-    """What is wanted of a machine: ``parts``, summaries in words such as ``"driver.effort peak"``.
+    """What is wanted of a machine: ``parts``, its summaries.
 
     ``limited``: outputs whose places and extremes are those of their limit positions; ``never``: outputs by whose
     reversals designs are told apart; ``even``: signals that pieces meet everywhere.
@@ -54,29 +53,26 @@ class Cycle:
     def __init__(
         self,
         machine: Machine,
-        parts: Iterable[str],
+        parts: Iterable[Summary],
         limited: Collection[Output] = (),
         never: Iterable[Output] = (),
         even: Iterable[str] = (),
     ) -> None:
         self.machine = machine
-        self.parts = {text: one(text) for text in dict.fromkeys(parts)}
-        plain = {text: part for text, part in self.parts.items() if part.kind not in TRUE_SPEED}
+        self.parts = {part.name: part for part in parts}
         self.limited = {
             text: output
-            for text, part in plain.items() if part.kind in ("max", "min", "range", "argmax", "argmin")
+            for text, part in self.parts.items()
+            if type(part) is Summary and part.kind in ("max", "min", "range", "argmax", "argmin")
             for output in [machine.meant(part.output)] if output in limited
         }  # fmt: skip
         self.on_strokes = {
-            text: machine.meant(output_of(part))
-            for text, part in plain.items()
-            if part.kind in STROKES.values()
+            text: (machine.meant(part.by), part.way)
+            for text, part in self.parts.items()
+            if isinstance(part, StrokeSummary)
         }
-        signals = {text: part for text, part in plain.items() if text not in self.limited}
-        self.words = {
-            text: self._signal(signal_of(p) if text in self.on_strokes else p.output, p.kind)
-            for text, p in signals.items()
-        }
+        signals = {text: part for text, part in self.parts.items() if text not in self.limited}
+        self.words = {text: self._signal(part.output, part.kind) for text, part in signals.items()}
         self.even_words = tuple(Signal(each) for each in dict.fromkeys(even))
         self._trace(tuple(dict.fromkeys([*self.words.values(), *self.even_words])), signals)
         self.never = tuple(dict.fromkeys(never))
@@ -103,7 +99,7 @@ class Cycle:
         for text, part in parts.items():
             own = self.words[text]
             signs = (1.0,) if own.squared and part.kind == "peak" else SIDES.get(part.kind, ())
-            stroke = (self.on_strokes[text], part.kind) if text in self.on_strokes else None
+            stroke = self.on_strokes.get(text)
             sides = [(self.number[own], sign, stroke) for sign in signs]
             self.sides_of[text] = tuple(numbers.setdefault(side, len(numbers)) for side in sides)
         self.sides = tuple(numbers)
@@ -128,12 +124,13 @@ class Cycle:
         pairs = [each for each in reversing if isinstance(each, RelativeAngle)]
         terms: list[RelativeAngle | FrictionTerm] = [*pairs, *machine.terms]
         turning = [each for each in terms if machine.swings(each)]
-        asked = [*opposed, *self.on_strokes.values(), *self.limited.values(), *self.never]
+        driven = [output for output, _ in self.on_strokes.values()]
+        asked = [*opposed, *driven, *self.limited.values(), *self.never]
         own = [*moving, *asked] if turned else [*swung, *moving, *asked]
         valued = self.limited.values() if turned else [*self.limited.values(), *swung]
         self.swings = Swings(machine, dict.fromkeys([*own, *turning]), valued)
         self.whole = Swings(turned, dict.fromkeys([*swung, *moving]), swung) if turned else None
-        self.bending = tuple(dict.fromkeys([*opposed, *self.on_strokes.values(), *moving, *turning]))
+        self.bending = tuple(dict.fromkeys([*opposed, *driven, *moving, *turning]))
         self.signed = self._signed()
 
     def _signed(self) -> Formula | None:

@@ -15,7 +15,7 @@ from linkwright.curves.polynomials import NODES, Peak, best_of, climbed, largest
 from linkwright.cycle.block import Block
 from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.load_events import LoadEvents
-from linkwright.cycle.summary import TRUE_SPEED, Summary
+from linkwright.cycle.summary import Summary
 from linkwright.events.events import Events, events
 from linkwright.events.formula import ROW
 from linkwright.events.stretches import Cuts, Stretches
@@ -123,18 +123,17 @@ class Solved(Block):
         """The pieces in which an output rises, or falls; None for all."""
         if stroke is None:
             return None
-        output, kind = stroke
+        output, way = stroke
         pieces = self.pieces
         middle = pieces.columns[LOW] + 0.5 * pieces.width
         rising = self.limits[output].rising_at(pieces.design, middle)
-        return np.asarray(pieces.each(self.limits[output].complete) & (rising == (kind == "rising")))
+        return np.asarray(pieces.each(self.limits[output].complete) & (rising == (way == "rising")))
 
     @cached_property
     def values(self) -> dict[str, Floats]:
         """All parts, (designs,) each; NaN of designs that do not pass."""
-        parts = {text: part for text, part in self.cycle.parts.items() if part.kind not in TRUE_SPEED}
         with np.errstate(invalid="ignore"):
-            found = {text: self._value(text, part) for text, part in parts.items()}
+            found = {text: self._value(text, part) for text, part in self.cycle.parts.items()}
         return {text: np.where(self.passed, each, np.nan) for text, each in found.items()}
 
     def _value(self, text: str, part: Summary) -> Floats:

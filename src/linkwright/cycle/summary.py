@@ -1,9 +1,9 @@
-"""Which summaries of which outputs are wanted, and the engine's reductions they are made of."""
+"""Summaries of outputs over the cycle, their values, and the reductions of sweeps that some are made of."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from functools import lru_cache
+from typing import ClassVar
 
 import numpy as np
 
@@ -24,11 +24,8 @@ KINDS: Mapping[str, tuple[str, ...]] = {
     "argmin": ("argmin",),
     "argmax": ("argmax",),
 }
-#: Kinds of parts on the strokes of an output, by the limits with which these begin: the smallest value of a signal
-#: while the output goes one way (``transmission_angle B on jaw.angle falling``).
+#: Which way an output goes, by the limits with which its strokes begin.
 STROKES = {"max": "falling", "min": "rising"}
-#: Kinds of parts that the true speed over the cycle gives.
-TRUE_SPEED = ("fastest", "slowest", "fluctuation", "size")
 _GROWING = frozenset({"min", "max", "range", "peak", "argmin", "argmax"})
 
 
@@ -37,16 +34,37 @@ class Summary:
     """One summary of one output over the cycle; without a ``kind`` a registered design number.
 
     ``kind``: ``min``, ``max``, ``mean``, ``rms``; ``range`` = max - min (swing, stroke); ``peak`` = largest
-    absolute value; ``argmin``, ``argmax``: the first driver's coordinate (rad or m) of the extreme.
+    absolute value; ``argmin``, ``argmax``: the first driver's coordinate (rad or m) of the extreme. ``of_cycle``:
+    whether pieces of the cycle give it.
     """
 
+    of_cycle: ClassVar[bool] = True
     output: str
     kind: str
+
+    @classmethod
+    def of(cls, text: str) -> Summary:
+        """The summary that a text ``output kind`` means."""
+        output, _, kind = text.rpartition(" ")
+        return cls(output, kind)
 
     @property
     def name(self) -> str:
         """Its name in tables."""
         return f"{self.output} {self.kind}".rstrip()
+
+
+@dataclass(frozen=True)
+class StrokeSummary(Summary):
+    """A summary while another output, ``by``, goes one ``way``: ``falling`` or ``rising``."""
+
+    by: str
+    way: str
+
+    @property
+    def name(self) -> str:
+        """Its name among others: ``transmission_angle B min on jaw.angle falling``."""
+        return f"{self.output} {self.kind} on {self.by} {self.way}"
 
 
 @dataclass(frozen=True)
@@ -60,23 +78,6 @@ class Extreme:
     time: float
     input: float
     exact: bool
-
-
-def signal_of(part: Summary) -> str:
-    """The signal of a part on strokes, whose smallest value is sought."""
-    return part.output.rpartition(" on ")[0]
-
-
-def output_of(part: Summary) -> str:
-    """The output of a part on strokes that goes one way."""
-    return part.output.rpartition(" on ")[2]
-
-
-@lru_cache(1024)
-def one(text: str) -> Summary:
-    """The one summary that a text ``output kind`` means."""
-    output, _, kind = text.rpartition(" ")
-    return Summary(output, kind)
 
 
 def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity]) -> list[Reduction]:

@@ -252,7 +252,7 @@ def compare(
     given = _weights(weights or {}, asked)
     for alternative in found:
         wanted = (number for each in asked for number in numbers_of(alternative, each.name))
-        alternative.analysis.ask(part for number in wanted for part in number.parts)
+        alternative.analysis.ask(each for number in wanted for each in number.summaries)
     rows = []
     progress = current_progress()
     for done, each in enumerate(asked):

@@ -13,7 +13,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
 from linkwright.metrics.base import Number
 from linkwright.metrics.flywheel import SIZED
-from linkwright.metrics.terms import OWN, governing, may_have, metric_of, own, term
+from linkwright.metrics.terms import OWN, governing, may_have, metric_of, number_named, own
 from linkwright.metrics.wanted import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.words import say
@@ -89,10 +89,12 @@ def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
         if (why := metric.obstacle(each.analysis)) is not None:
             each.notes.append(Sentence("cli.about", name=each.label, cause=why))
         return None
-    meant = term(metric.name, each.analysis, each.asked) if metric.own_values and not subject else None
+    meant = (
+        number_named(metric.name, each.analysis, each.asked) if metric.own_values and not subject else None
+    )
     if meant is not None:
-        value, at, _ = meant.numbers[0].measured(each.analysis)
-        return Measured(value, meant.dimension, at)
+        value, at, _ = meant.measured(each.analysis)
+        return Measured(value, meant.dimension or "", at)
     values = metric.evaluate(each.analysis)
     found = [v for v in values if v.subject == subject] if subject else _of_output(each, metric, values)
     if not found:
@@ -109,7 +111,7 @@ def numbers_of(each: Alternative, name: str) -> Iterable[Number]:
     """The formulas of summaries behind a criterion, of all subjects."""
     if name in OWN:
         found = own(name, each.analysis, each.asked)
-        return found.numbers if found else ()
+        return (found,) if found else ()
     metric, _ = metric_of(name) or (None, "")
     kind = metric() if metric is not None else None
     return kind.numbers(each.analysis) if kind is not None and kind.applies(each.analysis) else ()
@@ -122,8 +124,8 @@ def _own(each: Alternative, name: str) -> Measured | None:
     found = own(name, each.analysis, each.asked)
     if found is None:
         return None
-    value, at, _ = found.numbers[0].measured(each.analysis)
-    return Measured(value, found.dimension, None if np.isnan(at) else at)
+    value, at, _ = found.measured(each.analysis)
+    return Measured(value, found.dimension or "", None if np.isnan(at) else at)
 
 
 def _of_output(each: Alternative, metric: Metric, values: Iterable[MetricValue]) -> list[MetricValue]:

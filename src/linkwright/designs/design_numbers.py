@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TypeAlias
 
 import numpy as np
 
@@ -17,34 +16,32 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.evaluate import unloaded
-from linkwright.metrics.hulls_of_designs import HullsOfDesigns, hulls_of_designs
-from linkwright.metrics.of_designs import NumbersOfDesigns, numbers_of_designs
-from linkwright.metrics.ranges_of_designs import RangesOfDesigns, ranges_of_designs
-from linkwright.metrics.terms import Asked, Term, measured
+from linkwright.metrics.hulls_of_designs import hulls_of_designs
+from linkwright.metrics.of_designs import MetricsOfDesigns, numbers_of_designs
+from linkwright.metrics.ranges_of_designs import ranges_of_designs
+from linkwright.metrics.terms import Asked, measured
 
 #: Designs up to which what finds their numbers together may choose to do so without a compiler.
 FEW = 512
-#: What finds design numbers of all designs at once.
-Numbers: TypeAlias = NumbersOfDesigns | HullsOfDesigns | RangesOfDesigns
 
 
 def side_by_side(
     mechanism: Mechanism,
     varied: Iterable[str],
-    names: Sequence[str | Term],
+    names: Sequence[str],
     asked: Asked | None = None,
     *,
     steps: int = 360,
-) -> list[Numbers]:
+) -> list[MetricsOfDesigns]:
     """What finds those design numbers that are found of all designs at once; ``asked``, ``steps``: see
     ``numbers_of_designs``."""
-    by, plain = tuple(varied), [name for name in names if isinstance(name, str)]
+    by = tuple(varied)
     found = (
         numbers_of_designs(mechanism, by, names, steps=steps, asked=asked),
-        hulls_of_designs(mechanism, by, plain),
-        ranges_of_designs(mechanism, by, plain),
+        hulls_of_designs(mechanism, by, names),
+        ranges_of_designs(mechanism, by, names),
     )
-    return [each for each in found if each is not None and each.terms]
+    return [each for each in found if each is not None and each.kinds]
 
 
 def numbers_of(
@@ -77,11 +74,11 @@ def numbers_of(
         for low, high in [(0, len(designs))] if whole else paced(len(designs)):
             some = designs[low:high]
             part = {address: column[some] for address, column in columns.items()}
-            known = cycle.evaluate(part, threads=threads, backend=serving)
-            certain[low:high] &= known.certain
-            for each in cycle.terms:
-                values[each.name][some[known.certain]] = known.values[each.name][known.certain]
-                dimensions[each.name] = each.dimension
+            known, sure_here = cycle.evaluate(part, threads=threads, backend=serving)
+            certain[low:high] &= sure_here
+            for name, column in known.items():
+                values[name][some[sure_here]] = column[sure_here]
+            dimensions |= cycle.kinds
             if tell is not None:
                 tell(high, len(designs))
     sure = np.zeros(count, dtype=np.bool_)

@@ -13,7 +13,6 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_of, require
 from linkwright.core.outputs import Output
-from linkwright.designs.design_numbers import Numbers
 from linkwright.designs.objective_terms import PathError, Terms, number_of_points, weighted
 from linkwright.designs.over_positions import Builder
 from linkwright.designs.varied_dimensions import checked_addresses, refuse_moved_positions
@@ -27,7 +26,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.hulls_of_designs import hulls_of_designs, swept
-from linkwright.metrics.of_designs import numbers_of_designs, refuse_unsteady
+from linkwright.metrics.of_designs import MetricsOfDesigns, numbers_of_designs, refuse_unsteady
 from linkwright.metrics.ranges_of_designs import ranged, ranges_of_designs
 from linkwright.metrics.terms import refuse_obstacle
 from linkwright.metrics.wanted import is_metric
@@ -56,7 +55,7 @@ class OverMetrics:
     """Registered design numbers with their weights."""
 
     names: tuple[str, ...]
-    cycle: Numbers
+    cycle: MetricsOfDesigns
     weights: Mapping[str, float]
     backend: Backend
 
@@ -69,9 +68,9 @@ class OverMetrics:
 
     def values(self, columns: Mapping[str, Floats], threads: int | None) -> Floats:
         """Values (designs,)."""
-        found = self.cycle.evaluate(columns, threads=threads, backend=self.backend)
-        total = sum(weight * found.values[name] for name, weight in self.weights.items())
-        return np.where(found.certain, total, np.nan)
+        found, certain = self.cycle.evaluate(columns, threads=threads, backend=self.backend)
+        total = sum(weight * found[name] for name, weight in self.weights.items())
+        return np.where(certain, total, np.nan)
 
 
 class Objective:
@@ -192,7 +191,7 @@ def of_metrics(
     if cycle is None:
         _refuse_moved_cycle(mechanism, names, over_cycle(mechanism, steps))
         raise RequestError(_refusal(mechanism, steps))
-    missing = [name for name in weights if name not in {term.name for term in cycle.terms}]
+    missing = [name for name in weights if name not in cycle.kinds]
     if missing:
         raise RequestError("study.objective_metric", names=tuple(missing), name=mechanism.name)
     for name in weights:

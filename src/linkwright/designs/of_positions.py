@@ -61,7 +61,7 @@ def note_of_positions(
 def _both(analysis: Analysis, summary: Summary, forces: Forces | None) -> tuple[float, float, float]:
     """A summary of the positions, the same between them, and the size of the signal; size 0 where that is unknown."""
     values: Floats = analysis.signal(summary.output)(forces or analysis.motion)
-    found = analysis.part(summary.name)
+    found = analysis.part(summary)
     if not (found.exact and np.isfinite(found.value) and np.isfinite(values).all()):
         return 0.0, 0.0, 0.0
     return float(_OF[summary.kind](values)), found.value, float(np.abs(values).max())

@@ -44,8 +44,8 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.designs.design_numbers import Numbers
     from linkwright.formula.summaries import Backend
+    from linkwright.metrics.of_designs import MetricsOfDesigns
 
 Sampling = Literal["grid", "sobol"]
 _Piece = tuple[dict[str, Floats], dict[str, str], dict[str, None], dict[int, str]]
@@ -338,23 +338,24 @@ class _Work:
             for first, end in chunks(len(designs), AT_ONCE):
                 some = designs[first:end]
                 values, certain = self._at_once(cycle, some, backend)
-                for term in cycle.terms:
-                    self.values[term.name][some[certain]] = values[term.name][certain]
-                    self.dimensions[term.name] = term.dimension
-                    sure.setdefault(term.name, set()).update(some[certain].tolist())
+                for name, kind in cycle.kinds.items():
+                    self.values[name][some[certain]] = values[name][certain]
+                    self.dimensions[name] = kind
+                    sure.setdefault(name, set()).update(some[certain].tolist())
                 if tell is not None:
                     tell(end, len(designs))
         return sure
 
-    def _at_once(self, cycle: Numbers, designs: Indices, backend: Backend) -> tuple[dict[str, Floats], Flags]:
-        """Values of a cycle's terms and which are certain, which are kept where parts are kept."""
+    def _at_once(
+        self, cycle: MetricsOfDesigns, designs: Indices, backend: Backend
+    ) -> tuple[dict[str, Floats], Flags]:
+        """Values of a cycle's numbers and which are certain, which are kept where parts are kept."""
         part = {address: column[designs] for address, column in self.columns.items()}
 
-        def found() -> tuple[dict[str, Floats], Flags]:
-            seen = cycle.evaluate(part, backend=backend)
-            return dict(seen.values), seen.certain
-
-        return once(found, lambda: (self._own, [term.name for term in cycle.terms], backend, part))
+        return once(
+            lambda: cycle.evaluate(part, backend=backend),
+            lambda: (self._own, [*cycle.kinds], backend, part),
+        )
 
     @cached_property
     def _own(self) -> str:

@@ -10,6 +10,7 @@ from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
 from linkwright.core.read_only import Frozen
+from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.kinetostatics.forces import Forces
@@ -44,9 +45,9 @@ class Balancing(Plotted, Frozen):
         N·m."""
         driver = next(iter(self.mechanism.drivers))
         peaks = {
-            "shaking force [N]": "shaking_force max",
-            "shaking moment [N·m]": "shaking_moment peak",
-            "input torque [N·m]": f"{driver}.effort peak",
+            "shaking force [N]": Summary("shaking_force", "max"),
+            "shaking moment [N·m]": Summary("shaking_moment", "peak"),
+            "input torque [N·m]": Summary(f"{driver}.effort", "peak"),
         }
         both = [Analysis.of(forces) for forces in (self.before, self.after)]
         return {name: (both[0].part(peak).value, both[1].part(peak).value) for name, peak in peaks.items()}

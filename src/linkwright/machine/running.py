@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
+from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation
@@ -116,7 +117,8 @@ class SteadyRunning(Plotted):
     def power_without_flywheel(self) -> float:
         """What the motor must have to turn the input at constant speed: margin · largest power / efficiency, W."""
         analysis = Analysis.of(self.equivalent.forces)
-        most = analysis.part(f"input_torque {'max' if self.equivalent.direction > 0 else 'min'}").value
+        kind = "max" if self.equivalent.direction > 0 else "min"
+        most = analysis.part(Summary("input_torque", kind)).value
         largest = replace(self.motor, mean_power=self.equivalent.direction * most * self.equivalent.speed)
         return largest.power
 
@@ -189,7 +191,9 @@ def steady_running(
 def require_steady(forces: Forces) -> None:
     """Raises LinkwrightError, as :func:`steady_running`, for a machine that runs unevenly or takes no work."""
     rate = steady_rate(forces.motion)
-    _require_load(float(np.sign(rate) * Analysis.of(forces).part("input_torque mean").value), forces)
+    _require_load(
+        float(np.sign(rate) * Analysis.of(forces).part(Summary("input_torque", "mean")).value), forces
+    )
 
 
 def _require_load(mean: float, forces: Forces) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
+from linkwright.cycle.summary import Summary
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
 from linkwright.metrics.outputs import free_points
@@ -26,9 +27,9 @@ class PeakAcceleration(Metric):
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for output in analysis.outputs:
             rate = output.course[2] if self.word == "acceleration" else output.course[2].rate
-            yield Number(str(output), (f"{rate.name} peak",), dimension=rate.dimension)
+            yield Number(str(output), (Summary(rate.name, "peak"),), dimension=rate.dimension)
         for point in free_points(analysis.motion.mechanism):
-            yield Number(point, (f"{point}.{self.word} max",), dimension=self.word)
+            yield Number(point, (Summary(f"{point}.{self.word}", "max"),), dimension=self.word)
 
 
 @METRICS.register("peak_jerk")

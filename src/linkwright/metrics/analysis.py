@@ -17,7 +17,7 @@ from linkwright.core.search import first_largest
 from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.cycle.solved import Solved
-from linkwright.cycle.summary import STROKES, TRUE_SPEED, Extreme, Summary, one, signal_of
+from linkwright.cycle.summary import Extreme, Summary
 from linkwright.errors import LinkwrightError
 from linkwright.events.limit_positions import limit_positions
 from linkwright.formula.recently_made import Recent
@@ -36,16 +36,16 @@ from linkwright.metrics.solved_pieces import SolvedPieces
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
-#: Finds parts of some kinds of one machine.
-Finder: TypeAlias = "Callable[[Sequence[Summary], Analysis], list[Extreme]]"
-_FINDERS: dict[str, Finder] = {}
+#: Finds summaries of some type of one machine.
+Finder: TypeAlias = "Callable[[Sequence[Any], Analysis], list[Extreme]]"
+_FINDERS: dict[type[Summary], Finder] = {}
 
 
-def finds(*kinds: str) -> Callable[[Finder], Finder]:
-    """Decorator of the function that finds parts of kinds that are no summaries of one output."""
+def finds(kind: type[Summary]) -> Callable[[Finder], Finder]:
+    """Decorator of the function that finds summaries of a type that are not of one output over the whole cycle."""
 
     def filed(finder: Finder) -> Finder:
-        _FINDERS.update(dict.fromkeys(kinds, finder))
+        _FINDERS[kind] = finder
         return finder
 
     return filed
@@ -72,9 +72,9 @@ class Analysis(PartlyReached):
         self._outermost: dict[Output, list[Limit]] = {}
         self._words: dict[str, None] = {}
         self._outputs = motion.solver.programs.meanings
-        self._asked: dict[Summary, Extreme | None] = {}
-        self._parts: dict[str, Extreme] = {}
-        self._texts: dict[str, None] = {}
+        self._asked: dict[Summary, None] = {}
+        self._found: dict[Summary, Extreme] = {}
+        self._parts: dict[Summary, Extreme] = {}
         self._solved: list[Solved] = []
 
     def __getstate__(self) -> dict[str, Any]:
@@ -138,17 +138,13 @@ class Analysis(PartlyReached):
             self._outermost[output] = outermost(limits) if limits else []
         return self._outermost[output]
 
-    def ask(self, parts: Iterable[str]) -> None:
+    def ask(self, parts: Iterable[Summary]) -> None:
         """Says which summaries will be wanted, so that their outputs are evaluated together."""
-        texts = tuple(parts)
-        self._texts |= dict.fromkeys(texts)
-        for summary in map(one, texts):
-            output = summary.output
-            if summary.kind in STROKES.values():
-                output = signal_of(summary)
-                self._asked.setdefault(summary)
-            if summary.kind not in TRUE_SPEED and not self._meant(output).of_course:
-                self._words[words_name(output)] = None
+        for part in parts:
+            if part.of_cycle:
+                self._asked[part] = None
+                if not self._meant(part.output).of_course:
+                    self._words[words_name(part.output)] = None
 
     def signal(self, output: str) -> Callable[[Motion | Forces], Floats]:
         """An output in words (see ``kinetostatics.named``) as a function of motion or forces, (n,)."""
@@ -175,29 +171,28 @@ class Analysis(PartlyReached):
             values[:, ~solved.ok] = np.nan
         return values
 
-    def part(self, summary: str) -> Extreme:
-        """A summary over the cycle, ``"reaction O5 on jaw max"``, with its place where it has one.
+    def part(self, summary: Summary) -> Extreme:
+        """A summary over the cycle with its place where it has one.
 
         ``peak``: the largest size; places of extremes of a mechanism's outputs are its outermost limit positions.
         """
         if summary not in self._parts:
-            found = self._of_cycle(summary) or self._summarised(one(summary))
-            small = (
-                self.forces and summary.startswith("reaction ") and abs(found.value) < self.forces.rounding
-            )
+            found = self._of_cycle(summary) or self._summarised(summary)
+            reaction = summary.output.startswith("reaction ")
+            small = self.forces and reaction and abs(found.value) < self.forces.rounding
             if small and abs(found.value) < self._rounding(found.time):
                 found = replace(found, value=0.0)
             self._parts[summary] = found
         return self._parts[summary]
 
-    def _of_cycle(self, text: str) -> Extreme | None:
+    def _of_cycle(self, part: Summary) -> Extreme | None:
         """A part of a cycle that is passed by one formula, found at once with all that were asked for."""
-        if one(text).kind in TRUE_SPEED or self._machine is None:
+        if not part.of_cycle or self._machine is None:
             return None
-        if text not in self._together:
-            parts = [each for each in {**self._texts, text: None} if each not in self._together]
-            parts = [each for each in parts if one(each).kind not in TRUE_SPEED]
-            told = {each: self._tells(one(each)) for each in parts}
+        if part not in self._together:
+            wanted = {**self._asked, part: None}
+            parts = [each for each in wanted if each.of_cycle and each not in self._together]
+            told = {each: self._tells(each.output) for each in parts}
             swinging = self.outputs if self.closed else ()
             limited = [each for each in swinging if self.limits(each) and self._machine.tells(each.name)]
             parts = [each for each in parts if told[each]]
@@ -205,23 +200,24 @@ class Analysis(PartlyReached):
             solved = Solved(Cycle(self._machine, parts, limited), {})
             self._solved.append(solved)
             self._together |= {each: self._read_of(solved, each) for each in parts}
-        return self._together[text]
+        return self._together[part]
 
-    def _tells(self, part: Summary) -> bool:
-        """Whether the cycle's formulas give the output of a part."""
-        words = signal_of(part) if part.kind in STROKES.values() else part.output
+    def _tells(self, words: str) -> bool:
+        """Whether the cycle's formulas give an output."""
         assert self._machine is not None
         return not self._meant(words).of_course or self._machine.tells(words)
 
-    def _read_of(self, solved: Solved, text: str) -> Extreme | None:
+    def _read_of(self, solved: Solved, part: Summary) -> Extreme | None:
         """A part of one machine's cycle; None of one that is not passed."""
         if not solved.passed[0]:
             return None
-        time = solved.time_of(text)
-        return Extreme(float(solved.values[text][0]), float(time[0]), float(solved.input_at(time)[0]), True)
+        time = solved.time_of(part.name)
+        return Extreme(
+            float(solved.values[part.name][0]), float(time[0]), float(solved.input_at(time)[0]), True
+        )
 
     @cached_property
-    def _together(self) -> dict[str, Extreme | None]:
+    def _together(self) -> dict[Summary, Extreme | None]:
         return {}
 
     @cached_property
@@ -246,9 +242,9 @@ class Analysis(PartlyReached):
         return float(self.forces.roundings[near.argmin()])
 
     def _summarised(self, summary: Summary) -> Extreme:
-        kind = summary.kind
-        if kind in TRUE_SPEED or kind in STROKES.values():
-            return self._found_together(summary, _FINDERS[kind])
+        kind, finder = summary.kind, _FINDERS.get(type(summary))
+        if finder is not None:
+            return self._found_together(summary, finder)
         if kind in ("argmax", "argmin", "range") and (output := self.output(summary.output)):
             return self._of_limits(output, kind)
         nothing, signal = Extreme(float("nan"), float("nan"), float("nan"), True), self.signal(summary.output)
@@ -277,16 +273,11 @@ class Analysis(PartlyReached):
 
     def _found_together(self, part: Summary, finder: Finder) -> Extreme:
         """A part that a finder finds, at once with those of all that were asked for."""
-        found = self._asked.get(part)
-        if found is None:
-            wanted = {**self._asked, part: None}
-            missing = [
-                each for each in wanted if self._asked.get(each) is None and _FINDERS[each.kind] is finder
-            ]
-            self._asked |= zip(missing, finder(missing, self), strict=True)
-            found = self._asked[part]
-        assert found is not None
-        return found
+        if part not in self._found:
+            alike = [each for each in {**self._asked, part: None} if type(each) is type(part)]
+            missing = [each for each in alike if each not in self._found]
+            self._found |= zip(missing, finder(missing, self), strict=True)
+        return self._found[part]
 
     def _extreme(self, output: str, kind: str) -> Extreme | None:
         side: Kind = "max" if kind == "max" else "min"

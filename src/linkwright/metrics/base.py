@@ -12,7 +12,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.cycle.summary import Extreme
+from linkwright.cycle.summary import Extreme, Summary
 from linkwright.formula.trace import Scalar
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Result
@@ -117,23 +117,33 @@ def _first(*parts: Extreme) -> float:
 class Number:
     """One value of a design number as a formula of summaries over the cycle, for one machine and for many designs.
 
-    ``parts``: outputs in words with a kind of summary, ``"reaction O5 on jaw max"`` (see ``metrics.summary.KINDS``);
-    ``formula``: the value from these, with ``+ - * /`` and the functions of ``engine.trace`` alone, so that it serves
-    numbers and traced values; ``at``: where it is, from the parts as extremes. ``dimension``: that of the metric
-    where left out. ``passed_over``: outputs of the machine that come before and have no such number, as they reverse
-    nowhere; without a subject the number is meant in such designs alone.
+    ``parts``: summaries, or outputs in words with a kind of summary, ``"reaction O5 on jaw max"`` (see
+    ``cycle.summary.KINDS``), from which ``summaries`` are read; ``formula``: the value from these, with ``+ - * /``
+    and the functions of ``formula.trace`` alone, so that it serves numbers and traced values; ``at``: where it is,
+    from the summaries as extremes. ``dimension``: that of the metric, or of the summary, where left out.
+    ``passed_over``: outputs of the machine that come before and have no such number, as they reverse nowhere; without
+    a subject the number is meant in such designs alone.
     """
 
     subject: str
-    parts: tuple[str, ...]
+    parts: tuple[Summary | str, ...]
     formula: Callable[..., Scalar] = _itself
     dimension: str | None = None
     at: Callable[..., float] = _first
     passed_over: tuple[Output, ...] = ()
+    summaries: tuple[Summary, ...] = field(init=False, compare=False)
+
+    def __post_init__(self) -> None:
+        read = (Summary.of(each) if isinstance(each, str) else each for each in self.parts)
+        object.__setattr__(self, "summaries", tuple(read))
+
+    def value(self, found: Mapping[str, Scalar]) -> Scalar:
+        """The value from those of its summaries by name."""
+        return self.formula(*(found[each.name] for each in self.summaries))
 
     def measured(self, analysis: Analysis) -> tuple[float, float, bool]:
         """Value, place, and whether it is exact between the positions, of one machine."""
-        parts = [analysis.part(part) for part in self.parts]
+        parts = [analysis.part(each) for each in self.summaries]
         found: Scalar = parts[0].value
         if self.formula is not _itself:
             with np.errstate(divide="ignore", invalid="ignore"):  # infinite as of many designs, not an error
@@ -230,7 +240,7 @@ class Metric(ABC):
         key = ("numbers", self.name)
         if key not in analysis.kept:
             analysis.kept[key] = numbers = tuple(self.numbers(analysis))
-            analysis.ask(part for number in numbers for part in number.parts)
+            analysis.ask(each for number in numbers for each in number.summaries)
         found: tuple[Number, ...] = analysis.kept[key]
         return found
 

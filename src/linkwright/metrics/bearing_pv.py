@@ -9,6 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.cycle.summary import Summary
 from linkwright.joints.lower import TurningJoint
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
@@ -35,7 +36,7 @@ class BearingPv(Metric):
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for joint, link in _bearings(analysis):
             subject = joint.name if len(joint.links) == 2 else f"{joint.name} on {link}"
-            yield Number(subject, (f"heat {joint.name} on {link} peak",))
+            yield Number(subject, (Summary(f"heat {joint.name} on {link}", "peak"),))
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for found, (joint, link) in zip(super().values(analysis), _bearings(analysis), strict=False):

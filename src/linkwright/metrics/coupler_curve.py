@@ -15,6 +15,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross, crossings
 from linkwright.core.search import lowest
 from linkwright.curves.curve import increasing, nodes
+from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
@@ -107,12 +108,12 @@ def _among(spot: Spot, cusps: tuple[tuple[Spot, float], ...], near: float) -> bo
 
 def _length(point: str, lap: float) -> Number:
     """Length of a curve that is run once in the time ``lap``, s, negative where the positions run back in time."""
-    return Number(point, (f"{point}.velocity mean",), partial(mul, abs(lap)))
+    return Number(point, (Summary(f"{point}.velocity", "mean"),), partial(mul, abs(lap)))
 
 
 def _area(point: str, lap: float) -> Number:
     """Area within such a curve."""
-    return Number(point, (f"areal_velocity {point} mean",), partial(mul, lap))
+    return Number(point, (Summary(f"areal_velocity {point}", "mean"),), partial(mul, lap))
 
 
 def _lap(analysis: Analysis, point: str) -> float:

@@ -5,44 +5,48 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
+from linkwright.cycle.summary import Summary
 from linkwright.formula.trace import Scalar, absolute, select
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
 
 #: A mean power of this share of the largest one is zero but for rounding.
 IDLE = 1e-9
+MEAN, PEAK = Summary("power", "mean"), Summary("power", "peak")
 
 
 class EffortMetric(Metric):
-    """What every driver must supply, by a ``summary`` of its effort over the cycle."""
+    """What every driver must supply, by one ``kind`` of summary of its effort over the cycle."""
 
     dimension = "torque"
     source = "kinetostatics: effort of the driver from the joint forces"
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
     rank = 3
-    summary: ClassVar[str]
+    kind: ClassVar[str]
 
     def suits(self, analysis: Analysis) -> bool:
         return super().suits(analysis) and analysis.loaded
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for name, turns in analysis.motion.positions.rotary.items():
-            yield Number(name, (f"{name}.effort {self.summary}",), dimension="torque" if turns else "force")
+            yield Number(
+                name, (Summary(f"{name}.effort", self.kind),), dimension="torque" if turns else "force"
+            )
 
 
 @METRICS.register("peak_input_torque")
 class PeakInputTorque(EffortMetric):
     """Largest size of the effort of every driver: N·m where it turns, N where it slides."""
 
-    summary = "peak"
+    kind = "peak"
 
 
 @METRICS.register("rms_input_torque")
 class RmsInputTorque(EffortMetric):
     """Root mean square over time of the effort of every driver: what heats a motor."""
 
-    summary = "rms"
+    kind = "rms"
 
 
 class PowerMetric(EffortMetric):
@@ -51,14 +55,14 @@ class PowerMetric(EffortMetric):
     dimension = "power"
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
-        yield Number(analysis.motion.mechanism.name, (f"power {self.summary}",))
+        yield Number(analysis.motion.mechanism.name, (Summary("power", self.kind),))
 
 
 @METRICS.register("peak_power")
 class PeakPower(PowerMetric):
     """Largest power that the drivers supply together at any moment."""
 
-    summary = "max"
+    kind = "max"
 
 
 @METRICS.register("mean_power")
@@ -66,7 +70,7 @@ class MeanPower(PowerMetric):
     """Mean over time of the power of all drivers: work per cycle over the time of the cycle."""
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
-        yield Number(analysis.motion.mechanism.name, ("power mean", "power peak"), _work)
+        yield Number(analysis.motion.mechanism.name, (MEAN, PEAK), _work)
 
 
 @METRICS.register("efficiency")
@@ -83,11 +87,11 @@ class Efficiency(PowerMetric):
         rubbing = any(joint.friction_arm for joint in analysis.motion.mechanism.joints.values())
         if not (rubbing and super().suits(analysis)):
             return False
-        mean, peak = (float(analysis.part(f"power {kind}").value) for kind in ("mean", "peak"))
+        mean, peak = (float(analysis.part(each).value) for each in (MEAN, PEAK))
         return mean > IDLE * peak
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
-        parts = ("friction_power mean", "power mean", "power peak")
+        parts = (Summary("friction_power", "mean"), MEAN, PEAK)
         yield Number(analysis.motion.mechanism.name, parts, _efficiency)
 
 

@@ -9,16 +9,20 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError
 from linkwright.formula.trace import Scalar, maximum, select
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
-from linkwright.metrics.true_speed import steady_cycle
+from linkwright.metrics.true_speed import TrueSpeedSummary, steady_cycle
 
 #: A mean torque below this share of the largest one is zero.
 NOTHING = 1e-9
+#: What a flywheel follows from.
+EXCESS, MEAN, PEAK = (Summary("input_torque", kind) for kind in ("excess", "mean", "peak"))
+INERTIA = Summary("equivalent_inertia", "mean")
 
 
 @METRICS.register("energy_fluctuation")
@@ -31,7 +35,6 @@ class EnergyFluctuation(Metric):
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
     judged_last = True
-    part: ClassVar[str] = "input_torque excess"
 
     def suits(self, analysis: Analysis) -> bool:
         """For one driver that turns at constant speed through whole turns, and does work."""
@@ -46,14 +49,12 @@ class EnergyFluctuation(Metric):
         steady = np.ptp(rate) <= 1e-9 * abs(rate[0]) and abs(turns - round(turns)) <= 1e-9
         if not steady:
             return False
-        analysis.ask(
-            ("equivalent_inertia mean", "input_torque excess", "input_torque peak")
-        )  # found together
-        mean = float(analysis.part("input_torque mean").value)
+        analysis.ask((INERTIA, EXCESS, PEAK))  # found together
+        mean = float(analysis.part(MEAN).value)
         return abs(mean) > NOTHING * float(np.abs(analysis.forces.input_torque).max())
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
-        yield Number(next(iter(analysis.motion.mechanism.drivers)), (self.part,))
+        yield Number(next(iter(analysis.motion.mechanism.drivers)), (EXCESS,))
 
 
 @METRICS.register("flywheel")
@@ -66,9 +67,8 @@ class Flywheel(EnergyFluctuation):
         self.fluctuation = fluctuation
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
-        parts = ("input_torque excess", "equivalent_inertia mean", "input_torque mean", "input_torque peak")
         formula = partial(_inertia, self.fluctuation, float(analysis.input_rate[0]))
-        yield Number(next(iter(analysis.motion.mechanism.drivers)), parts, formula)
+        yield Number(next(iter(analysis.motion.mechanism.drivers)), (EXCESS, INERTIA, MEAN, PEAK), formula)
 
 
 def _inertia(
@@ -80,17 +80,20 @@ def _inertia(
 
 
 class TrueSpeed(EnergyFluctuation):
-    """A number of the speed that a constant motor torque gives, with a flywheel for δ or as the machine is."""
+    """A number of the speed that a constant motor torque gives, with a flywheel for δ (``sized``) or as the machine
+    is."""
 
     source = "½ J ω² = E0 + ∫ (mean - T) dφ with the mean speed; Wittenbauer, Graphische Dynamik"
     on_request = True
     rank = 9
+    kind: ClassVar[str]
+    sized: ClassVar[bool] = True
 
     def __init__(self, fluctuation: float = FLUCTUATION) -> None:
         self.fluctuation = fluctuation
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
-        part = self.part.format(fluctuation=repr(self.fluctuation))
+        part = TrueSpeedSummary("true speed", self.kind, self.fluctuation if self.sized else None)
         yield Number(next(iter(analysis.motion.mechanism.drivers)), (part,))
 
     def obstacle(self, analysis: Analysis) -> str | None:
@@ -115,7 +118,7 @@ class ExactFlywheel(TrueSpeed):
     """Inertia beyond the machine's own with which the true speed fluctuates by just δ = 0.02, kg·m² on the crank."""
 
     dimension = "inertia"
-    part = "running {fluctuation} size"
+    kind = "size"
 
 
 @METRICS.register("reached_fluctuation")
@@ -124,7 +127,7 @@ class ReachedFluctuation(TrueSpeed):
 
     dimension = "dimensionless"
     better = None
-    part = "running {fluctuation} fluctuation"
+    kind = "fluctuation"
 
 
 @METRICS.register("speed_fluctuation")
@@ -132,7 +135,8 @@ class SpeedFluctuation(TrueSpeed):
     """δ = (ω_max - ω_min)/ω_mean of the true speed with the inertia that the machine has, a flywheel the crank's."""
 
     dimension = "dimensionless"
-    part = "running fluctuation"
+    kind = "fluctuation"
+    sized = False
 
     def require(self, forces: Forces) -> None:
         super().require(forces)
@@ -145,7 +149,7 @@ class SlowestSpeed(SpeedFluctuation):
 
     dimension = "angular_velocity"
     better = "higher"
-    part = "running slowest"
+    kind = "slowest"
 
 
 @METRICS.register("fastest_speed")
@@ -153,7 +157,7 @@ class FastestSpeed(SpeedFluctuation):
     """Largest true speed of the driver with the inertia that the machine has, rad/s."""
 
     dimension = "angular_velocity"
-    part = "running fastest"
+    kind = "fastest"
 
 
 #: Numbers that depend on δ.

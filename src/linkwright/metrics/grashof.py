@@ -9,6 +9,7 @@ from itertools import combinations
 from math import hypot
 
 from linkwright.core.dataclass import dataclass
+from linkwright.cycle.summary import Summary
 from linkwright.formula.trace import Scalar, maximum, minimum
 from linkwright.joints.lower import TurningJoint
 from linkwright.mechanism.mechanism import Mechanism
@@ -120,7 +121,7 @@ class Grashof(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for loop in _loops(analysis):
-            parts = (f"distance {a} {b} mean" for a, b in loop.pins.values())
+            parts = (Summary(f"distance {a} {b}", "mean") for a, b in loop.pins.values())
             yield Number(loop.name, tuple(parts), _margin)
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:

@@ -1,5 +1,4 @@
-"""Swept areas of many designs, with gradients: the curves of all designs over the same pieces, each one's hull
-alone."""
+"""Swept areas of many designs, with gradients: curves of all designs over the same pieces, each one's hull alone."""
 
 from __future__ import annotations
 
@@ -8,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Indices
+from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.curves.pieces import HIGH, LOW
 from linkwright.cycle.cycle import Cycle, Signal
 from linkwright.cycle.gradient import Backward
@@ -19,10 +18,10 @@ from linkwright.formula.summaries import Backend
 from linkwright.formula.threads import cores, spread_over
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.of_designs import Found
+from linkwright.metrics.of_designs import MetricsOfDesigns
 from linkwright.metrics.swept_area import of_driver, points, turned
 from linkwright.metrics.swept_hull import Curves, SweptHull
-from linkwright.metrics.terms import Term, chosen_subjects, metric_of
+from linkwright.metrics.terms import chosen_subjects, metric_of
 
 #: Designs whose curves are kept at the same time.
 BLOCK = 256
@@ -55,14 +54,14 @@ def hulls_of_designs(
     return HullsOfDesigns(machine, asked)
 
 
-class HullsOfDesigns:
-    """Areas of hulls of one mechanism's designs; of several links the largest. Made by :func:`hulls_of_designs`."""
+class HullsOfDesigns(MetricsOfDesigns):
+    """Areas of hulls; of several links the largest. Made by :func:`hulls_of_designs`."""
 
     def __init__(self, machine: Machine, names: Iterable[str]) -> None:
         self.machine, self._keys = machine, points(machine.mechanism)
-        self.terms = tuple(Term(name, (), "area", "lower") for name in names)
+        self.kinds = dict.fromkeys(names, "area")
         number = {key: k for k, key in enumerate(self._keys)}
-        groups = [swept(each.name, machine.mechanism).values() for each in self.terms]
+        groups = [swept(name, machine.mechanism).values() for name in self.kinds]
         self._chosen = [[[number[key] for key in own] for own in subjects] for subjects in groups]
         self._words = [f"{key}.{axis}" for key in self._keys for axis in "xy"]
         self.cycle = Cycle(machine, (), even=self._words)
@@ -75,11 +74,10 @@ class HullsOfDesigns:
 
     def evaluate(
         self, columns: Mapping[str, Floats], *, threads: int | None = None, backend: Backend = "auto"
-    ) -> Found:
-        """The areas of the designs with the given columns, (designs,) each."""
-        values, _ = self._found(columns, np.empty((0, len(self.terms))), (), threads, backend)
-        rows = dict(zip((each.name for each in self.terms), values, strict=True))
-        return Found(rows, np.asarray(np.isfinite(values).all(axis=0)))
+    ) -> tuple[dict[str, Floats], Flags]:
+        """The areas (designs,) by name, and which designs are certain."""
+        values, _ = self._found(columns, np.empty((0, len(self.kinds))), (), threads, backend)
+        return dict(zip(self.kinds, values, strict=True)), np.asarray(np.isfinite(values).all(axis=0))
 
     def gradients(
         self,
@@ -92,7 +90,7 @@ class HullsOfDesigns:
     ) -> tuple[Floats, Floats]:
         """Weighted sums of areas (sums, designs) and their gradients (sums, designs, by); NaN of designs that do not
         pass."""
-        factors = np.array([[weights.get(each.name, 0.0) for each in self.terms] for weights in sums])
+        factors = np.array([[weights.get(name, 0.0) for name in self.kinds] for weights in sums])
         values, slopes = self._found(columns, factors, tuple(by), threads, backend)
         return factors @ values, slopes
 
@@ -104,10 +102,10 @@ class HullsOfDesigns:
         threads: int | None,
         backend: Backend,
     ) -> tuple[Floats, Floats]:
-        """Areas (terms, designs), and derivatives (sums, designs, by) of their sums by factors (sums, terms)."""
+        """Areas (kinds, designs), and derivatives (sums, designs, by) of their sums by factors (sums, kinds)."""
         own = {name: column for name, column in columns.items() if name in self.machine.varied}
         count = len(next(iter(columns.values())))
-        values = np.full((len(self.terms), count), np.nan)
+        values = np.full((len(self.kinds), count), np.nan)
         slopes = np.full((len(factors), count, len(by)), np.nan)
         self.machine.compiled = None if backend == "auto" else backend == "llvm"
 
@@ -131,11 +129,11 @@ class HullsOfDesigns:
         return values, slopes
 
     def _areas(self, solved: Solved, rows: Floats, mine: Indices, factors: Floats, weights: Floats) -> Floats:
-        """The areas (terms,) of one design, from its points (rows, POINTS, pieces); adds to the weights, (sums, rows,
+        """The areas (kinds,) of one design, from its points (rows, POINTS, pieces); adds to the weights, (sums, rows,
         POINTS, all pieces), those of its pieces ``mine`` in the sums."""
         columns = solved.pieces.columns
         edges = np.append(columns[LOW][mine], columns[HIGH][mine][-1:])
-        curves, found = self._curves(rows, edges), np.empty(len(self.terms))
+        curves, found = self._curves(rows, edges), np.empty(len(self.kinds))
         for number, chosen in enumerate(self._chosen):
             hull = max((SweptHull(curves, own) for own in chosen), key=lambda each: each.area)
             found[number] = hull.area

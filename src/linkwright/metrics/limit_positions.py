@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.core.outputs import Output
+from linkwright.cycle.summary import Summary
 from linkwright.loads.signals import Limit
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number
@@ -30,8 +31,8 @@ class LimitPosition(Metric):
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         """The outermost ones of a closed cycle."""
         for output, kind, passed_over in outermost_limits(analysis):
-            part = f"{output.owner}.{output.kind} {kind}"
-            yield Number(f"{output} {kind}", (part,), dimension=output.dimension, passed_over=passed_over)
+            value = Summary(output.name, kind)
+            yield Number(f"{output} {kind}", (value,), dimension=output.dimension, passed_over=passed_over)
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for output in analysis.outputs:

@@ -1,21 +1,18 @@
-"""Design numbers of many designs at once, with gradients: the formulas that serve one machine, over the same
-cycle."""
+"""Metrics of many designs at once, with gradients: the formulas that serve one machine, over the same cycle."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import Output
 from linkwright.cycle.cycle import Cycle, Signal
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.cycle.solved import Solved
-from linkwright.cycle.summary import TRUE_SPEED, one
 from linkwright.errors import RequestError
 from linkwright.events.course import moves
 from linkwright.formula.derivative import forward
@@ -32,8 +29,9 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.machine.steady_designs import SteadyDesigns
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.terms import Asked, Term, all_parts, term
-from linkwright.metrics.true_speed import EFFORT, INERTIA, required
+from linkwright.metrics.base import Number
+from linkwright.metrics.terms import Asked, number_named
+from linkwright.metrics.true_speed import EFFORT, INERTIA, TrueSpeedSummary
 
 #: Designs of one block: what is found of them stays in a core's cache.
 BLOCK = 512
@@ -42,29 +40,51 @@ FEW = 8
 _SUM = "weighted sum"
 
 
-@dataclass(frozen=True)
-class Found:
-    """Values (designs,) by name, and which designs are ``certain`` to have no others: they pass the whole cycle."""
+class MetricsOfDesigns(ABC):
+    """Metrics of one mechanism's designs at once; ``kinds``: the names of their dimensions by their own."""
 
-    values: Mapping[str, Floats]
-    certain: Flags
+    kinds: Mapping[str, str]
+
+    @property
+    @abstractmethod
+    def dimensions(self) -> tuple[str, ...]:
+        """Those of the varied dimensions on which the metrics depend."""
+
+    @abstractmethod
+    def evaluate(
+        self, columns: Mapping[str, Floats], *, threads: int | None = None, backend: Backend = "auto"
+    ) -> tuple[dict[str, Floats], Flags]:
+        """The metrics of the designs with the given columns, (designs,) each, and which designs are certain to have
+        no others: they pass the whole cycle."""
+
+    @abstractmethod
+    def gradients(
+        self,
+        sums: Sequence[Mapping[str, float]],
+        columns: Mapping[str, Floats],
+        by: Sequence[str],
+        *,
+        threads: int | None = 1,
+        backend: Backend = "auto",
+    ) -> tuple[Floats, Floats]:
+        """Weighted sums of metrics (sums, designs) and their gradients (sums, designs, by), from one evaluation of
+        the cycle; NaN where it is not certain."""
 
 
 def numbers_of_designs(
     mechanism: Mechanism,
     varied: Iterable[str],
-    names: Iterable[str | Term],
+    names: Iterable[str],
     *,
     steps: int = 360,
     asked: Asked | None = None,
 ) -> NumbersOfDesigns | None:
-    """Registered metrics (``peak_reaction``, ``peak_reaction O5``) of all designs of a mechanism with some dimensions
-    changed, those that apply to it and are formulas of summaries; terms are taken as they are.
+    """Registered metrics (``peak_reaction``, ``peak_reaction O5``) and summaries (``driver.effort rms``) of all
+    designs of a mechanism with some dimensions changed, those that apply to it and are formulas of summaries.
 
-    ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.term``. None where the cycle
-    is no
-    formula of one position (see ``cycle.machine.Machine``), or the dimensions move its times. What is found for a
-    machine is kept.
+    ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.number_named``. None where the
+    cycle is no formula of one position (see ``cycle.machine.Machine``), or the dimensions move its times. What is
+    found for a machine is kept.
     """
     given, addresses = tuple(names), tuple(varied)
     key = (addresses, given, steps, asked)
@@ -77,7 +97,7 @@ _kept: Recent[Mechanism, NumbersOfDesigns | None] = Recent(16)
 def _numbers(
     mechanism: Mechanism,
     addresses: tuple[str, ...],
-    given: tuple[str | Term, ...],
+    given: tuple[str, ...],
     steps: int,
     asked: Asked | None,
 ) -> NumbersOfDesigns | None:
@@ -87,56 +107,59 @@ def _numbers(
         if any(moves(mechanism, address, steps) for address in addresses):
             return None
         analysis = Analysis.of(solve_forces(nominal))
-        offered = (each if isinstance(each, Term) else term(each, analysis, asked) for each in given)
-        terms = [each for each in offered if each is not None and _fits(each, machine, analysis)]
-        return NumbersOfDesigns(machine, terms, analysis)
+        found = {name: number_named(name, analysis, asked) for name in given}
+        numbers = {name: each for name, each in found.items() if each is not None and _fits(each, machine)}
+        return NumbersOfDesigns(machine, numbers, analysis)
     except NotTogether:
         return None
 
 
-def _fits(each: Term, machine: Machine, analysis: Analysis) -> bool:
-    """Whether the cycle has the summaries of a term."""
-    running = any(one(text).kind in TRUE_SPEED for text in each.parts)
-    return not running or bool(machine.course.turns)
+def _fits(number: Number, machine: Machine) -> bool:
+    """Whether the cycle has the summaries of a number."""
+    return bool(machine.course.turns) or all(each.of_cycle for each in number.summaries)
 
 
-class NumbersOfDesigns:
-    """Terms of one mechanism's designs; made by :func:`numbers_of_designs`."""
+class NumbersOfDesigns(MetricsOfDesigns):
+    """Formulas of summaries; made by :func:`numbers_of_designs`."""
 
-    def __init__(self, machine: Machine, terms: Sequence[Term], analysis: Analysis) -> None:
-        self.machine, self.terms, self.analysis = machine, tuple(terms), analysis
-        texts = all_parts(terms)
-        self.running = {text: one(text) for text in texts if one(text).kind in TRUE_SPEED}
+    def __init__(self, machine: Machine, numbers: Mapping[str, Number], analysis: Analysis) -> None:
+        self.machine, self.numbers, self.analysis = machine, numbers, analysis
+        summaries = [each for number in numbers.values() for each in number.summaries]
+        self.running = {each.name: each for each in summaries if isinstance(each, TrueSpeedSummary)}
         limited = [output for output in analysis.outputs if analysis.whole and analysis.limits(output)]
-        never: dict[Output, None] = dict.fromkeys(output for each in terms for output in each.passed_over)
+        never = (output for number in numbers.values() for output in number.passed_over)
         even = (EFFORT, INERTIA) if self.running else ()
-        self.cycle = Cycle(machine, texts, limited, never, even)
+        self.cycle = Cycle(machine, (each for each in summaries if each.of_cycle), limited, never, even)
+        self.kinds = {name: number.dimension or self._kind(number) for name, number in numbers.items()}
         self._slopes: dict[tuple[tuple[str, float], ...], tuple[Program, list[str]]] = {}
+
+    def _kind(self, number: Number) -> str:
+        """Name of the dimension of a summary."""
+        (summary,) = number.summaries
+        if summary.kind in ("argmin", "argmax"):
+            return "angle"
+        return self.machine.traces.quantity(summary.output).dimension
 
     @property
     def dimensions(self) -> tuple[str, ...]:
-        """What the terms depend on."""
+        """What the numbers depend on."""
         taken = self.cycle.columns
         return tuple(address for address in self.machine.varied if address in taken)
 
-    def dimension_of(self, words: str) -> str:
-        """Name of the dimension of an output."""
-        return self.machine.traces.quantity(words).dimension
-
     @cached_property
     def _formulas(self) -> Program:
-        """All terms from the summaries, the designs side by side."""
+        """All numbers from the summaries, the designs side by side."""
         t = Trace()
-        parts: dict[str, Scalar] = {text: t.position(text) for text in self.cycle.parts}
-        return Program.of(t, {each.name: each.value(parts) for each in self.terms})
+        parts: dict[str, Scalar] = {name: t.position(name) for name in (*self.cycle.parts, *self.running)}
+        return Program.of(t, {name: number.value(parts) for name, number in self.numbers.items()})
 
     # values ---------------------------------------------------------------------------------------------
     def evaluate(
         self, columns: Mapping[str, Floats], *, threads: int | None = None, backend: Backend = "auto"
-    ) -> Found:
-        """The terms of the designs with the given columns, (designs,) each."""
+    ) -> tuple[dict[str, Floats], Flags]:
+        """Values (designs,) by name, and which designs are certain."""
         designs = len(next(iter(columns.values())))
-        values = {each.name: np.empty(designs) for each in self.terms}
+        values = {name: np.empty(designs) for name in self.numbers}
         certain = np.zeros(designs, dtype=np.bool_)
         cycle = self._compiled(designs, backend)
 
@@ -144,21 +167,22 @@ class NumbersOfDesigns:
             solved = Solved(cycle, {address: column[first:end] for address, column in columns.items()})
             parts, certain[first:end] = self._parts(solved)
             found = _of(self._formulas, parts)
-            for each in self.terms:
-                row = self._of_two_limits(each, found[each.name], solved)
-                values[each.name][first:end] = row
+            for name, number in self.numbers.items():
+                row = self._of_two_limits(number, found[name], solved)
+                values[name][first:end] = row
                 certain[first:end] &= np.isfinite(row)
 
         spread_over(designs, BLOCK, cores() if threads is None else threads, work)
-        return Found(values, certain)
+        return values, certain
 
-    def _of_two_limits(self, each: Term, values: Floats, solved: Solved) -> Floats:
+    def _of_two_limits(self, number: Number, values: Floats, solved: Solved) -> Floats:
         """A number (designs,); NaN for one of the way between both limits where these are not the only outermost
         ones."""
-        for number in each.numbers:
-            ways = [self.cycle.limited.get(part) for part in number.parts if one(part).kind.startswith("arg")]
-            if len(ways) == 2 and ways[0] is not None and ways[0] in solved.limits:
-                values = np.where(solved.limits[ways[0]].single(outermost=True), values, np.nan)
+        places = [each.name for each in number.summaries if each.kind in ("argmax", "argmin")]
+        ends = [self.cycle.limited[name] for name in places if name in self.cycle.limited]
+        for output in {each for each in ends if ends.count(each) > 1}:
+            if output in solved.limits:
+                values = np.where(solved.limits[output].single(outermost=True), values, np.nan)
         return values
 
     def _compiled(self, designs: int, backend: Backend) -> Cycle:
@@ -173,10 +197,9 @@ class NumbersOfDesigns:
         found = dict(solved.values)
         if self.running:
             steady = self._steady(solved)
-            for text, part in self.running.items():
-                kind, fluctuation = part.kind, required(part)
-                found[text] = np.where(solved.passed, steady.number(kind, fluctuation), np.nan)
-                certain &= steady.met(kind, fluctuation)
+            for name, part in self.running.items():
+                found[name] = np.where(solved.passed, steady.number(part.kind, part.required), np.nan)
+                certain &= steady.met(part.kind, part.required)
         return found, certain
 
     def _steady(self, solved: Solved) -> SteadyDesigns:
@@ -193,8 +216,7 @@ class NumbersOfDesigns:
         threads: int | None = 1,
         backend: Backend = "auto",
     ) -> tuple[Floats, Floats]:
-        """Weighted sums of terms (sums, designs) and their gradients (sums, designs, by), from one evaluation of the
-        cycle; NaN where it is not certain."""
+        """Weighted sums and their gradients."""
         designs = len(next(iter(columns.values())))
         values, slopes = np.empty((len(sums), designs)), np.empty((len(sums), designs, len(by)))
         cycle = self._compiled(designs, backend)
@@ -214,7 +236,7 @@ class NumbersOfDesigns:
     def _gradient(
         self, solved: Solved, parts: Mapping[str, Floats], weights: Mapping[str, float]
     ) -> tuple[Floats, dict[str, Floats]]:
-        """A weighted sum of terms, and its derivatives by the columns of the designs."""
+        """A weighted sum of numbers, and its derivatives by the columns of the designs."""
         program, taken = self._sum(tuple(weights.items()))
         found = _of(program, parts)
         bars = {text: np.nan_to_num(found[f"{_SUM}|{text}"]) for text in taken}
@@ -226,7 +248,7 @@ class NumbersOfDesigns:
             by_width = np.zeros(len(pieces.stretch))
             for text, bar in running.items():
                 part = self.running[text]
-                *own, width = steady.weights(part.kind, required(part), bar)
+                *own, width = steady.weights(part.kind, part.required, bar)
                 for words, each in zip((EFFORT, INERTIA), own, strict=True):
                     signals[Signal(words)] += each
                 by_width += width
@@ -234,7 +256,7 @@ class NumbersOfDesigns:
         return found[_SUM], Backward(solved).gradient(bars, more)
 
     def _sum(self, weights: tuple[tuple[str, float], ...]) -> tuple[Program, list[str]]:
-        """A weighted sum of terms with its derivatives by the summaries that it takes."""
+        """A weighted sum of numbers with its derivatives by the summaries that it takes."""
         if weights not in self._slopes:
             found = inlined(self._formulas.only([name for name, _ in weights]), t := Trace(), {})
             total: Scalar = 0.0
@@ -257,5 +279,5 @@ def refuse_unsteady(numbers: NumbersOfDesigns) -> None:
     """Raises RequestError where the machine itself has no true speed that is asked for."""
     machine = numbers.machine
     start = {name: np.array([machine.mechanism.dimension(name)]) for name in machine.varied}
-    if numbers.running and not numbers.evaluate(start).certain.all():
+    if numbers.running and not numbers.evaluate(start)[1].all():
         raise RequestError("study.objective_speed", name=machine.mechanism.name)

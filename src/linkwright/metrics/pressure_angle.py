@@ -11,6 +11,7 @@ from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number, Remark
 from linkwright.metrics.quantities import shown
+from linkwright.metrics.transmission_angle import smallest
 
 
 def _complement(angle: Scalar) -> Scalar:
@@ -32,7 +33,7 @@ class PressureAngle(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for group in dyads(analysis.motion.structure):
-            yield Number(group.name, (f"transmission_angle {group.name} min",), _complement)
+            yield Number(group.name, (smallest(group),), _complement)
 
     def remarks(self, value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
         if not value > self.limit:

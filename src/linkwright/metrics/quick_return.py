@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.core.outputs import Output
-from linkwright.cycle.summary import Extreme
+from linkwright.cycle.summary import Extreme, Summary
 from linkwright.formula.trace import Scalar, floor, maximum
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, Number
@@ -33,7 +33,7 @@ class QuickReturnRatio(Metric):
         cycle = float(analysis.input_rate[0]) * (analysis.motion.positions.period or 0.0)
         formula, begin = partial(_angle if self.angle else _ratio, abs(cycle)), partial(_begin, cycle)
         for output in _returning(analysis):
-            parts = tuple(f"{output.owner}.{output.kind} {kind}" for kind in ("argmax", "argmin"))
+            parts = tuple(Summary(output.name, kind) for kind in ("argmax", "argmin"))
             yield Number(str(output), parts, formula, at=begin)
 
 

@@ -9,6 +9,7 @@ from itertools import chain
 import numpy as np
 
 from linkwright.core.search import zeros
+from linkwright.cycle.summary import Summary
 from linkwright.drivers.base import Law
 from linkwright.formula.trace import Scalar, floor
 from linkwright.kinetostatics.closure import dyads
@@ -17,6 +18,7 @@ from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.limit_positions import outermost_limits
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
+from linkwright.metrics.transmission_angle import smallest
 
 #: Transmission angle, rad, below which a position counts as a dead point.
 DEAD = 1e-6
@@ -100,9 +102,9 @@ class DeadPoint(Metric):
             return
         within = partial(_within, float(analysis.motion.input[0]), speed * period)
         for output, kind, passed_over in outermost_limits(analysis):
-            part = f"{output.owner}.{output.kind} arg{kind}"
+            place = Summary(output.name, f"arg{kind}")
             yield Number(
-                f"{output} {kind}", (part,), within, analysis.input_dimension, passed_over=passed_over
+                f"{output} {kind}", (place,), within, analysis.input_dimension, passed_over=passed_over
             )
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
@@ -125,7 +127,7 @@ class DeadPoint(Metric):
         for time in (*(time for time, _ in analysis.resolver.edges), *analysis.resolver.changes.tolist()):
             yield analysis.resolver.input_at(time)
         for group in dyads(analysis.motion.structure):
-            low = analysis.part(f"transmission_angle {group.name} min")
+            low = analysis.part(smallest(group))
             if low.value < DEAD:
                 yield low.input
 

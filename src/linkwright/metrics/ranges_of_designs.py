@@ -29,8 +29,8 @@ from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.programs import force_programs
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.of_designs import Found
-from linkwright.metrics.terms import Term, chosen_subjects, metric_of
+from linkwright.metrics.of_designs import MetricsOfDesigns
+from linkwright.metrics.terms import chosen_subjects, metric_of
 
 #: Newton steps, and the last one's size, rad.
 STEPS, CONVERGED = 12, 1e-10
@@ -76,8 +76,8 @@ def ranges_of_designs(
     return RangesOfDesigns(mechanism, addresses, nominal, asked, analysis)
 
 
-class RangesOfDesigns:
-    """Ranges of one mechanism's designs; of several stretches the first. Made by :func:`ranges_of_designs`."""
+class RangesOfDesigns(MetricsOfDesigns):
+    """Ranges of motion; of several stretches the first. Made by :func:`ranges_of_designs`."""
 
     def __init__(
         self,
@@ -88,7 +88,7 @@ class RangesOfDesigns:
         analysis: Analysis,
     ) -> None:
         self.mechanism, self.varied, self.nominal = mechanism, varied, nominal
-        self.terms = tuple(Term(name, (), "angle") for name in names)
+        self.kinds = dict.fromkeys(names, "angle")
         self.course = Course.of(mechanism, nominal.positions)
         solver = MotionSolver(mechanism, Manner(frozenset(varied)), nominal.solver.assembly)
         self.traces = Traces(force_programs(solver.programs), frozenset(varied), self.course)
@@ -166,12 +166,12 @@ class RangesOfDesigns:
 
     def evaluate(
         self, columns: Mapping[str, Floats], *, threads: int | None = None, backend: Backend = "auto"
-    ) -> Found:
-        """The ranges of the designs with the given columns, rad (designs,)."""
+    ) -> tuple[dict[str, Floats], Flags]:
+        """The ranges, rad (designs,), by name, and which designs are certain."""
         times, found = self._ends(columns)
         certain = found & self._certain(columns, times)
         value = self._speed * np.abs(times[0, 1] - times[0, 0])
-        return Found({each.name: value for each in self.terms}, certain)
+        return dict.fromkeys(self.kinds, value), certain
 
     def gradients(
         self,

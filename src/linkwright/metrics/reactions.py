@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.cycle.summary import Summary
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
@@ -41,18 +42,18 @@ class PeakReaction(Metric):
     source = "kinetostatics: reactions by Assur group"
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
-    summary: ClassVar[str] = "max"
+    kind: ClassVar[str] = "max"
 
     def suits(self, analysis: Analysis) -> bool:
         return analysis.loaded
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for subject, joint, link in sides(analysis.motion.mechanism):
-            yield Number(subject, (f"reaction {joint} on {link} {self.summary}",))
+            yield Number(subject, (Summary(f"reaction {joint} on {link}", self.kind),))
 
 
 @METRICS.register("rms_reaction")
 class RmsReaction(PeakReaction):
     """Root mean square over time of the size of every joint's reaction, N."""
 
-    summary = "rms"
+    kind = "rms"

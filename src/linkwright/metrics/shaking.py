@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import ClassVar
 
+from linkwright.cycle.summary import Summary
 from linkwright.formula.trace import Scalar, sqrt
 from linkwright.kinematics.names import HARMONIC
 from linkwright.kinetostatics.load_site import turns_steadily
@@ -19,7 +20,7 @@ class Shaking(Metric):
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
     rank = 5
-    summary: ClassVar[str]
+    summary: ClassVar[Summary]
 
     def suits(self, analysis: Analysis) -> bool:
         links = analysis.motion.mechanism.links.values()
@@ -34,7 +35,7 @@ class PeakShakingForce(Shaking):
     """Largest resultant of the inertia forces on the frame, N."""
 
     dimension = "force"
-    summary = "shaking_force max"
+    summary = Summary("shaking_force", "max")
 
 
 @METRICS.register("peak_shaking_moment")
@@ -42,7 +43,7 @@ class PeakShakingMoment(Shaking):
     """Largest moment of the inertia forces about the frame's origin, N·m."""
 
     dimension = "torque"
-    summary = "shaking_moment peak"
+    summary = Summary("shaking_moment", "peak")
 
 
 class ShakingHarmonic(Shaking):
@@ -64,8 +65,8 @@ class ShakingForceHarmonic(ShakingHarmonic):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for order in self.orders:
-            waves = (f"{wave} shaking_force.{axis} {order} mean" for axis in "xy" for wave in HARMONIC)
-            yield Number(f"{order}×", tuple(waves), _longer_half_axis)
+            outputs = (f"{wave} shaking_force.{axis} {order}" for axis in "xy" for wave in HARMONIC)
+            yield Number(f"{order}×", tuple(Summary(each, "mean") for each in outputs), _longer_half_axis)
 
 
 @METRICS.register("shaking_moment_harmonic")
@@ -76,7 +77,7 @@ class ShakingMomentHarmonic(ShakingHarmonic):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for order in self.orders:
-            waves = (f"{wave} shaking_moment {order} mean" for wave in HARMONIC)
+            waves = (Summary(f"{wave} shaking_moment {order}", "mean") for wave in HARMONIC)
             yield Number(f"{order}×", tuple(waves), lambda a, b: 2.0 * sqrt(a * a + b * b))
 
 

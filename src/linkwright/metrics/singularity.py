@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import ClassVar
 
+from linkwright.cycle.summary import Summary
 from linkwright.elements.topology import Group
 from linkwright.kinetostatics.closure import closable
 from linkwright.metrics.analysis import Analysis
@@ -33,13 +34,14 @@ class Singularity(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for group in closable(analysis.motion.structure):
-            yield Number(group.name, (f"conditioning {group.name} min",))
+            yield Number(group.name, (Summary(f"conditioning {group.name}", "min"),))
 
     @staticmethod
     def throughout(analysis: Analysis) -> Iterator[tuple[Group, float, float]]:
         """The groups that are near a singular position all the time, with their best value and its limit."""
         for group in closable(analysis.motion.structure):
-            best, limit = analysis.part(f"conditioning {group.name} max").value, NEAR ** len(group.cuts)
+            best = analysis.part(Summary(f"conditioning {group.name}", "max")).value
+            limit = NEAR ** len(group.cuts)
             if best < limit:
                 yield group, best, limit
 

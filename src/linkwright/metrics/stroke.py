@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.core.outputs import Output
+from linkwright.cycle.summary import Summary
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.outputs import turns_fully
@@ -26,7 +27,7 @@ class Stroke(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for output in self._swinging(analysis):
-            yield Number(str(output), (f"{output.owner}.{output.kind} range",))
+            yield Number(str(output), (Summary(output.name, "range"),))
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         """Those of a machine that reaches several stretches are of each of them."""

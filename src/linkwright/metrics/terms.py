@@ -1,16 +1,18 @@
-"""Design numbers as formulas of summaries, ready for many designs."""
+"""Metrics by the names that users give them, as formulas of summaries and as values of one machine."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from functools import reduce
+from dataclasses import replace
+from functools import partial, reduce
+from itertools import islice
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.search import first_largest
-from linkwright.cycle.summary import Extreme
+from linkwright.cycle.summary import Extreme, Summary
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.formula.trace import Scalar, absolute, minimum, select
 from linkwright.kinematics.names import find_point
@@ -19,41 +21,35 @@ from linkwright.metrics import METRICS, Analysis
 from linkwright.metrics.base import Metric, MetricValue, Number
 from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.outputs import turns_fully
+from linkwright.metrics.wanted import is_summary, wanted
 from linkwright.registry import offered
 
 
-@dataclass(frozen=True)
-class Term:
-    """One number per design: of the ``numbers`` of a metric the governing one.
+def governing_number(numbers: Sequence[Number], better: str | None) -> Number:
+    """Of several numbers the worst where a direction is better, else the first, as one number without a subject."""
+    if better is None or len(numbers) == 1:
+        return numbers[0]
+    parts, (first, *_) = tuple(each for number in numbers for each in number.summaries), numbers
+    worst, at = partial(_worst, tuple(numbers), better), partial(_place_of_worst, tuple(numbers), better)
+    return Number("", parts, worst, first.dimension, at, first.passed_over)
 
-    ``passed_over``: outputs that reverse nowhere where the number is meant, see ``Number``.
-    """
 
-    name: str
-    numbers: tuple[Number, ...]
-    dimension: str
-    better: str | None = None
-    passed_over: tuple[Output, ...] = ()
+def _each(numbers: Iterable[Number], values: Iterable[Scalar]) -> list[Scalar]:
+    """The values of several numbers from those of all their summaries, one number's behind the other's."""
+    rest = iter(values)
+    return [number.formula(*islice(rest, len(number.summaries))) for number in numbers]
 
-    @property
-    def parts(self) -> tuple[str, ...]:
-        """The summaries that it is made of."""
-        return tuple(dict.fromkeys(part for number in self.numbers for part in number.parts))
 
-    def measured(self, analysis: Analysis) -> float:
-        """The number of one machine."""
-        parts = {part: np.float64(analysis.part(part).value) for part in self.parts}
-        with np.errstate(divide="ignore", invalid="ignore"):  # infinite as of many designs, not an error
-            found = self.value(parts)
-        assert isinstance(found, float)
-        return float(found)
+def _worst(numbers: Sequence[Number], better: str, *values: Scalar) -> Scalar:
+    return reduce(minimum if better == "higher" else _larger, _each(numbers, values))
 
-    def value(self, part: Mapping[str, Scalar]) -> Scalar:
-        """The number from its parts: the worst of its subjects where a direction is better, else the first."""
-        found = [number.formula(*(part[each] for each in number.parts)) for number in self.numbers]
-        if self.better == "higher":
-            return reduce(minimum, found)
-        return reduce(_larger, found) if self.better == "lower" else found[0]
+
+def _place_of_worst(numbers: Sequence[Number], better: str, *parts: Extreme) -> float:
+    rest = iter(parts)
+    own = [tuple(islice(rest, len(number.summaries))) for number in numbers]
+    values = np.array(_each(numbers, [np.float64(each.value) for each in parts]), dtype=float)
+    worst = first_largest(-values if better == "higher" else np.abs(values))
+    return numbers[worst].at(*own[worst])
 
 
 def _larger(a: Scalar, b: Scalar) -> Scalar:
@@ -83,7 +79,7 @@ class Asked:
     fluctuation: float
 
 
-def own(name: str, analysis: Analysis, asked: Asked) -> Term | None:
+def own(name: str, analysis: Analysis, asked: Asked) -> Number | None:
     """``travel``, ``output_velocity``, ``output_acceleration``, ``pivot_reaction``, or a number of ``SIZED``.
 
     None where the machine has none.
@@ -95,15 +91,15 @@ def own(name: str, analysis: Analysis, asked: Asked) -> Term | None:
         numbers += metric.numbers(analysis) if metric.applies(analysis) else ()
     elif name == "pivot_reaction":
         joint, link = pivot(analysis.motion.mechanism, output)
-        numbers.append(Number(joint, (f"{Output('reaction', joint, on=link).name} max",)))
+        numbers.append(Number(joint, (Summary(Output("reaction", joint, on=link).name, "max"),)))
     elif name != "travel":
         rate = output.course[1 if name == "output_velocity" else 2]
         dimension = rate.dimension
-        numbers.append(Number(str(output), (f"{rate.name} peak",)))
+        numbers.append(Number(str(output), (Summary(rate.name, "peak"),)))
     elif not turns_fully(analysis.motion, output):
         dimension = output.dimension
-        numbers.append(Number(str(output), (f"{output.name} range",), at=_nowhere))
-    return Term(name, tuple(numbers), dimension, OWN[name][1]) if numbers else None
+        numbers.append(Number(str(output), (Summary(output.name, "range"),), at=_nowhere))
+    return replace(governing_number(numbers, OWN[name][1]), dimension=dimension) if numbers else None
 
 
 #: Numbers of the shared output and of δ: their dimension and which direction is better.
@@ -136,9 +132,9 @@ def _nowhere(*parts: Extreme) -> float:
     return float("nan")
 
 
-def term(name: str, analysis: Analysis, asked: Asked | None = None) -> Term | None:
-    """A metric, ``peak_reaction`` or ``peak_reaction O5``, as a term; None where it does not fit the machine, or is
-    no formula of summaries.
+def number_named(name: str, analysis: Analysis, asked: Asked | None = None) -> Number | None:
+    """A metric, ``peak_reaction`` or ``peak_reaction O5``, or a summary, ``driver.effort rms``, as a formula of
+    summaries; None where it does not fit the machine, or is none.
 
     ``analysis``: of the machine from which designs start; ``asked``: for the numbers of the shared output, which is
     also the subject that counts where none is asked and the metric has it. None as well for an output of which other
@@ -146,6 +142,8 @@ def term(name: str, analysis: Analysis, asked: Asked | None = None) -> Term | No
     """
     if asked is not None and name in OWN:
         return own(name, analysis, asked)
+    if is_summary(name):
+        return Number("", wanted([name])[:1])
     found = metric_of(name)
     if found is None:
         return None
@@ -160,17 +158,18 @@ def term(name: str, analysis: Analysis, asked: Asked | None = None) -> Term | No
     if may_have(subject, analysis) and all(number.subject != subject for number in numbers):
         return None
     chosen = _chosen(name, metric, numbers, subject, preferred)
-    passed_over = chosen[0].passed_over if len(chosen) == len(numbers) and not subject else ()
-    return Term(name, chosen, chosen[0].dimension or metric.dimension, metric.better, passed_over)
+    number = governing_number(chosen, metric.better)
+    passed_over = number.passed_over if len(chosen) == len(numbers) and not subject else ()
+    return replace(number, dimension=number.dimension or metric.dimension, passed_over=passed_over)
 
 
 def measured(name: str, analysis: Analysis) -> tuple[float, str] | None:
     """Value and dimension of a metric of one machine: of the asked subject, or the governing one; None where it has
     no such number. Raises LinkwrightError for an output that has none here while others have; RequestError for a
     subject that no design can have."""
-    found = term(name, analysis)
+    found = number_named(name, analysis)
     if found is not None:
-        return found.measured(analysis), found.dimension
+        return found.measured(analysis)[0], found.dimension or ""
     kind, subject = metric_of(name) or (None, "")
     if kind is None or not kind().applies(analysis):
         return None
@@ -219,8 +218,3 @@ def chosen_subjects(name: str, subject: str, known: Iterable[str]) -> tuple[str,
     if subject and subject not in every:
         raise _no_subject(RequestError, name, subject, every)
     return (subject,) if subject else every
-
-
-def all_parts(terms: Iterable[Term]) -> tuple[str, ...]:
-    """The summaries that some terms are made of, each once."""
-    return tuple(dict.fromkeys(part for each in terms for part in each.parts))

@@ -8,7 +8,7 @@ from math import nan, radians
 from typing import ClassVar
 
 from linkwright.core.outputs import Output
-from linkwright.cycle.summary import STROKES, Extreme, Summary, output_of, signal_of
+from linkwright.cycle.summary import STROKES, Extreme, StrokeSummary, Summary
 from linkwright.elements.topology import Group
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis, finds
@@ -28,6 +28,11 @@ def low(value: float) -> tuple[Remark, ...]:
     return (Remark("transmission_angle.low", values, warning=True),)
 
 
+def smallest(group: Group) -> Summary:
+    """The smallest transmission angle of a dyad over the cycle."""
+    return Summary(f"transmission_angle {group.name}", "min")
+
+
 @METRICS.register("transmission_angle")
 class TransmissionAngle(Metric):
     """Smallest transmission angle of every dyad, 0 to π/2; defined in ``kinetostatics/closure.py``."""
@@ -43,7 +48,7 @@ class TransmissionAngle(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for group in dyads(analysis.motion.structure):
-            yield Number(group.name, (f"transmission_angle {group.name} min",))
+            yield Number(group.name, (smallest(group),))
 
     def remarks(self, value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
         return low(value)
@@ -59,9 +64,10 @@ class TransmissionAngleOfStroke(TransmissionAngle):
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for group, output in _driven_dyads(analysis):
             for first, last in pairwise([*analysis.limits(output)[:2], analysis.limits(output)[0]]):
-                signal = f"transmission_angle {group.name} on {output.owner}.{output.kind}"
-                subject = f"{group.name}: {output} {first.kind}→{last.kind}"
-                yield Number(subject, (f"{signal} {STROKES[first.kind]}",))
+                part = StrokeSummary(
+                    f"transmission_angle {group.name}", "min", output.name, STROKES[first.kind]
+                )
+                yield Number(f"{group.name}: {output} {first.kind}→{last.kind}", (part,))
 
 
 def _driven_dyads(analysis: Analysis) -> list[tuple[Group, Output]]:
@@ -75,8 +81,8 @@ def _driven_dyads(analysis: Analysis) -> list[tuple[Group, Output]]:
     ]
 
 
-@finds(*STROKES.values())
-def on_strokes(parts: Sequence[Summary], analysis: Analysis) -> list[Extreme]:
+@finds(StrokeSummary)
+def on_strokes(parts: Sequence[StrokeSummary], analysis: Analysis) -> list[Extreme]:
     """Such parts of one machine, each the smallest of all its strokes that way: of the stroke in which it lies the
     smallest of the cycle."""
     found: list[Extreme] = []
@@ -85,18 +91,18 @@ def on_strokes(parts: Sequence[Summary], analysis: Analysis) -> list[Extreme]:
     for part in parts:
         assert analysis.cycle is not None
         spans = _strokes(part, analysis, period)
-        lowest = analysis.cycle.extreme(analysis.signal(signal_of(part)), -1.0, of, spans)
+        lowest = analysis.cycle.extreme(analysis.signal(part.output), -1.0, of, spans)
         found.append(lowest or Extreme(nan, nan, nan, False))
     return found
 
 
-def _strokes(part: Summary, analysis: Analysis, period: float) -> list[tuple[float, float]]:
+def _strokes(part: StrokeSummary, analysis: Analysis, period: float) -> list[tuple[float, float]]:
     """The beginning and the end, s, of every stroke that way."""
-    output = analysis.output(output_of(part))
+    output = analysis.output(part.by)
     assert output is not None
     limits = analysis.limits(output)
     return [
         (first.time, last.time + (0.0 if last.time > first.time else period))
         for first, last in pairwise([*limits, limits[0]])
-        if STROKES[first.kind] == part.kind
+        if STROKES[first.kind] == part.way
     ]

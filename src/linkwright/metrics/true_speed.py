@@ -1,15 +1,12 @@
-"""Parts of design numbers that the true speed over the cycle gives, for one machine.
-
-``running fastest``, ``running slowest`` (rad/s), ``running fluctuation``: with the inertia that the machine has;
-``running 0.02 fluctuation``: with the flywheel that the formula gives for δ = 0.02; ``running 0.02 size``: the
-flywheel with which the true speed fluctuates by just that.
-"""
+"""Summaries of the true speed over the cycle, and their values for one machine."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import ClassVar
 
-from linkwright.cycle.summary import TRUE_SPEED, Extreme, Summary
+from linkwright.core.dataclass import dataclass
+from linkwright.cycle.summary import Extreme, Summary
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.equivalent import Equivalent, equivalent
 from linkwright.machine.flywheel import flywheel_inertia
@@ -20,22 +17,31 @@ from linkwright.metrics.analysis import Analysis, finds
 EFFORT, INERTIA = "input_torque", "equivalent_inertia"
 
 
-def required(part: Summary) -> float | None:
-    """The coefficient of speed fluctuation for which a flywheel is there; None without one."""
-    _, _, number = part.output.partition(" ")
-    return float(number) if number else None
+@dataclass(frozen=True)
+class TrueSpeedSummary(Summary):
+    """``fastest``, ``slowest`` (rad/s) or ``fluctuation`` of the true speed with the inertia that the machine has;
+    with a coefficient ``required`` also with the flywheel that the formula gives for it, or the ``size`` of the
+    flywheel with which the true speed fluctuates by just that."""
+
+    of_cycle: ClassVar[bool] = False
+    required: float | None = None
+
+    @property
+    def name(self) -> str:
+        """Its name among others: ``true speed fluctuation with 0.02``."""
+        return super().name if self.required is None else f"{super().name} with {self.required!r}"
 
 
-@finds(*TRUE_SPEED)
-def of_machine(parts: Sequence[Summary], analysis: Analysis) -> list[Extreme]:
+@finds(TrueSpeedSummary)
+def of_machine(parts: Sequence[TrueSpeedSummary], analysis: Analysis) -> list[Extreme]:
     """Such parts of one machine; raises LinkwrightError where it would stop, or does not run steadily."""
     return [_of_machine(part, analysis) for part in parts]
 
 
-def _of_machine(part: Summary, analysis: Analysis) -> Extreme:
+def _of_machine(part: TrueSpeedSummary, analysis: Analysis) -> Extreme:
     assert analysis.forces is not None
     reduced, cycle = steady_cycle(analysis.forces)
-    size, fluctuation, nan = 0.0, required(part), float("nan")
+    size, fluctuation, nan = 0.0, part.required, float("nan")
     if fluctuation is not None:
         energy, own = reduced.energy.value, reduced.mean_inertia
         size = flywheel_inertia(energy, reduced.speed, fluctuation, present=own)

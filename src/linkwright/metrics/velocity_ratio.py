@@ -9,7 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from linkwright.cycle.summary import Extreme
+from linkwright.cycle.summary import Extreme, Summary
 from linkwright.formula.trace import Scalar, absolute, select
 from linkwright.kinetostatics.named_outputs import RATIO
 from linkwright.metrics.analysis import Analysis
@@ -54,7 +54,7 @@ class VelocityRatio(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for output in analysis.outputs:
-            parts = tuple(f"velocity_ratio {output.owner} {kind}" for kind in ("max", "min"))
+            parts = tuple(Summary(f"velocity_ratio {output.owner}", kind) for kind in ("max", "min"))
             kinds = output.dimension, analysis.input_dimension
             sizes = [analysis.motion.mechanism.size if kind == "length" else 1.0 for kind in kinds]
             least = _STANDING * sizes[0] / sizes[1]

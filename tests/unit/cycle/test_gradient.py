@@ -9,6 +9,7 @@ from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine
 from linkwright.cycle.solved import Solved
+from linkwright.cycle.summary import Summary
 
 PARTS = ["driver.effort mean", "driver.effort rms", "driver.effort peak", "power max", "driver.effort excess"]
 #: Machines with parts, what varies (the speed, the ends of phases, cams and lengths), outputs with limits.
@@ -33,7 +34,7 @@ def test_gradients_are_differences_of_fourth_order(name: str) -> None:
     assert len(swung)
     limited = [each for each in _outputs(mechanism) if str(each) == output.partition(".")[0]]
     parts = [*PARTS, f"{output} range", f"{output} argmax"]
-    cycle = Cycle(Machine(mechanism, motion, varied), parts, limited)
+    cycle = Cycle(Machine(mechanism, motion, varied), map(Summary.of, parts), limited)
     nominal = {each: mechanism.dimension(each) for each in varied}
     solved = Solved(cycle, {each: np.array([value]) for each, value in nominal.items()})
     steps = {each: 2e-4 * abs(value) for each, value in nominal.items()}

@@ -19,6 +19,7 @@ from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine
 from linkwright.cycle.solved import Solved
+from linkwright.cycle.summary import Summary
 from linkwright.events.following import ITERATIONS, Paths
 from linkwright.events.formula import ROW
 from linkwright.events.tracked_states import TrackedStates
@@ -121,7 +122,7 @@ def test_the_cycle_of_designs_is_that_of_each_alone(name: str) -> None:
     machine = MACHINES[name]()
     names = varied(machine)
     designs, parts = near(machine, names, 3), ["driver.effort peak", "driver.effort rms", "driver.effort max"]
-    cycle = Cycle(Machine(machine, lw.solve_motion(machine), names), parts)
+    cycle = Cycle(Machine(machine, lw.solve_motion(machine), names), map(Summary.of, parts))
     solved = Solved(cycle, designs)
     assert solved.passed.all()
     for index in range(3):
@@ -145,7 +146,7 @@ def test_one_machine_is_solved_without_machine_code_as_with_it() -> None:
     motion = lw.solve_motion(machine)
     plain, compiled = Machine(machine, motion), Machine(machine, motion)
     compiled.compiled = True
-    one, other = (Solved(Cycle(each, parts), {}).values for each in (plain, compiled))
+    one, other = (Solved(Cycle(each, map(Summary.of, parts)), {}).values for each in (plain, compiled))
     for part in parts:
         assert one[part] == pytest.approx(other[part], rel=1e-12)
 

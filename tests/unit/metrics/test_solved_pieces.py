@@ -8,6 +8,7 @@ from tests.store import machine as stored
 
 import linkwright as lw
 from linkwright.curves.curve import Curve
+from linkwright.cycle.summary import Summary
 from linkwright.metrics import Analysis
 
 
@@ -31,7 +32,9 @@ def test_a_cycle_is_cut_where_it_bends_and_nothing_is_halved(text: str, most: in
     """Where friction or a lift bends the torque, few pieces meet everything."""
     machine = lw.loads(text.partition("  press:")[0])
     analysis = Analysis.of(lw.solve_forces(machine))
-    assert np.isfinite([analysis.part(part).value for part in ("driver.effort rms", "power mean")]).all()
+    assert np.isfinite(
+        [analysis.part(Summary.of(part)).value for part in ("driver.effort rms", "power mean")]
+    ).all()
     assert analysis.cycle is not None
     edges, _ = analysis.cycle.curve(lambda forces: forces.input_torque, "forces")
     assert len(edges) < most

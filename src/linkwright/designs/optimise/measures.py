@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pickle
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -12,11 +12,10 @@ import numpy as np
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse
-from linkwright.cycle.summary import one
 from linkwright.designs.alternatives import Alternative
 from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import criterion
-from linkwright.designs.design_numbers import Numbers, side_by_side
+from linkwright.designs.design_numbers import side_by_side
 from linkwright.designs.finished_parts import identity, surrounding
 from linkwright.designs.optimise.paths import PathErrors
 from linkwright.designs.optimise.problem import Problem
@@ -24,14 +23,12 @@ from linkwright.designs.varied_dimensions import refuse_moved_positions
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.formula.machine_code import available
 from linkwright.formula.summaries import Backend
-from linkwright.formula.trace import Scalar
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.base import Number
 from linkwright.metrics.evaluate import unloaded
-from linkwright.metrics.of_designs import NumbersOfDesigns
+from linkwright.metrics.of_designs import MetricsOfDesigns
 from linkwright.metrics.outputs import mechanism_outputs, usual_output
-from linkwright.metrics.terms import OWN, Asked, Term, metric_of
+from linkwright.metrics.terms import OWN, Asked, metric_of
 from linkwright.metrics.wanted import is_summary, wanted
 from linkwright.units import powers
 
@@ -117,34 +114,28 @@ class Measures:
         return False
 
     # many designs ------------------------------------------------------------------------------------
-    def _cycles(self) -> list[Numbers]:
+    def _cycles(self) -> list[MetricsOfDesigns]:
         """What finds all numbers of all designs at once; none where some are found one by one."""
         found = self._side_by_side(self.numbers) if self.numbers else []
-        return found if {term.name for each in found for term in each.terms} == set(self.numbers) else []
+        return found if {name for each in found for name in each.kinds} == set(self.numbers) else []
 
-    def _whole_cycle(self) -> list[Numbers]:
+    def _whole_cycle(self) -> list[MetricsOfDesigns]:
         """What tells which designs pass the whole cycle where no number of the problem does."""
         moves = mechanism_outputs(self.mechanism)
         return self._side_by_side([f"{self._asked.output.name} max"]) if moves else []
 
-    def _side_by_side(self, numbers: Iterable[str]) -> list[Numbers]:
-        terms, problem = [self._term(name) for name in numbers], self.problem
-        return side_by_side(self.mechanism, problem.addresses, terms, self._asked, steps=problem.steps)
+    def _side_by_side(self, numbers: Sequence[str]) -> list[MetricsOfDesigns]:
+        problem = self.problem
+        return side_by_side(self.mechanism, problem.addresses, numbers, self._asked, steps=problem.steps)
 
     def _where_they_pass(self, values: dict[str, Floats], columns: Mapping[str, Floats]) -> dict[str, Floats]:
         """Values of every text, NaN where a design does not pass the whole cycle."""
         for each in self.passing:
             with np.errstate(all="ignore"):
-                seen = each.evaluate(columns, backend=self.backend)
-            passes = seen.certain & np.isfinite([*seen.values.values()]).all(axis=0)
+                seen, certain = each.evaluate(columns, backend=self.backend)
+            passes = certain & np.isfinite([*seen.values()]).all(axis=0)
             values = {text: np.where(passes, value, np.nan) for text, value in values.items()}
         return values
-
-    def _term(self, name: str) -> str | Term:
-        if is_metric(name) or not is_summary(name):
-            return name
-        (summary,) = wanted([name])[:1]
-        return Term(name, (Number("", (summary.name,), _itself),), "")
 
     def dimension(self, text: str) -> units.Dimension:
         """The dimension of a quantity."""
@@ -159,12 +150,9 @@ class Measures:
             return units.DIMENSIONS["area"]
         if name in self._dimensions:
             return dimension_of(self.mechanism, name) or units.NONE
-        for cycle, term in ((each, term) for each in self.cycles for term in each.terms if term.name == name):
-            if term.dimension or not isinstance(cycle, NumbersOfDesigns):
-                return powers(term.dimension)
-            summary = one(term.parts[0])
-            angle = summary.kind in ("argmin", "argmax")
-            return powers("angle" if angle else cycle.dimension_of(summary.output))
+        for cycle in self.cycles:
+            if name in cycle.kinds:
+                return powers(cycle.kinds[name])
         found = criterion(name).measure(self._alternative(self.mechanism))
         if found is None and not is_summary(name):
             metric = metric_of(name)
@@ -185,7 +173,7 @@ class Measures:
         if self.cycles:
             with np.errstate(all="ignore"):
                 seen = [cycle.evaluate(columns, backend=self.backend) for cycle in self.cycles]
-            return {name: np.where(s.certain, v, np.nan) for s in seen for name, v in s.values.items()}
+            return {name: np.where(sure, v, np.nan) for own, sure in seen for name, v in own.items()}
         designs = [*zip(*(column.tolist() for column in columns.values()), strict=True)]
         kept = surrounding()
         there = {each: kept and kept.part(identity(*each)) for each in designs if each not in self.judged}
@@ -264,7 +252,7 @@ class Measures:
         for name in self.paths.parts:
             found[name], slopes[name] = self.paths.with_slopes(name, columns, by)
         for cycle in self.cycles:
-            names = [each.name for each in cycle.terms]
+            names = [*cycle.kinds]
             numbers, gradients = self._numbers_with_slopes(cycle, names, columns, by)
             found |= zip(names, numbers, strict=True)
             slopes |= zip(names, gradients, strict=True)
@@ -292,7 +280,7 @@ class Measures:
 
     def _numbers_with_slopes(
         self,
-        cycle: Numbers,
+        cycle: MetricsOfDesigns,
         names: list[str],
         columns: Mapping[str, Floats],
         by: tuple[str, ...],
@@ -335,7 +323,3 @@ def _number(name: str, each: Alternative) -> float:
 def is_metric(name: str) -> bool:
     """Whether a name means a design number, not a summary of the output of the same name."""
     return name in OWN or (metric_of(name) is not None and not is_summary(name))
-
-
-def _itself(value: Scalar) -> Scalar:
-    return value

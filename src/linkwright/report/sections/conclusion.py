@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 
 from linkwright.core.outputs import Output
+from linkwright.cycle.summary import Summary
 from linkwright.designs.evaluation import told
 from linkwright.errors import LinkwrightError
 from linkwright.metrics.analysis import Analysis
@@ -96,7 +97,7 @@ class _Conclusion:
             rates = (output.rate, output.rate.rate)
             names, dimensions = [each.name for each in rates], [each.dimension for each in rates]
             turning = output.kind == "angle"
-        first, second = (analysis.part(f"{name} peak") for name in names)
+        first, second = (analysis.part(Summary(name, "peak")) for name in names)
         if not (math.isfinite(first.value) and math.isfinite(second.value)):
             return
         places = [typeset(shown(each.input, analysis.input_dimension)) for each in (first, second)]
@@ -149,7 +150,7 @@ class _Conclusion:
 
     def _effort(self, peak: MetricValue) -> Iterator[str]:
         """Peak, mean and root mean square of what a driver supplies."""
-        mean = Analysis.of(self.case.forces).part(f"{peak.subject}.effort mean").value
+        mean = Analysis.of(self.case.forces).part(Summary(f"{peak.subject}.effort", "mean")).value
         roots = [row for row in self._rows("rms_input_torque") if row.subject == peak.subject]
         if not roots:
             return

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from linkwright.cycle.summary import Summary
 from linkwright.metrics.analysis import Analysis
 from linkwright.report.document import Block, Formula, Paragraph, Table
 from linkwright.report.machine_results import Case, Missing
@@ -44,7 +45,7 @@ def blocks(case: Case) -> Iterator[Block]:
         known = forces.input_torque - forces.input_torque_from_power
         largest = float(np.nanmax(np.abs(known)))
         (driver,) = case.mechanism.drivers
-        top = Analysis.of(forces).part(f"{driver}.effort peak").value
+        top = Analysis.of(forces).part(Summary(f"{driver}.effort", "peak")).value
         yield Paragraph(
             say("report.torque_gap", gap=f"{_number(largest, 2)} {unit}", top=f"{_number(top, 6)} {unit}",
                 table="[[torque-both]]")
