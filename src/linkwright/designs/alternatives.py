@@ -15,6 +15,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.outputs import Output
+from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.model_file import load
 from linkwright.kinematics.motion import Motion
@@ -25,13 +26,15 @@ from linkwright.machine import flywheel_inertia
 from linkwright.machine.running import require_steady
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
+from linkwright.metrics.of_output import Asked, pivot
 from linkwright.metrics.outputs import mechanism_outputs
-from linkwright.metrics.terms import Asked, pivot
 from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
 
 #: A mean torque of this share of the largest one is zero but for rounding.
 IDLE = 1e-9
+#: Of the torque of its driver what a written evaluation tells.
+EFFORTS = tuple(Summary("input_torque", kind) for kind in ("max", "min", "rms"))
 
 
 @dataclass(eq=False)
@@ -88,6 +91,17 @@ class Alternative:
     def pivot(self) -> tuple[str, str]:
         """Joint and link where the output is carried by the frame."""
         return pivot(self.mechanism, self.output)
+
+    @property
+    def reactions(self) -> tuple[Summary, Summary]:
+        """The largest and the smallest reaction there."""
+        joint, link = self.pivot
+        return Summary(f"reaction {joint} on {link}", "max"), Summary(f"reaction {joint} on {link}", "min")
+
+    @property
+    def told(self) -> tuple[Summary, ...]:
+        """Of its forces what a written evaluation tells."""
+        return (*self.reactions, *EFFORTS) if self.loaded else ()
 
     @property
     def pivot_force(self) -> Floats:

@@ -13,12 +13,13 @@ from linkwright.core.given import real, require
 from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
 from linkwright.designs.alternatives import Alternative, alternatives
-from linkwright.designs.criteria import USUAL, Criterion, Measured, criteria, numbers_of
+from linkwright.designs.criteria import USUAL, Criterion, ask, criteria
 from linkwright.designs.overlay import Overlay, overlays
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.kinematics.outcome import PositionError
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.base import MetricValue
 from linkwright.registry import offered
 from linkwright.units import si_unit
 from linkwright.words.sentence import Sentence
@@ -36,7 +37,7 @@ class Row:
     """One criterion with the value of every alternative; None where it does not apply."""
 
     criterion: Criterion
-    values: tuple[Measured | None, ...]
+    values: tuple[MetricValue | None, ...]
     weight: float
 
     @property
@@ -251,8 +252,8 @@ def compare(
         asked = [each for each in asked if not each.forces or any(a.loaded for a in found)]
     given = _weights(weights or {}, asked)
     for alternative in found:
-        wanted = (number for each in asked for number in numbers_of(alternative, each.name))
-        alternative.analysis.ask(each for number in wanted for each in number.summaries)
+        alternative.analysis.ask(alternative.told)
+        ask(asked, alternative)
     rows = []
     progress = current_progress()
     for done, each in enumerate(asked):
@@ -270,7 +271,7 @@ def compare(
     return Comparison(tuple(found), tuple(rows), fluctuation)
 
 
-def _measured(asked: Criterion, alternative: Alternative) -> Measured | None:
+def _measured(asked: Criterion, alternative: Alternative) -> MetricValue | None:
     """The value of an alternative; None, with the reason among its notes, where it has none."""
     try:
         return asked.measure(alternative)

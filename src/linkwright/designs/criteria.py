@@ -1,19 +1,18 @@
-"""What alternatives and designs are measured by: registered design numbers, and summaries of any output."""
+"""What alternatives and designs are measured by: metrics, and summaries of any output."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-
-import numpy as np
+from collections.abc import Iterable
+from contextlib import suppress
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_or_more
 from linkwright.designs.alternatives import Alternative
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
-from linkwright.metrics.base import Number
 from linkwright.metrics.flywheel import SIZED
-from linkwright.metrics.terms import OWN, governing, may_have, metric_of, number_named, own
+from linkwright.metrics.of_output import OWN
+from linkwright.metrics.terms import measured, metric_named, metric_of, number_named
 from linkwright.metrics.wanted import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.words import say
@@ -21,34 +20,53 @@ from linkwright.words.sentence import Sentence, in_words
 
 
 @dataclass(frozen=True)
-class Measured:
-    """A value, SI, with its dimension; ``at``: the input there (rad or m), where it belongs to one."""
-
-    value: float
-    dimension: str
-    at: float | None = None
-
-
-@dataclass(frozen=True)
 class Criterion:
-    """A number to compare by: ``better`` is ``higher``, ``lower`` or None where neither is."""
+    """A number to compare by: ``peak_reaction``, ``peak_reaction O5``, ``flywheel``, ``driver.effort rms``."""
 
     name: str
-    better: str | None
-    measure: Callable[[Alternative], Measured | None]
-    forces: bool = False
 
-    def __reduce__(self) -> tuple[Callable[[str], Criterion], tuple[str]]:
-        return criterion, (self.name,)
+    @property
+    def metric(self) -> type[Metric] | None:
+        """The metric; None for a summary of an output."""
+        found = None if is_summary(self.name) else metric_of(self.name)
+        return OWN[self.name] if self.name in OWN else None if found is None else found[0]
+
+    @property
+    def better(self) -> str | None:
+        """``higher`` or ``lower``; None where neither is better."""
+        return _better(self.name) if self.metric is None else self.metric.better
+
+    @property
+    def forces(self) -> bool:
+        """Whether joint forces must be solved."""
+        return self.metric is None or self.metric.needs_forces
 
     def label(self, language: str = "en", dimension: str = "") -> str:
         """Its name in words; a driver that slides has a force, by its ``dimension``."""
         if self.name in OWN:
             return say(f"compare.{self.name}.label", language)
-        if (found := metric_of(self.name)) is None:
+        if self.metric is None:
             return self.name
-        title = found[0]().label_in(language, dimension)
-        return f"{title}, {in_words(found[1], language)}" if found[1] else title
+        title, subject = self.metric().label_in(language, dimension), self.name.partition(" ")[2]
+        return f"{title}, {in_words(subject, language)}" if subject else title
+
+    def measure(self, each: Alternative) -> MetricValue | None:
+        """The value of an alternative: of a subject, of the shared output, else the governing one. None where it does
+        not apply."""
+        if (found := metric_named(self.name, each.asked)) is None or self.metric is None:
+            return _summary(each, self.name)
+        if self.name in SIZED and not each.takes_flywheel:
+            return None
+        if not found[0].applies(each.analysis):
+            if (why := found[0].obstacle(each.analysis)) is not None:
+                each.notes.append(Sentence("cli.about", name=each.label, cause=why))
+            return None
+        try:
+            return measured(self.name, each.analysis, each.asked)
+        except LinkwrightError as error:
+            if error.code != "metrics.no_value":
+                raise
+            raise type(error)("study.no_value_for", label=each.label, **error.values) from None
 
 
 def criteria(names: Iterable[str] | str) -> list[Criterion]:
@@ -59,18 +77,23 @@ def criteria(names: Iterable[str] | str) -> list[Criterion]:
     return [criterion(str(name)) for name in dict.fromkeys(asked)]
 
 
+def ask(asked: Iterable[Criterion], each: Alternative) -> None:
+    """Says which summaries of an alternative some criteria will want, so that these are found together."""
+    with suppress(LinkwrightError):  # as far as nothing is in the way, which measuring tells
+        metrics = {one.name: one.metric for one in asked if one.metric is not None}
+        for name in sorted(metrics, key=lambda name: metrics[name].judged_last):
+            found = metric_named(name, each.asked)
+            if found is not None and found[0].applies(each.analysis):
+                number = number_named(name, each.analysis, each.asked)
+                each.analysis.ask(number.summaries if number else ())
+
+
 def criterion(name: str) -> Criterion:
-    """``peak_reaction``, ``peak_reaction O5``, ``flywheel``, or a summary such as ``driver.effort rms``."""
-    if name in OWN:
-        forces = name == "pivot_reaction" or name in SIZED
-        return Criterion(name, OWN[name][1], lambda each: _own(each, name), forces)
-    if is_summary(name):
-        return Criterion(name, _better(name), lambda each: _summary(each, name), True)
-    if (known := metric_of(name)) is not None:
-        kind, subject = known
-        return Criterion(name, kind.better, lambda each: _metric(each, kind(), subject), kind.needs_forces)
-    hint = offered(name, [*OWN, *METRICS])
-    raise RequestError("study.no_metric", name=name, hint=hint)
+    """The criterion of a name; raises RequestError for an unknown one."""
+    found = Criterion(name)
+    if found.metric is None and not is_summary(name):
+        raise RequestError("study.no_metric", name=name, hint=offered(name, [*OWN, *METRICS]))
+    return found
 
 
 def _better(name: str) -> str | None:
@@ -83,62 +106,7 @@ def _better(name: str) -> str | None:
     return "lower" if heavy and kind in ("max", "rms", "peak", "range") else None
 
 
-def _metric(each: Alternative, metric: Metric, subject: str) -> Measured | None:
-    """The value of a subject; of the shared output; else the governing one. None where it does not apply."""
-    if not metric.applies(each.analysis):
-        if (why := metric.obstacle(each.analysis)) is not None:
-            each.notes.append(Sentence("cli.about", name=each.label, cause=why))
-        return None
-    meant = (
-        number_named(metric.name, each.analysis, each.asked) if metric.own_values and not subject else None
-    )
-    if meant is not None:
-        value, at, _ = meant.measured(each.analysis)
-        return Measured(value, meant.dimension or "", at)
-    values = metric.evaluate(each.analysis)
-    found = [v for v in values if v.subject == subject] if subject else _of_output(each, metric, values)
-    if not found:
-        if subject and values:
-            hint = offered(subject, [v.subject for v in values])
-            error = LinkwrightError if may_have(subject, each.analysis) else RequestError
-            raise error("study.no_value_for", name=metric.name, label=each.label, subject=subject, hint=hint)
-        return None
-    worst = governing(found, metric.better)
-    return Measured(worst.value, worst.dimension, worst.at)
-
-
-def numbers_of(each: Alternative, name: str) -> Iterable[Number]:
-    """The formulas of summaries behind a criterion, of all subjects."""
-    if name in OWN:
-        found = own(name, each.analysis, each.asked)
-        return (found,) if found else ()
-    metric, _ = metric_of(name) or (None, "")
-    kind = metric() if metric is not None else None
-    return kind.numbers(each.analysis) if kind is not None and kind.applies(each.analysis) else ()
-
-
-def _own(each: Alternative, name: str) -> Measured | None:
-    """A number of the shared output."""
-    if name in SIZED and not each.takes_flywheel:
-        return None
-    found = own(name, each.analysis, each.asked)
-    if found is None:
-        return None
-    value, at, _ = found.measured(each.analysis)
-    return Measured(value, found.dimension or "", None if np.isnan(at) else at)
-
-
-def _of_output(each: Alternative, metric: Metric, values: Iterable[MetricValue]) -> list[MetricValue]:
-    """Values of the shared output, where the number is one of outputs; else all.
-
-    Forces are of joints and drivers, of which one may bear the output's name.
-    """
-    everything = list(values)
-    mine = [] if metric.needs_forces else [v for v in everything if v.subject == str(each.output)]
-    return mine or everything
-
-
-def _summary(each: Alternative, name: str) -> Measured:
+def _summary(each: Alternative, name: str) -> MetricValue:
     """A summary of an output, from the program of sweeps."""
     from linkwright.designs.designs import sweep
 
@@ -149,7 +117,7 @@ def _summary(each: Alternative, name: str) -> Measured:
     if found.unloaded:
         raise LinkwrightError(found.unloaded[0])
     each.notes += [Sentence("cli.about", name=each.label, cause=note) for note in found.notes]
-    return Measured(float(found.summaries[summary][0]), found.dimension(summary))
+    return MetricValue(name, "", float(found.summaries[summary][0]), found.dimension(summary))
 
 
 #: What is compared when nobody says what.

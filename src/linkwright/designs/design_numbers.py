@@ -18,8 +18,9 @@ from linkwright.metrics import Analysis
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.hulls_of_designs import hulls_of_designs
 from linkwright.metrics.of_designs import MetricsOfDesigns, numbers_of_designs
+from linkwright.metrics.of_output import Asked
 from linkwright.metrics.ranges_of_designs import ranges_of_designs
-from linkwright.metrics.terms import Asked, measured
+from linkwright.metrics.terms import measured
 
 #: Designs up to which what finds their numbers together may choose to do so without a compiler.
 FEW = 512
@@ -115,7 +116,7 @@ def _alone(
                 solve_forces(solve_motion(design, failures="mark") if partial else design)
             )
             if (own := measured(name, analysis)) is not None:
-                found[name] = own
+                found[name] = own.value, own.dimension
         except RequestError:
             raise
         except LinkwrightError as error:

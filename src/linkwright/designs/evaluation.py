@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.html import html_table
-from linkwright.cycle.summary import Summary
-from linkwright.designs.alternatives import Alternative
+from linkwright.designs.alternatives import EFFORTS, Alternative
 from linkwright.designs.compare import Comparison, Rank, Row
 from linkwright.designs.criteria import criterion
 from linkwright.errors import speaker
@@ -142,9 +141,7 @@ def _measured(each: Alternative, name: str) -> str:
 
 def _pivot(each: Alternative, say: Say) -> str:
     joint, link = each.pivot
-    most, least = (
-        each.analysis.part(Summary(f"reaction {joint} on {link}", kind)) for kind in ("max", "min")
-    )
+    most, least = map(each.analysis.part, each.reactions)
     force = each.forces_at(most.time).reaction(joint, on=link)[0]
     if not np.isfinite(force).all():  # on a change point: as it is beside
         beside = most.time - BESIDE * (each.motion.positions.period or 0.0)
@@ -161,9 +158,7 @@ def _pivot(each: Alternative, say: Say) -> str:
 
 
 def _torque(each: Alternative, say: Say) -> str:
-    high, low, root = (
-        each.analysis.part(Summary("input_torque", kind)).value for kind in ("max", "min", "rms")
-    )
+    high, low, root = (each.analysis.part(effort).value for effort in EFFORTS)
     dimension = "torque" if each.analysis.input_dimension == "angle" else "force"
     speed = np.abs(next(iter(each.motion.positions.coordinates.values()))[1]).max()
     gap = float(np.abs(each.forces.power_residual).max() / speed) if speed > 0.0 else 0.0

@@ -19,7 +19,7 @@ from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.designs.alternatives import Alternative, output_of_machine
 from linkwright.designs.cluster import current, in_turn
-from linkwright.designs.criteria import Criterion, criteria
+from linkwright.designs.criteria import Criterion, ask, criteria
 from linkwright.designs.design_numbers import side_by_side
 from linkwright.designs.designs import sweep
 from linkwright.designs.failures import Failure
@@ -34,8 +34,8 @@ from linkwright.formula.threads import chunks
 from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.evaluate import unloaded
+from linkwright.metrics.of_output import Asked
 from linkwright.metrics.outputs import usual_output
-from linkwright.metrics.terms import Asked
 from linkwright.metrics.wanted import is_summary
 from linkwright.registry import offered
 from linkwright.units import si_unit
@@ -397,6 +397,7 @@ class _Work:
             "",
         )
         each = Alternative(design.name, design, self.output, self.steps, self.fluctuation)
+        ask(asked, each)
         for criterion in asked:
             try:
                 found = criterion.measure(each)

@@ -30,7 +30,8 @@ from linkwright.machine.steady_designs import SteadyDesigns
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import Number
-from linkwright.metrics.terms import Asked, number_named
+from linkwright.metrics.of_output import Asked
+from linkwright.metrics.terms import number_named
 from linkwright.metrics.true_speed import EFFORT, INERTIA, TrueSpeedSummary
 
 #: Designs of one block: what is found of them stays in a core's cache.

@@ -14,7 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse
 from linkwright.designs.alternatives import Alternative
 from linkwright.designs.cluster import current, in_turn
-from linkwright.designs.criteria import criterion
+from linkwright.designs.criteria import Criterion, ask, criterion
 from linkwright.designs.design_numbers import side_by_side
 from linkwright.designs.finished_parts import identity, surrounding
 from linkwright.designs.optimise.paths import PathErrors
@@ -27,9 +27,8 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.of_designs import MetricsOfDesigns
+from linkwright.metrics.of_output import Asked
 from linkwright.metrics.outputs import mechanism_outputs, usual_output
-from linkwright.metrics.terms import OWN, Asked, metric_of
-from linkwright.metrics.wanted import is_summary, wanted
 from linkwright.units import powers
 
 #: Designs that a worker of a cluster takes at a time where they go one by one.
@@ -93,10 +92,7 @@ class Measures:
         return found, names
 
     def _is_number(self, name: str) -> bool:
-        if is_metric(name) or name in self._dimensions or name in self.problem.paths:
-            return True
-        if is_summary(name):
-            wanted([name])
+        if name in self._dimensions or name in self.problem.paths:
             return True
         try:
             criterion(name)
@@ -153,11 +149,11 @@ class Measures:
         for cycle in self.cycles:
             if name in cycle.kinds:
                 return powers(cycle.kinds[name])
-        found = criterion(name).measure(self._alternative(self.mechanism))
-        if found is None and not is_summary(name):
-            metric = metric_of(name)
-            return powers(OWN[name][0] if metric is None else metric[0].dimension)
-        return powers(found.dimension) if found is not None else units.NONE
+        asked = criterion(name)
+        found = asked.measure(self._alternative(self.mechanism))
+        if found is not None:
+            return powers(found.dimension)
+        return units.NONE if asked.metric is None else powers(asked.metric.dimension)
 
     def __call__(self, columns: Mapping[str, Floats]) -> dict[str, Floats]:
         """Values (designs,) of every text, by columns (designs,) of addresses; NaN where a design does not move."""
@@ -193,7 +189,9 @@ class Measures:
             each = self._alternative(self.mechanism.with_dimensions(dimensions))
         except LinkwrightError:
             return (np.nan,) * len(self.numbers)
-        return tuple(_number(name, each) for name in self.numbers)
+        asked = [criterion(name) for name in self.numbers]
+        ask(asked, each)
+        return tuple(_number(one, each) for one in asked)
 
     def _measured(
         self, addresses: tuple[str, ...], designs: list[tuple[float, ...]]
@@ -309,17 +307,12 @@ def _of_problem(pickled: bytes) -> Measures:
     return Measures(pickle.loads(pickled))
 
 
-def _number(name: str, each: Alternative) -> float:
+def _number(asked: Criterion, each: Alternative) -> float:
     """A number of a design; NaN where it has none."""
     try:
-        found = criterion(name).measure(each)
+        found = asked.measure(each)
     except RequestError:
         raise
     except LinkwrightError:
         return np.nan
     return np.nan if found is None else float(found.value)
-
-
-def is_metric(name: str) -> bool:
-    """Whether a name means a design number, not a summary of the output of the same name."""
-    return name in OWN or (metric_of(name) is not None and not is_summary(name))

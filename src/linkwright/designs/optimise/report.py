@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 
 from linkwright import units
-from linkwright.designs.criteria import criterion
-from linkwright.designs.optimise.measures import is_metric
+from linkwright.designs.criteria import Criterion
 from linkwright.designs.optimise.optimum import Choice, Optimum
 from linkwright.errors import speaker
 from linkwright.words import Say, say
@@ -55,10 +54,10 @@ def _goals(found: Optimum, language: str) -> str:
 
 def label(found: Optimum, text: str, language: str) -> str:
     """A number in words; expressions and summaries as they are written."""
-    if text in found.problem.define or not is_metric(text):
+    if text in found.problem.define:
         return text
     kinds = {kind: name for name, kind in units.DIMENSIONS.items()}
-    return criterion(text).label(language, kinds.get(found.kinds[text], ""))
+    return Criterion(text).label(language, kinds.get(found.kinds[text], ""))
 
 
 def comparison(found: Optimum, choice: Choice, language: str) -> list[list[str]]:
