@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field
-from functools import cached_property
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -129,6 +128,8 @@ class Pieces:
     ) -> None:
         self.designs, self.wanted = layout.designs, wanted
         self._chunks: list[Floats] = []
+        self._signals = np.array([k for k, _ in wanted.sides], dtype=np.intp)
+        self._below = np.array([sign < 0.0 for _, sign in wanted.sides], dtype=np.intp)
         self._best = np.full((len(wanted.sides), self.designs), -np.inf)
         self._owner, self._length = layout.design, np.ones(self.designs)
         self.size: Floats = np.empty(0)
@@ -183,14 +184,14 @@ class Pieces:
                 gap = np.abs(left[:, 1:] - right[:, :-1]) * same
             for side in (rough[:, 1:], rough[:, :-1]):
                 np.maximum(side, gap, out=side)
-        sides = [top[k] if sign > 0.0 else -bottom[k] for k, sign in self.wanted.sides]
-        highest = np.array(sides).reshape(-1, len(design))
+        ways = np.stack([top, -bottom])
+        highest = ways[self._below, self._signals]
         starts = np.flatnonzero(np.diff(design, prepend=-1))
         there, width = design[starts], columns[HIGH] - columns[LOW]
         if not number:
             self.size = np.full((shape[0], self.designs), -np.inf)
             self._length[there] = np.add.reduceat(width, starts)
-        for known, new in ((self.size, np.maximum(top, -bottom)), (self._best, highest)):
+        for known, new in ((self.size, ways.max(axis=0)), (self._best, highest)):
             known[:, there] = np.maximum(known[:, there], np.maximum.reduceat(new, starts, axis=1))
         unmet = self._unmet(design, width, (top, bottom, rough), highest)
         places = np.full(len(design), number), np.arange(len(design))
@@ -200,20 +201,23 @@ class Pieces:
         self, design: Indices, width: Floats, stats: tuple[Floats, Floats, Floats], highest: Floats
     ) -> Flags:
         """Pieces that are not met, and matter."""
-        top, bottom, rough = stats
-        limit = (self.wanted.met * self._sizes())[:, design]
-        coarse = (rough > limit) & np.asarray(np.isfinite(self.size).all(axis=0))[design]
-        matters = np.zeros_like(coarse)
-        share = width / self._length[design]
-        if coarse.any():
-            for k in self.wanted.even:
-                matters[k] = rough[k] * np.minimum(1.0, share / self.wanted.wide) > limit[k]
-            for n, (k, _) in enumerate(self.wanted.sides):
-                reach = highest[n] + SLACK * (top[k] - bottom[k]) + HIDDEN * rough[k]
-                matters[k] |= (reach >= self._best[n, design]) | (
-                    rough[k] * self.wanted.met > BLIND * limit[k]
-                )
-        return np.asarray((coarse & matters).any(axis=0) & (share > NARROW))
+        limit, share = self.wanted.met * self._sizes(), width / self._length[design]
+        found, coarse = np.zeros(len(design), dtype=np.bool_), (stats[2] > limit[:, design]).any(axis=0)
+        at = np.flatnonzero(coarse & (share > NARROW) & self.passed[design])
+        if not len(at):
+            return found
+        limit, even, own = limit[:, design[at]], [*self.wanted.even], self._signals
+        top, bottom, rough = (each[:, at] for each in stats)
+        matters = rough[even] * np.minimum(1.0, share[at] / self.wanted.wide) > limit[even]
+        reach = highest[:, at] + SLACK * (top - bottom)[own] + HIDDEN * rough[own]
+        near = (reach >= self._best[:, design[at]]) | (rough[own] * self.wanted.met > BLIND * limit[own])
+        found[at] = matters.any(axis=0) | (near & (rough > limit)[own]).any(axis=0)
+        return found
+
+    @property
+    def passed(self) -> Flags:
+        """Designs whose signals are numbers everywhere, (designs,)."""
+        return np.asarray(np.isfinite(self.size).all(axis=0))
 
     def _sizes(self) -> Floats:
         """Sizes of the signals, of such as are small beside others of their dimension a share of these."""
@@ -249,14 +253,9 @@ class Pieces:
         """The largest over the pieces of every design."""
         return np.maximum.reduceat(of_pieces, self.starts, axis=-1)
 
-    @cached_property
-    def passed(self) -> Flags:
-        """Designs whose signals are numbers everywhere, (designs,)."""
-        return np.asarray(np.isfinite(self.size).all(axis=0))
-
     # means ----------------------------------------------------------------------------------------------
-    def mean(self, k: int) -> Floats:
-        """The mean over time of a signal, (designs,)."""
+    def mean(self, k: int | list[int]) -> Floats:
+        """The mean over time of a signal, (designs,), or of some."""
         return self.total(self.whole[k] * self.width) / self.period
 
     def mean_square(self, k: int) -> Floats:

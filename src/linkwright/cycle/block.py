@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import cached_property
 from math import pi
 
 import numpy as np
@@ -60,7 +61,7 @@ class Block:
             return np.full(self.count, course.duration)
         return np.asarray(2.0 * pi * course.turns / np.abs(self.speed))
 
-    @property
+    @cached_property
     def speed(self) -> Floats:
         """Rate of the first driver where the cycle begins, (designs,) rad/s or m/s."""
         course = self.machine.course

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from linkwright.core.arrays import Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.cycle.block import Swings
 from linkwright.cycle.loads import input_end
@@ -32,8 +32,7 @@ EVEN = ("mean", "rms", "excess")
 Side = tuple[int, float, tuple[Output, str] | None]
 
 
-@dataclass(frozen=True)
-class Signal:
+class Signal(NamedTuple):
     """An output in the user's words, or its square."""
 
     words: str

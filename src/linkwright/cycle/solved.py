@@ -89,13 +89,16 @@ class Solved(Block):
     @cached_property
     def means(self) -> dict[int, Floats]:
         """Means over the time of signals that are met everywhere, (designs,)."""
-        return {k: self.pieces.mean(k) for k in self.cycle.even}
+        even = [*self.cycle.even]
+        return dict(zip(even, self.pieces.mean(even), strict=True))
 
     @cached_property
     def extremes(self) -> Extremes:
         """The extremes of all sides."""
         sides, pieces = self.cycle.sides, self.pieces
-        strokes = {stroke: self._on_stroke(stroke) for *_, stroke in sides}
+        strokes = {
+            stroke: self._on_stroke(stroke) for stroke in dict.fromkeys(stroke for *_, stroke in sides)
+        }
         rows, side, piece = pieces.contenders(
             [(k, sign) for k, sign, _ in sides], [strokes[stroke] for *_, stroke in sides]
         )
@@ -178,8 +181,13 @@ class Solved(Block):
         """The largest and the smallest integral over the time of a signal's lack of its mean."""
         if k not in self._excess:
             lack, design = self.pieces.excess(k, self.means[k]), self.pieces.design
-            high, (piece, place, low) = largest(lack, design), largest(-lack, design)
-            self._excess[k] = [high, (piece, place, -low)]
+            both = np.append(design, design + self.count)
+            piece, place, value = largest(np.append(lack, -lack, axis=1), both)
+            high, low = slice(self.count), slice(self.count, None)
+            self._excess[k] = [
+                (piece[high], place[high], value[high]),
+                (piece[low] - len(design), place[low], -value[low]),
+            ]
         return self._excess[k]
 
     @cached_property

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import field
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -126,34 +128,12 @@ def events(
     wanted = Wanted(even=tuple(range(len(formula.outputs))), met=MET)
     run = lambda columns, nodes: formula.run(known, columns, nodes)  # noqa: E731
     curve = Pieces(run, layout, *stretches.first_pieces(PIECES), wanted)
-    found = _Search(formula, known, designs, stretches, curve, loaded).found()
-    return [
-        Events(formula, known, name, designs, stretches, *found.of(k), loaded)
-        for k, name in enumerate(formula.outputs)
-    ]
+    return _Search(formula, known, designs, stretches, curve, loaded).found()
 
 
-@dataclass(frozen=True)
-class _Found:
-    """Events of all signals behind each other, in order of signal, design and time."""
-
-    signal: Indices
-    design: Indices
-    time: Floats
-    rising: Flags
-    edges: Indices
-    within: Floats
-
-    def of(self, k: int) -> tuple[Indices, Floats, Flags, Indices, Floats]:
-        """Those of one signal."""
-        first, last = np.searchsorted(self.signal, [k, k + 1])
-        part = slice(first, last)
-        return self.design[part], self.time[part], self.rising[part], self.edges[:, part], self.within[part]
-
-
-@dataclass(frozen=True)
-class _Brackets:
-    """Pairs of places between which a signal changes its sign: ``piece`` of the left one, times, a first guess."""
+class _Brackets(NamedTuple):
+    """Pairs of places between which a signal changes its sign: ``piece`` of the left one, times, a first guess;
+    ``edges`` as of :class:`Events`."""
 
     signal: Indices
     piece: Indices
@@ -161,14 +141,13 @@ class _Brackets:
     right: Floats
     guess: Floats
     rising: Flags
+    edges: Indices
 
-    def __add__(self, other: _Brackets) -> _Brackets:
-        names = ("signal", "piece", "left", "right", "guess", "rising")
-        return _Brackets(*(np.concatenate([getattr(self, name), getattr(other, name)]) for name in names))
-
-    def taken(self, chosen: Flags | Indices) -> _Brackets:
-        names = ("signal", "piece", "left", "right", "guess", "rising")
-        return _Brackets(*(getattr(self, name)[chosen] for name in names))
+    def joined(self, other: _Brackets) -> _Brackets:
+        """Both."""
+        if not len(other.piece):
+            return self
+        return _Brackets(*(np.concatenate(each, axis=-1) for each in zip(self, other, strict=True)))
 
 
 class _Search:
@@ -187,91 +166,67 @@ class _Search:
         self.stretches, self.curve, self.loaded = stretches, curve, loaded
         self.low, self.width = curve.columns[LOW], curve.width
 
-    def found(self) -> _Found:
-        """All of them."""
-        curve = self.curve
+    def found(self) -> list[Events]:
+        """Those of every signal, by design and time."""
+        curve, span = self.curve, self.stretches.span
         with np.errstate(invalid="ignore"):
-            span = 0.5 * (curve.top - curve.bottom)
-            near = (curve.top >= -span) & (curve.bottom <= span)
+            half = 0.5 * (curve.top - curve.bottom)
+            near = (curve.top >= -half) & (curve.bottom <= half)
         signal, piece = np.nonzero(near)
         looks = product(TO_LOOKS, curve.values(signal, piece))
-        brackets, edges = self._changes(near, signal, piece, looks)
-        free = edges[0] < 0
-        roots = brackets.taken(free) + self._hidden(signal, piece, looks)
-        time = np.append(self._polished(roots), self._at_edges(edges[:, ~free]))
-        roots = roots + brackets.taken(~free)
-        tied = np.append(np.full((2, len(roots.piece) - int((~free).sum())), -1), edges[:, ~free], axis=1)
-        design = curve.design[roots.piece]
-        time = self.stretches.span.within(design, time)
-        lap = self.stretches.span.period[design]
-        middle = self.low[roots.piece] + 0.5 * self.width[roots.piece]
-        middle = (
-            middle - np.round((middle - time) / lap) * lap if self.stretches.span.course.closed else middle
-        )
-        order = np.lexsort((time, design, roots.signal))
-        return _Found(
-            roots.signal[order],
-            design[order],
-            time[order],
-            roots.rising[order],
-            tied[:, order],
-            middle[order],
-        )
+        brackets = self._changes(near, signal, piece, looks).joined(self._hidden(signal, piece, looks))
+        design, edges = curve.design[brackets.piece], brackets.edges
+        time = span.within(design, self._polished(brackets))
+        middle = self.low[brackets.piece] + 0.5 * self.width[brackets.piece]
+        if span.course.closed:
+            middle -= np.round((middle - time) / span.period[design]) * span.period[design]
+        order = np.lexsort((time, design, brackets.signal))
+        ends = np.searchsorted(brackets.signal[order], np.arange(len(self.formula.outputs) + 1)).tolist()
+        found = []
+        for name, own in zip(self.formula.outputs, (order[a:b] for a, b in pairwise(ends)), strict=True):
+            columns = design[own], time[own], brackets.rising[own], edges[:, own], middle[own]
+            given = self.formula, self.known, name, self.designs, self.stretches
+            found.append(Events(*given, *columns, self.loaded))
+        return found
 
-    def _changes(
-        self, near: Flags, signal: Indices, piece: Indices, looks: Floats
-    ) -> tuple[_Brackets, Indices]:
+    def _changes(self, near: Flags, signal: Indices, piece: Indices, looks: Floats) -> _Brackets:
         """Neighbours among the places that decide with different signs, and the stretches before and after the cut,
         or the rest, that lies between them; -1 where none does."""
         curve = self.curve
         nothing = NOTHING * np.maximum(curve.size, 0.0)
         self._make_sure(signal, piece, looks, nothing)
-        decided = np.where(np.abs(looks) > nothing[signal, curve.design[piece]], looks, 0.0)
-        last = _last_decided(decided)
-        columns = np.arange(len(piece))
-        values = np.where(last >= 0, decided[np.maximum(last, 0), columns], 0.0)
-        place, row = np.nonzero(values[1:] * values[:-1] < 0.0)
-        before = last[place, row]
-        inner = self._bracket(
-            signal[row],
-            (piece[row], before),
-            (piece[row], place + 1),
-            values[place, row],
-            values[place + 1, row],
-        )
-        first = (decided != 0.0).argmax(axis=0)
-        begins = np.where(np.abs(curve.whole) > nothing[:, curve.design], curve.whole, 0.0)
-        ends = begins.copy()
-        at_begin, at_end = (np.full(near.shape, len(LOOKS) // 2) for _ in range(2))
-        begins[signal, piece], ends[signal, piece] = decided[first, columns], values[-1]
-        at_begin[signal, piece], at_end[signal, piece] = first, np.maximum(last[-1], 0)
-        sig, at = np.nonzero(begins != 0.0)
+        values = np.zeros((*near.shape, len(LOOKS)))
+        values[:, :, len(LOOKS) // 2] = curve.whole
+        values[near] = looks.T
+        sig, at, look = np.nonzero(np.abs(values) > nothing[:, curve.design, None])
+        value = values[sig, at, look]
         here, there, lap = self._following(sig * curve.designs + curve.design[at])
-        a, b = ends[sig[here], at[here]], begins[sig[there], at[there]]
-        changed = a * b < 0.0
-        here, there, lap, a, b = here[changed], there[changed], lap[changed], a[changed], b[changed]
-        left = at[here], at_end[sig[here], at[here]]
-        right = at[there], at_begin[sig[there], at[there]]
-        outer = self._bracket(sig[here], left, right, a, b, lap * curve.period[curve.design[at[there]]])
+        changed = np.flatnonzero(value[here] * value[there] < 0.0)
+        here, there, lap = here[changed], there[changed], lap[changed]
+        later = lap * curve.period[curve.design[at[there]]]
         edges = self._edges_between(at[here], at[there], lap)
-        return inner + outer, np.append(np.full((2, len(row)), -1), edges, axis=1)
+        before, after = (at[here], look[here]), (at[there], look[there])
+        return self._bracket(sig[here], before, after, (value[here], value[there]), edges, later)
 
     def _bracket(
         self,
         signal: Indices,
         before: tuple[Indices, Indices],
         after: tuple[Indices, Indices],
-        a: Floats,
-        b: Floats,
-        later: Floats | float = 0.0,
+        values: tuple[Floats, Floats],
+        edges: Indices,
+        later: Floats,
     ) -> _Brackets:
         """Between two looks of pieces, each with its piece and number, with the values there; ``later``, s, the
         second."""
         left, right = (
             self.low[at] + 0.5 * self.width[at] * (1.0 + LOOKS[look]) for at, look in (before, after)
         )
-        right = right + later
-        return _Brackets(signal, before[0], left, right, left + (right - left) * a / (a - b), b > 0.0)
+        right, (a, b) = right + later, values
+        guess = left + (right - left) * a / (a - b)
+        if (edges >= 0).any():
+            guess = np.where(edges[0] < 0, guess, self._at_edges(edges))
+        return _Brackets(signal, before[0], left, right, guess, b > 0.0, edges)
 
     def _make_sure(self, signal: Indices, piece: Indices, looks: Floats, nothing: Floats) -> None:
         """Values so small that the polynomials leave their signs open are replaced by those of the formula."""
@@ -325,7 +280,7 @@ class _Search:
         signal, piece, above = signal[row], piece[row], here[place, row] > 0.0
         low, high = LOOKS[place], LOOKS[place + 2]
         if not len(piece):
-            return _Brackets(signal, piece, low, high, low, above)
+            return _Brackets(signal, piece, low, high, low, above, np.empty((2, 0), dtype=np.intp))
         x = turning_points(self.curve.values(signal, piece), low, high, LOOKS[place + 1])
         time, left, right = (
             self.low[piece] + 0.5 * self.width[piece] * (1.0 + each) for each in (x, low, high)
@@ -334,9 +289,9 @@ class _Search:
         nothing = NOTHING * self.curve.size[signal, self.curve.design[piece]]
         passed = np.flatnonzero(((value > 0.0) != above) & (np.abs(value) > nothing))
         signal, piece, above, time = signal[passed], piece[passed], above[passed], time[passed]
-        left, right = left[passed], right[passed]
-        both = _Brackets(signal, piece, left, time, 0.5 * (left + time), ~above)
-        return both + _Brackets(signal, piece, time, right, 0.5 * (time + right), above)
+        left, right, edges = left[passed], right[passed], np.full((2, len(passed)), -1)
+        first = _Brackets(signal, piece, left, time, 0.5 * (left + time), ~above, edges)
+        return first.joined(_Brackets(signal, piece, time, right, 0.5 * (time + right), above, edges))
 
     def _at(self, formula: Pointwise, piece: Indices, time: Floats) -> Floats:
         """Outputs (outputs, k) of a formula at times, s, one in each of some pieces."""
@@ -348,10 +303,10 @@ class _Search:
         return found
 
     def _polished(self, brackets: _Brackets) -> Floats:
-        """Roots by Newton's steps within their brackets, all at once."""
+        """Roots by Newton's steps within their brackets, all at once; the guesses of those at cuts."""
         left, right, time, rising = brackets.left, brackets.right, brackets.guess, brackets.rising
-        width, rows, open_ = right - left, np.arange(len(left)), np.ones(len(left), dtype=np.bool_)
-        for _ in range(STEPS if len(left) else 0):
+        width, rows, open_ = right - left, np.arange(len(left)), brackets.edges[0] < 0
+        for _ in range(STEPS if open_.any() else 0):
             found = self._at(self.formula.with_slope, brackets.piece, time)
             g, slope = found[2 * brackets.signal, rows], found[2 * brackets.signal + 1, rows]
             beyond = (g >= 0.0) == rising
@@ -365,9 +320,3 @@ class _Search:
             if not open_.any():
                 break
         return time
-
-
-def _last_decided(values: Floats) -> Indices:
-    """The number of the last value at or before each that is not zero, in every column; -1 before the first one."""
-    rows = np.where(values != 0.0, np.arange(len(values))[:, None], -1)
-    return np.maximum.accumulate(rows, axis=0) if (rows < 0).any() else rows

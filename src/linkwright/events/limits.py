@@ -29,7 +29,6 @@ class Limits:
             self.value = value.run(events.known, events.columns(), AT)[0, 0].copy()
         self.bar = np.zeros(count + 1)
         self.outermost = {"max": self._best(1.0), "min": self._best(-1.0)}
-        self.first = {kind: self._first(kind) for kind in self.outermost}
 
     def _best(self, sign: float) -> Indices:
         """Of every design the first limit with the largest of sign · value; -1 where it has none."""
@@ -41,8 +40,12 @@ class Limits:
         has = np.append(design[ours], -1)[first] == every
         return np.where(has, np.append(ours, -1)[first], -1)
 
+    @cached_property
+    def first(self) -> dict[str, Indices]:
+        """Of every design the first in time of the limits that are outermost, by kinds; -1 where it has none."""
+        return {kind: self._first(kind) for kind in self.outermost}
+
     def _first(self, kind: str) -> Indices:
-        """Of every design the first in time of the limits that are outermost; -1 where it has none."""
         events, found = self.events, np.full(self.span.count, -1)
         ours = np.flatnonzero(self.is_outermost & (events.rising == (kind == "min")))
         begin = (events.time[ours] - self.span.begin) / self.span.period[events.design[ours]]
