@@ -5,22 +5,21 @@ export interface Program {
   parameters: string[];
   positions: string[];
   fields: string[];
-  states: string[];
   tables: string[];
 }
 
 type Rows = Float64Array[];
 type Plain = (
   parameters: Float64Array, positions: Rows, fields: Rows, tables: Rows,
-  starts: Float64Array, out: Float64Array, n: number,
+  out: Float64Array, n: number,
 ) => void;
 export type Code = { module: WebAssembly.Module } | { run: Plain };
 
 const HEAD = 5;
 const PAGE = 65536;
 // Places of the call block, 64 bits each.
-const BLOCK = { designs: 0, length: 1, count: 2, fullEnd: 3, tailStart: 4, tailLow: 5, tailHigh: 6, parameters: 7, out: 8, starts: 9 };
-const INPUTS = 10;
+const BLOCK = { designs: 0, length: 1, count: 2, fullEnd: 3, tailStart: 4, tailLow: 5, tailHigh: 6, parameters: 7, out: 8 };
+const INPUTS = 9;
 // Positions that a kernel takes at a time.
 const LANES = 4;
 
@@ -52,21 +51,18 @@ export class Call {
   readonly parameters: Float64Array;
   readonly positions: Record<string, Float64Array> = {};
   readonly fields: Record<string, Float64Array> = {};
-  readonly starts: Float64Array;
   readonly out: Float64Array;
   readonly stride: number;
   private readonly rows: Record<string, Float64Array> = {};
 
   constructor(readonly program: Program, readonly n: number, room: Room, tables: Rows) {
-    const carried = program.states.length > 0;
-    this.stride = carried ? n : Math.max(n, LANES);
+    this.stride = Math.max(n, LANES);
     this.parameters = room.floats(program.parameters.length);
     for (const name of program.positions) this.positions[name] = room.floats(this.stride);
     for (const name of program.fields) this.fields[name] = room.floats(this.stride);
-    this.starts = room.floats(program.states.length);
     this.out = room.floats(program.outputs.length * this.stride);
     const inputs = [...Object.values(this.positions), ...Object.values(this.fields), ...tables];
-    this.run = room.caller(this, inputs, tables, carried);
+    this.run = room.caller(this, inputs, tables);
     program.outputs.forEach((name, k) => (this.rows[name] = this.out.subarray(k * this.stride, k * this.stride + n)));
   }
 
@@ -96,7 +92,7 @@ export class Call {
 
 interface Room {
   floats(count: number): Float64Array;
-  caller(call: Call, inputs: Rows, tables: Rows, carried: boolean): () => void;
+  caller(call: Call, inputs: Rows, tables: Rows): () => void;
 }
 
 /** A program with its kernel; makes calls. */
@@ -122,7 +118,7 @@ function texts(run: Plain): Room {
   return {
     floats: (count) => new Float64Array(count),
     caller: (call, _inputs, tables) => () =>
-      run(call.parameters, Object.values(call.positions), Object.values(call.fields), tables, call.starts, call.out, call.stride),
+      run(call.parameters, Object.values(call.positions), Object.values(call.fields), tables, call.out, call.stride),
   };
 }
 
@@ -141,16 +137,16 @@ function compiled(module: WebAssembly.Module, megabytes: number): Room {
   };
   return {
     floats,
-    caller: (call, inputs, _tables, carried) => {
+    caller: (call, inputs) => {
       const block = new BigInt64Array(memory.buffer, floats(INPUTS + inputs.length).byteOffset, INPUTS + inputs.length);
-      fill(block, call, inputs, carried);
+      fill(block, call, inputs);
       const at = block.byteOffset;
       return () => kernel(at);
     },
   };
 }
 
-function fill(block: BigInt64Array, call: Call, inputs: Rows, carried: boolean): void {
+function fill(block: BigInt64Array, call: Call, inputs: Rows): void {
   const put = (place: number, value: number) => (block[place] = BigInt(value));
   const n = call.n, rest = n % LANES, full = n - rest;
   put(BLOCK.designs, 1);
@@ -158,13 +154,10 @@ function fill(block: BigInt64Array, call: Call, inputs: Rows, carried: boolean):
   put(BLOCK.count, n);
   put(BLOCK.fullEnd, full);
   const [start, low, high] = full ? (rest ? [n - LANES, LANES - rest, LANES] : [-1, 0, 0]) : [0, 0, rest];
-  if (!carried) {
-    put(BLOCK.tailStart, start);
-    put(BLOCK.tailLow, low);
-    put(BLOCK.tailHigh, high);
-  }
+  put(BLOCK.tailStart, start);
+  put(BLOCK.tailLow, low);
+  put(BLOCK.tailHigh, high);
   put(BLOCK.parameters, call.parameters.byteOffset);
   put(BLOCK.out, call.out.byteOffset);
-  put(BLOCK.starts, call.starts.byteOffset);
   inputs.forEach((array, k) => put(INPUTS + k, array.byteOffset));
 }

@@ -43,6 +43,8 @@ export class Solver {
   private drive: Drive | null = null;
   private readonly arrays: Record<string, Float64Array> = {};
   private readonly coordinates: Float64Array[] = [];
+  /** What goes from one position to the next. */
+  private readonly carried: string[];
   private found: Values = {};
   private states: Values = {};
   private drawn: Values = {};
@@ -59,7 +61,8 @@ export class Solver {
     this.pace = times[1] - times[0];
     this.inputs = steady ? Float64Array.from({ length: this.n }, (_, i) => steady.start + i * steady.step) : given ? floats(given) : new Float64Array(1);
     for (const name in data.fields) this.main.give({ [name]: floats(data.fields[name]) });
-    for (const name of this.main.program.states) {
+    this.carried = Object.keys(data.starts);
+    for (const name of this.carried) {
       const start = data.starts[name];
       if (typeof start === "number") this.states[name] = start;
     }
@@ -67,7 +70,7 @@ export class Solver {
   }
 
   get iterated(): boolean {
-    return this.main.program.states.length > 0;
+    return this.carried.length > 0;
   }
 
   /** The coordinate of a driver at a position. */
@@ -227,9 +230,25 @@ export class Solver {
         if (share < 2 ** -HALVINGS) return false;
       }
     }
-    this.main.program.states.forEach((name, k) => (this.main.starts[k] = this.start(name, states)));
+    this.walk(states);
     this.pending = states;
     return true;
+  }
+
+  /** Fills what every position takes from the one before, from chain coordinates at the first position on. */
+  private walk(states: Values): void {
+    const { one, main, carried } = this, start = carried.map((name) => this.start(name, states));
+    carried.forEach((name, k) => (main.fields[name][0] = start[k]));
+    const given = [...Object.keys(one.positions).map((name) => [one.positions[name], main.positions[name]]),
+      ...Object.keys(one.fields).map((name) => [one.fields[name], main.fields[name]])];
+    const found = carried.map((name) => [main.fields[name], one.row(`then:${name}`)]);
+    one.parameters.set(main.parameters);
+    for (const [here, along] of given) here.fill(along[0]);
+    for (let i = 0; i < this.n; i++) {
+      for (const [here, along] of given) here[0] = along[i];
+      one.run();
+      for (const [along, here] of found) along[i + 1] = here[0];
+    }
   }
 
   private pending: Values = {};
@@ -246,8 +265,7 @@ export class Solver {
     call.give(Object.fromEntries(Object.entries(this.arrays).map(([name, row]) => [name, row.subarray(0, 1)])));
     let now = states, moved = Infinity;
     for (let k = 0; k < 4 && moved > 1e-13; k++) {
-      call.program.states.forEach((name, j) => (call.starts[j] = this.start(name, now)));
-      call.run();
+      this.begin(call, now);
       const next = { ...now };
       moved = 0;
       for (const name in now)
@@ -308,9 +326,14 @@ export class Solver {
   private settle(call: Call, states: Values): void {
     for (const again of [false, true]) {
       if (again) for (const name in states) if (call.has(`next:${name}`)) states[name] = call.row(`next:${name}`)[0];
-      call.program.states.forEach((name, k) => (call.starts[k] = this.start(name, states)));
-      call.run();
+      this.begin(call, states);
     }
+  }
+
+  /** Runs one position as the first one, from chain coordinates near it. */
+  private begin(call: Call, states: Values): void {
+    for (const name of this.carried) call.fields[name].fill(this.start(name, states));
+    call.run();
   }
 
   /** The least value near position i, at most one step away. */

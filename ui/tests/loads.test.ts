@@ -11,9 +11,9 @@ type Formula = (q: number) => [value: number, rate: number, second: number];
 
 /** An output by its formulas over the input at so many positions of a turn, and a load that follows it by a phase. */
 function loaded(formula: Formula, phase: Partial<Phase>, { n = 24, speed = SPEED, values = {}, wobble = 0, corners = [] as number[] } = {}) {
-  const program = { outputs: ["x", "v", "a", "moving"], parameters: [], positions: ["q"], fields: ["acts:push", "share:push"], states: [], tables: [] };
+  const program = { outputs: ["x", "v", "a", "moving"], parameters: [], positions: ["q"], fields: ["acts:push", "share:push"], tables: [] };
   const kernel = new Kernel(program, {
-    run: (_parameters, [q], _fields, _tables, _starts, out, length) => {
+    run: (_parameters, [q], _fields, _tables, out, length) => {
       for (let i = 0; i < length; i++) {
         const [x, v, a] = formula(q[i]);
         [out[i], out[length + i], out[2 * length + i]] = [x, speed * v, speed * speed * a];

@@ -17,11 +17,11 @@ const program: Program = {
     "p:A.x", "p:A.y", "p:B.x", "p:B.y", "s:guide", "sv:guide", "sa:guide", "e:crank.x", "e:crank.y",
   ],
   parameters: ["crank.length", "rod.length", "guide.offset", "driver.speed"],
-  positions: ["cos:driver", "sin:driver"], fields: [], states: [], tables: [],
+  positions: ["cos:driver", "sin:driver"], fields: [], tables: [],
 };
 
 const formulas: Code = {
-  run: ([r, l, e, w], [cos, sin], _fields, _tables, _starts, out, n) => {
+  run: ([r, l, e, w], [cos, sin], _fields, _tables, out, n) => {
     for (let i = 0; i < n; i++) {
       const [x, y] = [r * cos[i], r * sin[i]], height = y - e, along = Math.sqrt(l * l - height * height);
       const apart = Number(Math.abs(height) > l), rate = -y * w - (height * x * w) / along;

@@ -68,7 +68,7 @@ test("loads of the original are found even where the page cannot follow it, thos
   data.phases = [{ load: "push", kind: "stroke", ramp: false, rows: ["s:guide"], rate: "sv:guide", second: "sa:guide", moving: "sv:guide", ends: ["max", "min"], part: null }];
   const lost = (...given: unknown[]) => {
     run(...given);
-    const [out, n] = given.slice(5) as [Float64Array, number];
+    const [out, n] = given.slice(4) as [Float64Array, number];
     if (n > 4) out[5] = 0;
   };
   const solver = new Solver(data, { run: lost }), acting = () => solver.main.fields["acts:push"].reduce((sum, x) => sum + x);
@@ -103,9 +103,9 @@ test("angles near others, and rows without jumps", () => {
 
 /** A program that an arm's friction f acts on: the reaction is 10 N and its share. */
 function rubbing(share: number, pace: number) {
-  const program = { outputs: ["r:J|b.x", "r:J|b.y", "rate"], parameters: ["k", "rate"], positions: [], fields: ["f"], states: [], tables: [] };
+  const program = { outputs: ["r:J|b.x", "r:J|b.y", "rate"], parameters: ["k", "rate"], positions: [], fields: ["f"], tables: [] };
   const kernel = new Kernel(program, {
-    run: ([k, rate], _positions, [f], _tables, _starts, out, n) => {
+    run: ([k, rate], _positions, [f], _tables, out, n) => {
       for (let i = 0; i < n; i++) [out[i], out[n + i], out[2 * n + i]] = [10 + k * f[i], 0, rate];
     },
   });

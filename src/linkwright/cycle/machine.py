@@ -148,7 +148,7 @@ class Traces:
         motion, friction = self.motion, self.programs.friction
         found: Mask = motion.valid
         for name, rotation in motion.angles.carried.items():
-            near = absolute(rotation - motion.trace.state(name)) < CLEAR
+            near = absolute(rotation - motion.trace.field_input(name)) < CLEAR
             found = motion.trace.logic("and", found, near)
         if self.tracked:
             signs = {name: motion.trace.parameter(f"{SIGN}{name}") for name in self.path_step.groups}
@@ -182,12 +182,12 @@ class Traces:
             name: t.position(name) for name in source.parameters if name in self.varied
         }
         more |= path_states(self.tracked, t)
-        for name in source.states if not self.tracked else ():
-            first, turns = (t.parameter(_line_name(name, which)) for which in ("first", "turns"))
-            more[name] = first + turns * given["input"]
         for name in source.fields:
             kind, _, load = name.partition(":")
-            if kind == ACTS:
+            if name in self.motion.angles.carried and not self.tracked:
+                first, turns = (t.parameter(_line_name(name, which)) for which in ("first", "turns"))
+                more[name] = first + turns * given["input"]
+            elif kind == ACTS:
                 more[name] = t.position(name)
             elif kind == "share":
                 more[name] = self._share(t, load, given, more)

@@ -115,7 +115,8 @@ def along_input(
     Without limits that are found ``over_time`` those between limits only over whole turns of one driver of constant
     speed.
     """
-    mechanism, given = traced.mechanism, tuple(fields)
+    mechanism, carried = traced.mechanism, traced.solver.motion.next_states
+    given = tuple(name for name in fields if name not in carried)
     rubbing = any(kind_of(name) == "friction" for name in given)
     if rubbing:
         given = traced.forces.fields_needed()

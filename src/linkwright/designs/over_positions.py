@@ -26,7 +26,6 @@ from linkwright.events.following import ITERATIONS
 from linkwright.events.tracked_states import TrackedStates, tracked_states
 from linkwright.formula.gradient import Gradient
 from linkwright.formula.program import Program
-from linkwright.formula.states import inputs_as_fields, states_as_fields
 from linkwright.formula.summaries import Backend
 from linkwright.formula.threads import cores
 from linkwright.formula.trace import Mask, Scalar, Trace, absolute, maximum
@@ -161,8 +160,7 @@ class Builder:
         if self.iterated:
             tracked = tracked_states(self.traced.nominal, self.traced.solver, backend != "numpy")
         program = Program.of(self.traced.solver.motion.trace, {**outputs, VALID: self._valid(tracked)})
-        program = inputs_as_fields(program, self.turns, "position")
-        program = states_as_fields(program)
+        program = program.with_given(self.turns, "position")
         limits = self.loaded.limits
         moving = [
             name for name in program.parameters if name.startswith(("limit:", "limit input:", "value:"))

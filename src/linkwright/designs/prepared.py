@@ -95,7 +95,7 @@ class Prepared:
         self._base = array("d", [known.get(name, np.nan) for name in self.program.parameters])
         self._places = {name: i for i, name in enumerate(self.program.parameters)}
         self._own = _Numbers(self._base)
-        plain = not (self.program.fields or self.program.states)
+        plain = not self.program.fields
         self._at_once = plain and positions.is_way and parts(self.solver, positions) == 1
         self._modes = self.solver.assembly.modes
         self._checked = False
@@ -118,7 +118,7 @@ class Prepared:
     def _evaluator(self, backend: Backend) -> Callable[[Floats], Floats]:
         arrays = {name: self.positions.arrays[name] for name in self.program.positions}
         if backend != "numpy":
-            able = bool(self.program.positions) and not (self.program.states or self.program.fields)
+            able = bool(self.program.positions) and not self.program.fields
             compiled = compile_program(self.program) if able else None
             if compiled is not None:
                 return compiled.repeated(arrays, tables=self._loads.tables)

@@ -15,7 +15,6 @@ from linkwright.errors import LinkwrightError
 from linkwright.formula.derivative import forward, reverse
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
-from linkwright.formula.states import inputs_as_fields
 from linkwright.formula.summaries import Backend
 from linkwright.kinetostatics.load_site import middle_name
 from linkwright.kinetostatics.named_outputs import Quantity
@@ -125,7 +124,6 @@ class Slopes:
 
 
 def _known_as_fields(program: Program) -> Program:
-    """The program with states, and the angles near which angles stay, taken per position."""
+    """The program with the angles near which angles stay taken per position."""
     known = middle_name("", "").partition(":")[0]
-    angles = [name for name in program.parameters if name.startswith(f"{known}:")]
-    return inputs_as_fields(program, [*program.states, *angles])
+    return program.with_given([name for name in program.parameters if name.startswith(f"{known}:")])

@@ -28,7 +28,6 @@ from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.reductions import VALID_COUNT, Reduction, Results
-from linkwright.formula.states import states_as_fields
 from linkwright.formula.summaries import WORTH_COMPILING, Backend, summaries
 from linkwright.formula.threads import chunks, cores
 from linkwright.formula.trace import Scalar
@@ -91,6 +90,7 @@ class SweepRun:
         self.quantities = self.traced.quantities(names)
         self.reductions = [*reductions(asked, self.quantities), Reduction(NEAREST, "min")]
         self.program = self.traced.program(self.quantities)
+        self._followed = not {*self.program.fields}.isdisjoint(self.traced.solver.motion.next_states)
         self.unloaded: dict[int, str] = {}
         self.alone: set[int] = set()
         self._programs: dict[tuple[str, ...], tuple[list[Quantity], Program]] = {}
@@ -198,7 +198,7 @@ class SweepRun:
             quantities = list(self._loaded.traced.quantities(names).values())
             carriers = {each.name: each.carrier for each in quantities}
             program = Program.of(self._loaded.traced.solver.motion.trace, carriers)
-            self._programs[names] = quantities, states_as_fields(program)
+            self._programs[names] = quantities, program
         return self._programs[names]
 
     @cached_property
@@ -283,7 +283,7 @@ class SweepRun:
     @cached_property
     def _tracked(self) -> TrackedStates | None:
         """What tracks groups without closed form, and counts turns; None where nothing must be."""
-        if not self.program.states or self._loaded is None:
+        if not self._followed or self._loaded is None:
             return None
         solver, compiled = self._loaded.traced.solver, self.manner.backend != "numpy"
         return tracked_states(self.traced.nominal, solver, compiled)
@@ -298,7 +298,7 @@ class SweepRun:
         if self._tracked is not None:
             motion = traced.solver.motion
             more[VALID] = motion.trace.logic("and", motion.valid, self._tracked.on_path)
-        return states_as_fields(traced.program(traced.quantities(self.quantities), more))
+        return traced.program(traced.quantities(self.quantities), more)
 
     def _known(
         self, loaded: LoadedCycle, program: Program, part: Mapping[str, Floats]
@@ -344,7 +344,7 @@ class SweepRun:
         """Which designs of a block that reach the ``whole`` cycle touch a change point between two positions, or
         cannot pass there."""
         touching = np.zeros(len(whole), dtype=np.bool_)
-        if not self.program.states and self.positions.count >= 3:
+        if not self._followed and self.positions.count >= 3:
             with np.errstate(invalid="ignore"):
                 near = np.flatnonzero(whole & (found[f"{NEAREST}.min"] < near_enough(self.positions)))
             if len(near):

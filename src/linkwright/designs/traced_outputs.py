@@ -117,7 +117,7 @@ class Traced:
         motion = self.solver.motion
         found: Mask = motion.valid
         for name, rotation in motion.angles.carried.items():
-            near = absolute(rotation - motion.trace.state(name)) < CLEAR
+            near = absolute(rotation - motion.trace.field_input(name)) < CLEAR
             found = motion.trace.logic("and", found, near)
         return found
 

@@ -100,7 +100,7 @@ def stays_on_path(motion: MotionTrace, signs: Mapping[str, Scalar]) -> Mask:
         kept = trace.logic("and", kept, trace.compare("less", 0.0, placed.determinant * sign))
     for each in chain_coordinates(motion):
         for name in each.states:
-            off = absolute(motion.next_states[name] - trace.state(name)) * (1.0 / each.scale)
+            off = absolute(motion.next_states[name] - trace.field_input(name)) * (1.0 / each.scale)
             kept = trace.logic("and", kept, trace.compare("less", off, NEAR))
     return kept
 

@@ -87,8 +87,6 @@ class Formula:
     """A program over pieces; ``columns``: what it takes of them, ``fields``: what it takes at every place."""
 
     def __init__(self, program: Program) -> None:
-        if program.states:
-            raise ValueError(f"a formula carries no states: {', '.join(program.states)}")
         self.program = program
         self.outputs, self.columns, self.fields = program.output_names, program.positions, program.fields
         self.place = {name: k for k, name in enumerate(self.outputs)}
@@ -120,7 +118,7 @@ class Formula:
             for piece in range(count):
                 at = [float(each[piece]) for each in given.values()]
                 there = [float(each[node, piece]) for each in own.values()]
-                found[node, :, piece] = self._scalar.step(numbers, at, (), there)[0]
+                found[node, :, piece] = self._scalar.step(numbers, at, there)
         return found
 
     @cached_property

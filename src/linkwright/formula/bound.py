@@ -51,7 +51,6 @@ class BoundPlan:
             "parameter": () if designs is None else (designs, 1),
             "position": (positions,) if designs is None else (1, positions),
             "field": self._full,
-            "state": self._full,
         }
         self.outputs: Floats = np.empty((len(lines.outputs), *self._full))
         self.tables: list[Table] = []
@@ -146,12 +145,6 @@ class BoundPlan:
         """The second part."""
         for function, args in self._late:
             function(*args)
-
-    def carry(self) -> None:
-        """Make the next states the states."""
-        following = [np.array(self._arrays[i]) for i in self._lines.carried]
-        for array, value in zip(self.inputs["state"], following, strict=True):
-            array[...] = value
 
 
 def _look_up(tables: list[Table], place: int, order: int, x: Floats, out: Floats) -> None:

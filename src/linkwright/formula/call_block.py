@@ -60,7 +60,7 @@ class Inputs:
     """Positions and fields of a program as contiguous arrays of one length.
 
     ``length``: n; ``stride``: the length of the rows that the code sees, which is never below
-    the vector width where lanes are positions (the last value is repeated).
+    the vector width (the last value is repeated).
     """
 
     def __init__(
@@ -91,7 +91,7 @@ class Inputs:
         self.length = lengths.pop()
         self.width = width
         self.stride = self.length
-        if 0 < self.length < width and not program.next_states:
+        if 0 < self.length < width:
             self.stride = width
             self.positions = [_padded(array, width) for array in self.positions]
             self.fields = [_padded(array, width) for array in self.fields]
@@ -125,11 +125,11 @@ class Inputs:
         block[Block.INPUTS :] = sources
         return block
 
-    def block(self, parameters: int, out: int, first: int = 0, designs: int = 1, starts: int = 0) -> Whole:
+    def block(self, parameters: int, out: int, first: int = 0, designs: int = 1) -> Whole:
         """The call block for some designs from number ``first`` on; addresses as numbers."""
         block = self._template.copy()
         block[Block.DESIGNS], block[Block.PARAMETERS] = designs, parameters
-        block[Block.OUT], block[Block.STARTS] = out, starts
+        block[Block.OUT] = out
         if first and self.fields:
             self.fields_of(block)[:] += 8 * first * self.stride
         return block

@@ -18,8 +18,8 @@ _VALUE = "value"
 def forward(program: Program, wrt: Sequence[str]) -> Program:
     """A program with the outputs of ``program`` and ``output|input`` = d(output)/d(input).
 
-    ``wrt``: names of parameters, positions or fields. What is under ``stop`` and the states
-    count as constants; truth outputs have no derivative. Cost: about one to two evaluations
+    ``wrt``: names of parameters, positions or fields. What is under ``stop``
+    counts as constant; truth outputs have no derivative. Cost: about one to two evaluations
     per input. Raises ValueError for an input that the program does not have.
     """
     _check_inputs(wrt, (*program.parameters, *program.positions, *program.fields))
@@ -29,8 +29,7 @@ def forward(program: Program, wrt: Sequence[str]) -> Program:
         found = tangents(replay, name)
         for output, index in numeric_outputs(program):
             outputs[f"{output}|{name}"] = found.get(index, 0.0)
-    following = {name: replay.values[i] for name, i in program.next_states}
-    return Program.of(replay.trace, outputs, following)
+    return Program.of(replay.trace, outputs)
 
 
 def reverse(
@@ -40,11 +39,8 @@ def reverse(
 
     ``seeds``: names of outputs; each one's weights are a field ``seed:output`` (designs, n). ``wrt``: names of
     parameters, None for all of them in the order of the program. Only the positions where the output ``valid`` holds
-    enter (all, without such an output). ``stop`` and fields are constants. Raises ValueError for unknown names, and
-    for programs that carry states (see :func:`~linkwright.formula.states.states_as_fields`).
+    enter (all, without such an output). ``stop`` and fields are constants. Raises ValueError for unknown names.
     """
-    if program.next_states:
-        raise ValueError("a program that carries states has no gradient: take its states as fields first")
     _check_inputs(wrt or (), program.parameters)
     unknown = [name for name in seeds if name not in dict(numeric_outputs(program))]
     if unknown:

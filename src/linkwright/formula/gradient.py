@@ -51,8 +51,6 @@ class Gradient:
         self.program, self.complete = program, complete
         self.total = total if isinstance(total, Program) else _of_one(total)
         self.valid = valid if valid in program.output_names else None
-        if program.states:
-            raise ValueError(f"the states {', '.join(program.states)} have no gradient")
         own = [name for name in self.total.parameters if name in program.parameters]
         read = [name for name in self.total.parameters if name not in (*own, VALID_COUNT)]
         self.read = {name: Reduction.named(name) for name in read}

@@ -18,15 +18,14 @@ NO_INDEX = 2**62
 class AccumulatorWriter:
     """Accumulator ``k`` is ``%a{k}`` at the start of a turn of the loop and ``%b{k}`` at its end.
 
-    ``position``: the i64 vector of the lanes' position numbers; ``fresh``: the mask of the
-    lanes that are not seen yet, or None where all lanes are.
+    ``%position``: the i64 vector of the lanes' position numbers; ``%fresh``: the mask of the
+    lanes that are not seen yet.
     """
 
-    def __init__(self, writer: LineWriter, accumulation: Accumulation, fresh: str | None) -> None:
+    def __init__(self, writer: LineWriter, accumulation: Accumulation) -> None:
         self.w = writer
         self.steps = accumulation.steps
         self.rows = dict(zip(accumulation.needed.output_names, writer.outputs, strict=True))
-        self._fresh = fresh
         self._valid = accumulation.valid
         self._column = accumulation.column
         self._masks: dict[str, str] = {}
@@ -109,26 +108,11 @@ class AccumulatorWriter:
             f"%r{k} = sitofp i64 %p{k} to double",
         ]
 
-    def as_double(self, k: int) -> tuple[list[str], str]:
-        """One accumulator as a vector of numbers (the lanes are designs)."""
-        step = self.steps[k].kind
-        if step in ("argmin", "argmax"):
-            code = [
-                f"%none{k} = icmp eq {self.w.integers} %b{k}, {self.start(step)}",
-                f"%p{k} = select {self.w.mask} %none{k}, {self.w.integers} {self.w.same('i64', -1)}, "
-                f"{self.w.integers} %b{k}",
-                f"%r{k} = sitofp {self.w.integers} %p{k} to {self.w.vector}",
-            ]
-            return code, f"%r{k}"
-        if step == "count":
-            return [f"%r{k} = sitofp {self.w.integers} %b{k} to {self.w.vector}"], f"%r{k}"
-        return [], f"%b{k}"
-
     def _entering(self, code: list[str], *, once: bool) -> str | None:
         """The mask of the positions that enter; ``once``: a repeated position must not."""
         parts = [] if self._valid is None else [self._truth(code, self._valid)]
-        if once and self._fresh is not None:
-            parts.append(self._fresh)
+        if once:
+            parts.append("%fresh")
         if len(parts) < 2:
             return parts[0] if parts else None
         if "both" not in self._masks:
@@ -204,14 +188,11 @@ class AccumulatorWriter:
 
     def _count(self, k: int, output: str) -> list[str]:
         code: list[str] = []
-        held = self._truth(code, output)
-        entering = self._entering(code, once=True)
-        if entering is not None:
-            code.append(f"%h{k} = and {self.w.mask} {held}, {entering}")
-            held = f"%h{k}"
+        held, entering = self._truth(code, output), self._entering(code, once=True)
         return [
             *code,
-            f"%o{k} = zext {self.w.mask} {held} to {self.w.integers}",
+            f"%h{k} = and {self.w.mask} {held}, {entering}",
+            f"%o{k} = zext {self.w.mask} %h{k} to {self.w.integers}",
             f"%b{k} = add {self.w.integers} %a{k}, %o{k}",
         ]
 
@@ -223,8 +204,8 @@ class AccumulatorWriter:
         if step == "square":
             code.append(f"%squared{k} = fmul {FAST} {vector} {value}, {value}")
             value = f"%squared{k}"
-        total = f"%b{k}" if entering is None else f"%t{k}"
-        code.append(f"{total} = fadd {FAST} {vector} {value}, %a{k}")
-        if entering is not None:
-            code.append(f"%b{k} = select {self.w.mask} {entering}, {vector} %t{k}, {vector} %a{k}")
-        return code
+        return [
+            *code,
+            f"%t{k} = fadd {FAST} {vector} {value}, %a{k}",
+            f"%b{k} = select {self.w.mask} {entering}, {vector} %t{k}, {vector} %a{k}",
+        ]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from linkwright.formula.ir_accumulators import AccumulatorWriter
 from linkwright.formula.ir_lines import LineWriter
 from linkwright.formula.ir_module import ENTRY, Shape, in_blocks, load_block, module_text, optimisation
-from linkwright.formula.ir_states import StateKernel
 from linkwright.formula.lines import Lines
 from linkwright.formula.reductions import PLACE, Accumulation
 
@@ -18,19 +17,15 @@ def kernel(
     library: bool = False,
     exact: bool = False,
 ) -> tuple[str, int]:
-    """The module, and how much it is to be optimised. Lanes are positions, or designs where states are carried.
+    """The module, and how much it is to be optimised.
 
-    ``library``: all functions are called from outside, lane by lane; ``exact``: every operation is rounded by itself
-    (of programs without states).
+    ``library``: all functions are called from outside, lane by lane; ``exact``: every operation is rounded by itself.
     """
-    if lines.carried:
-        text = StateKernel(lines, width, accumulation, library).text()
-    else:
-        text = PositionKernel(lines, width, accumulation, library, exact).text()
+    text = Kernel(lines, width, accumulation, library, exact).text()
     return text, optimisation(text)
 
 
-class PositionKernel:
+class Kernel:
     """Lanes are positions: full vectors first, then the last ones, overlapping the others."""
 
     def __init__(
@@ -40,8 +35,8 @@ class PositionKernel:
         self.shape = Shape.of(lines, accumulation)
         self.width = width
         self.accumulation = accumulation
-        self.writer = LineWriter(lines, width, wide=False, library=library, exact=exact)
-        self.sums = None if accumulation is None else AccumulatorWriter(self.writer, accumulation, "%fresh")
+        self.writer = LineWriter(lines, width, library=library, exact=exact)
+        self.sums = None if accumulation is None else AccumulatorWriter(self.writer, accumulation)
 
     def text(self) -> str:
         """The module's text."""

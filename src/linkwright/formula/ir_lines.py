@@ -21,20 +21,16 @@ _LOGIC = {"and": "and", "or": "or"}
 class LineWriter(Lanes):
     """Writes lines as instructions; ``%v12`` is line 12, ``%w12`` the same in all lanes.
 
-    ``wide``: whether the lines per design are vectors too (the lanes are designs). ``library``: functions
-    are called from outside, lane by lane. ``exact``: every operation is rounded by itself. ``names`` and
-    ``tables`` may be changed where lines are written beside others: the names of values, and where
+    ``library``: functions are called from outside, lane by lane. ``exact``: every operation is rounded by itself.
+    ``names`` and ``tables`` may be changed where lines are written beside others: the names of values, and where
     the tables stand.
     """
 
-    def __init__(
-        self, lines: Lines, width: int, wide: bool, library: bool = False, exact: bool = False
-    ) -> None:
+    def __init__(self, lines: Lines, width: int, library: bool = False, exact: bool = False) -> None:
         super().__init__(width)
         self.may = "" if exact else f"{FAST} "
         self.lines = lines.lines
         self.outputs = lines.outputs
-        self.wide = wide
         self._in_lanes = {} if library or width < 2 else IN_LANES
         self.names: dict[int, str] = {}
         self.tables = list(range(lines.tables))
@@ -50,7 +46,7 @@ class LineWriter(Lanes):
 
     def is_vector(self, index: int) -> bool:
         """Whether a line is held in all lanes."""
-        return self.wide or self.lines[index].varies
+        return self.lines[index].varies
 
     def type_of(self, index: int, vector: bool) -> str:
         """LLVM type of a line's value."""

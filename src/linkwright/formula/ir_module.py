@@ -22,8 +22,8 @@ ENTRY = "linkwright_run"
 class Block:
     """Places of the call block, an array of 64-bit numbers and addresses."""
 
-    DESIGNS, LENGTH, COUNT, FULL_END, TAIL_START, TAIL_LOW, TAIL_HIGH, PARAMETERS, OUT, STARTS = range(10)
-    INPUTS = 10
+    DESIGNS, LENGTH, COUNT, FULL_END, TAIL_START, TAIL_LOW, TAIL_HIGH, PARAMETERS, OUT = range(9)
+    INPUTS = 9
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,6 @@ class Shape:
     parameters: int
     positions: int
     fields: int
-    states: int
     outputs: int
     tables: int
 
@@ -41,11 +40,9 @@ class Shape:
     def of(cls, lines: Lines, accumulation: Accumulation | None) -> Shape:
         """Counted from the lines, and what follows them."""
         kinds = [line.op for line in lines.lines]
-        parameters, positions, fields, states = (
-            kinds.count(kind) for kind in ("parameter", "position", "field", "state")
-        )
+        parameters, positions, fields = (kinds.count(kind) for kind in ("parameter", "position", "field"))
         tables = lines.tables if accumulation is None else len(accumulation.tables)
-        return cls(parameters, positions, fields, states, len(lines.outputs), tables)
+        return cls(parameters, positions, fields, len(lines.outputs), tables)
 
 
 def in_blocks(label: str, code: list[str]) -> tuple[list[str], str]:
@@ -74,7 +71,7 @@ def load_block(shape: Shape) -> list[str]:
     ]
     inputs = (("position", shape.positions), ("field", shape.fields), ("table", shape.tables))
     names = [f"{kind}{k}" for kind, count in inputs for k in range(count)]
-    pointers = [("parameters", Block.PARAMETERS), ("out", Block.OUT), ("starts", Block.STARTS)]
+    pointers = [("parameters", Block.PARAMETERS), ("out", Block.OUT)]
     pointers += [(name, Block.INPUTS + k) for k, name in enumerate(names)]
     code = []
     for kind, entries in (("i64", numbers), ("ptr", pointers)):
@@ -99,7 +96,6 @@ def module_text(body: list[str], width: int) -> str:
             for name in ("add", "smin", "or")
         ),
         f"declare {vector} @llvm.masked.gather.{suffix}.v{width}p0({pointers}, i32, {mask}, {vector})",
-        f"declare void @llvm.masked.scatter.{suffix}.v{width}p0({vector}, {pointers}, i32, {mask})",
         *(
             f"declare double @linkwright_{f.library}({', '.join(['double'] * len(f.slopes))}) "
             "nounwind willreturn readnone"

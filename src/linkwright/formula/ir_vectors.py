@@ -37,14 +37,6 @@ class Lanes:
             f"{self.mask} {self.all_true}, {self.vector} zeroinitializer)",
         ]
 
-    def scatter(self, value: str, base: str, offset: str, name: str) -> list[str]:
-        """Stores the lanes of a value at ``base`` + ``offset``."""
-        return [
-            f"{name}.to = getelementptr double, ptr {base}, {self.integers} {offset}",
-            f"call void @llvm.masked.scatter.{self._suffix}({self.vector} {value}, {self.pointers} {name}.to, i32 8, "
-            f"{self.mask} {self.all_true})",
-        ]
-
     @property
     def _suffix(self) -> str:
         return f"v{self.width}f64.v{self.width}p0"

@@ -1,6 +1,6 @@
 """Programs as JavaScript text: what browsers run where no WebAssembly module can be made.
 
-A kernel is a function of plain arrays: ``(parameters, positions, fields, tables, starts, out, n)``; ``positions``,
+A kernel is a function of plain arrays: ``(parameters, positions, fields, tables, out, n)``; ``positions``,
 ``fields`` and ``tables`` are lists of Float64Array, a table as in :attr:`Table.numbers`; ``out`` holds every output's
 ``n`` values, one output after the other.
 """
@@ -33,17 +33,12 @@ def javascript(program: Program, name: str) -> str:
         _stated(i, line) for i, line in enumerate(lines.lines) if not line.varies and line.op != "constant"
     ]
     loop = [_stated(i, line) for i, line in enumerate(lines.lines) if line.varies]
-    states = [(i, line.place) for i, line in enumerate(lines.lines) if line.op == "state"]
-    carried = {place: f"s{place}" for _, place in states}
     stored = [f"out[{row}*n+i]={_number(lines, i)};" for row, i in enumerate(lines.outputs)]
-    following = [f"const t{place}={_number(lines, i)};" for place, i in enumerate(lines.carried)]
-    following += [f"s{place}=t{place};" for place in range(len(lines.carried))]
-    begin = [f"let s{place}=starts[{place}];" for place in carried]
     constants = [_constant(i, line.constant) for i, line in enumerate(lines.lines) if line.op == "constant"]
     return "\n".join(
         [
-            f"function {name}(parameters,positions,fields,tables,starts,out,n){{",
-            *constants, *design, *begin, "for(let i=0;i<n;i++){", *loop, *stored, *following, "}}",
+            f"function {name}(parameters,positions,fields,tables,out,n){{",
+            *constants, *design, "for(let i=0;i<n;i++){", *loop, *stored, "}}",
         ]
     )  # fmt: skip
 
@@ -73,8 +68,6 @@ def _spelled(line: Line) -> str:
     match line.op:
         case "parameter":
             return f"parameters[{line.place}]"
-        case "state":
-            return f"s{line.place}"
         case "lookup":
             return f"look(tables[{line.place}],{args[0]},{line.constant:.0f})"
         case "neg":

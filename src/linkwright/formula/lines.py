@@ -8,7 +8,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.formula.node import COMPARISONS
 from linkwright.formula.program import Program
 
-INPUTS = frozenset({"parameter", "position", "field", "state"})
+INPUTS = frozenset({"parameter", "position", "field"})
 LOGIC = frozenset({"and", "or", "not"})
 
 
@@ -41,14 +41,10 @@ class Line(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Lines:
-    """Lines in the order of evaluation; ``outputs`` and ``carried`` by line number.
-
-    ``tables``: how many are looked up. ``carried[k]`` gives the next value of the state at place ``k``.
-    """
+    """Lines in the order of evaluation; ``outputs`` by line number; ``tables``: how many are looked up."""
 
     lines: tuple[Line, ...]
     outputs: tuple[int, ...]
-    carried: tuple[int, ...]
     tables: int = 0
 
     @classmethod
@@ -70,14 +66,9 @@ class Lines:
                 where.append(where[args[0]])
             else:
                 where.append(builder.operation(op, [where[i] for i in args], varies))
-        carried = dict(program.next_states)
-        missing = [name for name in program.states if name not in carried]
-        if missing and carried:
-            raise ValueError(f"no next value is given for the states {', '.join(missing)}")
         return cls(
             tuple(builder.lines),
             tuple(where[i] for _, i in program.outputs),
-            tuple(builder.number(where[carried[name]]) for name in program.states if carried),
             len(program.tables),
         )
 
@@ -86,9 +77,9 @@ class Lines:
         return [i for i, line in enumerate(self.lines) if line.args and not line.varies]
 
     def boundary(self) -> list[int]:
-        """Values found once per design that lines per position, outputs or next states use."""
+        """Values found once per design that lines per position or outputs use."""
         wanted = {a for line in self.lines if line.varies for a in line.args}
-        wanted.update(self.outputs, self.carried)
+        wanted.update(self.outputs)
         return sorted(i for i in wanted if not self.lines[i].varies and self.lines[i].op != "constant")
 
 

@@ -51,9 +51,6 @@ def compile_program(
 
 def _compile(program: Program, accumulation: Accumulation | None, exact: bool) -> CompiledProgram:
     needed = program if accumulation is None else accumulation.needed
-    if needed.states and not needed.next_states:
-        names = ", ".join(needed.states)
-        raise ValueError(f"no next values of the states {names} are given: take the states as fields")
     width = machine_code.host().width
     key = f"{needed.key} {'stored' if accumulation is None else accumulation.key}{' exact' if exact else ''}"
     code = loaded_code(key, lambda: kernel(Lines.of(needed), width, accumulation, exact=exact), ENTRY)
@@ -84,10 +81,10 @@ class CompiledProgram:
 
         The same array of parameters given again is read where it lies. Outputs are read-only; those that nobody holds
         any more, nor a view of them, make room for the next ones. Raises ValueError for missing inputs, unequal
-        lengths, and programs that take fields or carry states.
+        lengths, and programs that take fields.
         """
-        if self.program.fields or self.program.next_states:
-            raise ValueError("only programs without fields and states are repeated")
+        if self.program.fields:
+            raise ValueError("only programs without fields are repeated")
         own, function = threading.local(), self._function
         inputs = self._inputs(positions, _NONE, None, tables)
         if inputs.stride != inputs.length:
@@ -121,8 +118,8 @@ class CompiledProgram:
         written where they lie; contiguous floats, they must live as long as the block is used, as must this program.
         """
         inputs = self._inputs(positions, fields, None, tables)
-        if self.program.next_states or inputs.stride != inputs.length:
-            raise ValueError(f"only programs of {self.width} or more positions, without states")
+        if inputs.stride != inputs.length:
+            raise ValueError(f"only programs of {self.width} or more positions")
         block = inputs.block(address_of(parameters), address_of(out))
         return ctypes.cast(self._function, ctypes.c_void_p).value or 0, block, inputs.fields_of(block)
 
@@ -132,21 +129,19 @@ class CompiledProgram:
         positions: Arrays,
         fields: Arrays = _NONE,
         *,
-        start: ArrayLike | None = None,
         threads: int = 1,
         length: int | None = None,
         tables: Tables | None = None,
     ) -> Floats:
         """Outputs of many designs, shape (designs, outputs, n).
 
-        ``parameters``: (designs, parameters); ``fields``: (designs, n) per name; ``start``:
-        (designs, states), the states before the first position; ``length``: n where no input
+        ``parameters``: (designs, parameters); ``fields``: (designs, n) per name; ``length``: n where no input
         is an array; ``tables``: those that the program looks up.
         """
         inputs = self._inputs(positions, fields, length, tables)
-        table, starts = self._tables(parameters, start)
+        table = self._table(parameters)
         out = aligned((len(table), len(self.program.outputs), inputs.stride))
-        self._call(inputs, table, starts, out, threads)
+        self._call(inputs, table, out, threads)
         stored: Floats = out[:, :, : inputs.length]
         return stored
 
@@ -156,7 +151,6 @@ class CompiledProgram:
         positions: Arrays,
         fields: Arrays = _NONE,
         *,
-        start: ArrayLike | None = None,
         threads: int = 1,
         length: int | None = None,
         tables: Tables | None = None,
@@ -168,9 +162,9 @@ class CompiledProgram:
         if self.accumulation is None:
             raise ValueError("this program was compiled without reductions: compile it with them to sweep")
         inputs = self._inputs(positions, fields, length, tables)
-        table, starts = self._tables(parameters, start)
+        table = self._table(parameters)
         sums = np.empty((len(table), self.accumulation.width))
-        self._call(inputs, table, starts, sums, threads)
+        self._call(inputs, table, sums, threads)
         return self.accumulation.finish(sums, inputs.length)
 
     def _inputs(self, positions: Arrays, fields: Arrays, length: int | None, tables: Tables | None) -> Inputs:
@@ -183,20 +177,15 @@ class CompiledProgram:
             self._own.inputs = kept if not kept.fields else None
         return kept
 
-    def _tables(self, parameters: ArrayLike, start: ArrayLike | None) -> tuple[Floats, Floats]:
+    def _table(self, parameters: ArrayLike) -> Floats:
         table = np.ascontiguousarray(parameters, dtype=np.float64)
         names = self.program.parameters if self.accumulation is None else self.accumulation.parameters
-        wanted, states = len(names), self.program.states
+        wanted = len(names)
         if table.ndim != 2 or table.shape[1] != wanted:
             raise ValueError(f"parameters must have the shape (designs, {wanted}), but have {table.shape}")
-        if not states:
-            return table, np.empty((len(table), 0))
-        if start is None:
-            raise ValueError(f"the program carries the states {', '.join(states)}: give their start")
-        given = np.broadcast_to(np.asarray(start, dtype=np.float64), (len(table), len(states)))
-        return table, np.ascontiguousarray(given)
+        return table
 
-    def _call(self, inputs: Inputs, table: Floats, starts: Floats, out: Floats, threads: int) -> None:
+    def _call(self, inputs: Inputs, table: Floats, out: Floats, threads: int) -> None:
         if inputs.length == 0 or len(table) == 0:
             out[...] = self.accumulation.start(len(table)) if self.accumulation is not None else np.nan
             return
@@ -210,7 +199,6 @@ class CompiledProgram:
                 address_of(out) + first * out.strides[0],
                 first,
                 after - first,
-                address_of(starts) + first * starts.strides[0],
             )
             self._function(address_of(block))
 

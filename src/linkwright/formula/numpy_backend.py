@@ -58,7 +58,6 @@ class NumpyProgram:
         parameters: ArrayLike,
         positions: Arrays,
         fields: Arrays | None = None,
-        states: Arrays | None = None,
         *,
         length: int | None = None,
         tables: Tables | None = None,
@@ -66,15 +65,15 @@ class NumpyProgram:
         """Outputs of one design, shape (outputs, n).
 
         ``parameters``: (parameters,) in the order of ``program.parameters``. ``positions``,
-        ``fields``, ``states``: one (n,) array per name; names that the program does not need are ignored.
+        ``fields``: one (n,) array per name; names that the program does not need are ignored.
         ``length``: n, where no input is an array. ``tables``: those that the program looks up, by name.
         Raises ValueError for missing inputs and unequal lengths.
         """
-        fields, states = fields or {}, states or {}
-        n = self._length(positions, {**fields, **states}, length)
+        fields = fields or {}
+        n = self._length(positions, fields, length)
         plan = self._plan(None, n)
         self._set_design(plan, _numbers(parameters), tables)
-        for kind, names, arrays in self._sources(positions, fields, states):
+        for kind, names, arrays in self._sources(positions, fields):
             for buffer, name in zip(plan.inputs[kind], names, strict=True):
                 buffer[...] = arrays[name]
         with np.errstate(all="ignore"):
@@ -91,7 +90,7 @@ class NumpyProgram:
         length: int | None = None,
         tables: Tables | None = None,
     ) -> Floats | None:
-        """As :meth:`run` without states, of a program whose late inputs stand last (see ``Program.last``).
+        """As :meth:`run`, of a program whose late inputs stand last (see ``Program.last``).
 
         ``parameters``: by name; ``late`` takes the outputs (outputs, n), of which the first ones, so many as are
         ``early`` and need no late input, are there already, and gives the late inputs by name; with None the
@@ -145,23 +144,18 @@ class NumpyProgram:
         parameters: ArrayLike,
         positions: Arrays,
         fields: Arrays | None = None,
-        states: Arrays | None = None,
         *,
-        start: ArrayLike | None = None,
         length: int | None = None,
         tables: Tables | None = None,
     ) -> Floats:
         """Outputs of many designs, shape (designs, outputs, n).
 
-        ``parameters``: (designs, parameters); ``fields`` and ``states``: (designs, n) per name. A program with
-        states takes either these, or ``start``, the (designs, states) values before the first position, carried on
-        from there; otherwise as :meth:`run`.
+        ``parameters``: (designs, parameters); ``fields``: (designs, n) per name; otherwise as :meth:`run`.
         """
         table = self._table(parameters)
-        n = self._length(positions, {**(fields or {}), **(states or {})}, length)
+        n = self._length(positions, fields or {}, length)
         result = np.empty((len(table), len(self.program.outputs), n))
-        blocks = self.blocks(table, positions, fields, states, start=start, length=n, tables=tables)
-        for designs, columns, outputs in blocks:
+        for designs, columns, outputs in self.blocks(table, positions, fields, length=n, tables=tables):
             result[designs, :, columns] = outputs.transpose(1, 0, 2)
         return result
 
@@ -170,9 +164,7 @@ class NumpyProgram:
         table: Floats,
         positions: Arrays,
         fields: Arrays | None = None,
-        states: Arrays | None = None,
         *,
-        start: ArrayLike | None = None,
         length: int | None = None,
         tables: Tables | None = None,
     ) -> Iterator[tuple[slice, slice, Floats]]:
@@ -180,25 +172,20 @@ class NumpyProgram:
 
         Inputs as for :meth:`run_designs`. A block's outputs are overwritten by the next block.
         """
-        fields, states = fields or {}, states or {}
-        n = self._length(positions, {**fields, **states}, length)
-        continued = bool(self.program.states) and not states
-        starts = self._starts(start, len(table)) if continued else None
+        fields = fields or {}
+        n = self._length(positions, fields, length)
         found = given_tables(self.program.tables, tables)
-        size, width = self.block(n, continued)
+        size, width = self.block(n)
         for first in range(0, len(table), size):
             part = slice(first, min(first + size, len(table)))
-            own_states = None if continued else _cut(states, part)
-            sources = self._sources(positions, _cut(fields, part), own_states)
-            own = None if starts is None else starts[part]
-            for columns, outputs in self._columns(table[part], sources, own, found, n, width):
+            sources = self._sources(positions, _cut(fields, part))
+            for columns, outputs in self._columns(table[part], sources, found, n, width):
                 yield part, columns, outputs
 
     def _columns(
         self,
         table: Floats,
         sources: list[Source],
-        starts: Floats | None,
         tables: list[Table],
         n: int,
         width: int,
@@ -211,48 +198,36 @@ class NumpyProgram:
             with np.errstate(all="ignore"):
                 if plan is not previous:
                     plan.tables[:] = tables
-                    _start_designs(plan, table, starts)
+                    for place, parameter in enumerate(plan.inputs["parameter"]):
+                        parameter[:, 0] = table[:, place]
+                    plan.run_design()
                 for kind, names, arrays in sources:
                     for buffer, name in zip(plan.inputs[kind], names, strict=True):
                         buffer[...] = np.asarray(arrays[name])[..., columns]
                 plan.run()
-                if starts is not None:
-                    plan.carry()
             yield columns, plan.outputs
 
-    def block(self, n: int, continued: bool = False) -> tuple[int, int]:
+    def block(self, n: int) -> tuple[int, int]:
         """Designs and positions of one block, so that its buffers stay in the cache."""
         buffers = self.registers.numbers + len(self.program.outputs) + len(self.program.fields) + 2
         room = max(256, 4 * _CACHE_NUMBERS // buffers)
-        if continued:
-            return room, 1
         width = min(n, room) or 1
         return max(1, room // width), width
 
-    def _starts(self, start: ArrayLike | None, designs: int) -> Floats:
-        if start is None:
-            names = ", ".join(self.program.states)
-            raise ValueError(f"the program carries the states {names}: give their arrays, or their start")
-        given = np.asarray(start, dtype=np.float64)
-        return np.broadcast_to(given, (designs, len(self.program.states)))
-
-    def _sources(self, positions: Arrays, fields: Arrays, states: Arrays | None) -> list[Source]:
+    def _sources(self, positions: Arrays, fields: Arrays) -> list[Source]:
         sources: list[Source] = [
             ("position", self.program.positions, positions),
             ("field", self.program.fields, fields),
         ]
-        if states is not None:
-            sources.append(("state", self.program.states, states))
         for kind, names, arrays in sources:
             missing = [name for name in names if name not in arrays]
             if missing:
                 raise ValueError(f"the program needs the {kind} inputs {', '.join(missing)}: give them")
         return sources
 
-    def _length(self, positions: Arrays, others: Arrays, length: int | None) -> int:
+    def _length(self, positions: Arrays, fields: Arrays, length: int | None) -> int:
         lengths = {np.shape(positions[name])[-1] for name in self.program.positions if name in positions}
-        wanted = (*self.program.fields, *self.program.states)
-        lengths |= {np.shape(others[name])[-1] for name in wanted if name in others}
+        lengths |= {np.shape(fields[name])[-1] for name in self.program.fields if name in fields}
         if length is not None:
             lengths.add(length)
         if not lengths:
@@ -290,15 +265,6 @@ def numpy_program(program: Program) -> NumpyProgram:
 
 
 _evaluators: Recent[Program, NumpyProgram] = Recent(64)
-
-
-def _start_designs(plan: BoundPlan, table: Floats, starts: Floats | None) -> None:
-    for place, buffer in enumerate(plan.inputs["parameter"]):
-        buffer[:, 0] = table[:, place]
-    plan.run_design()
-    if starts is not None:
-        for place, buffer in enumerate(plan.inputs["state"]):
-            buffer[:, 0] = starts[:, place]
 
 
 def _numbers(parameters: ArrayLike) -> list[float]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Container, Iterable, Mapping, Sequence
 from functools import cached_property
+from typing import Literal
 
 from linkwright.core.dataclass import dataclass
 from linkwright.formula.node import COMPARISONS, Entry, Node, needed
@@ -24,40 +25,43 @@ SYMBOLS = {
 
 @dataclass(frozen=True)
 class Program:
-    """Lines in the order of evaluation, by name of their fields in ``nodes``; outputs and next states by line number.
+    """Lines in the order of evaluation, by name of their fields in ``nodes``; outputs by line number.
 
     ``parameters``: one number per design; ``positions``: one per position; ``fields``: one per
-    design and position; ``states``: carried from a position to the next; ``tables``: data of a call.
+    design and position; ``tables``: data of a call.
     """
 
     entries: tuple[Entry, ...]
     outputs: tuple[tuple[str, int], ...]
-    next_states: tuple[tuple[str, int], ...] = ()
 
     @classmethod
-    def of(
-        cls,
-        trace: Trace,
-        outputs: Mapping[str, Scalar | bool],
-        next_states: Mapping[str, Scalar] | None = None,
-    ) -> Program:
+    def of(cls, trace: Trace, outputs: Mapping[str, Scalar | bool]) -> Program:
         """What of a trace the named outputs need, renumbered."""
         wanted = {name: trace.lift(value) for name, value in outputs.items()}
-        carried = {name: trace.lift(value) for name, value in (next_states or {}).items()}
-        kept = trace.needed([*wanted.values(), *carried.values()])
+        kept = trace.needed(wanted.values())
         number = {old: new for new, old in enumerate(kept)}
         return cls(
             tuple([trace.entry(old, number) for old in kept]),
             tuple((name, number[old]) for name, old in wanted.items()),
-            tuple((name, number[old]) for name, old in carried.items()),
         )
 
     def only(self, names: list[str]) -> Program:
         """The same program for some of its outputs."""
         entries, by_name = self.entries, dict(self.outputs)
         outputs = [(name, by_name[name]) for name in names]
-        wanted = [i for _, i in (*outputs, *self.next_states)]
-        return self._of(needed(lambda index: entries[index][1], wanted), outputs)
+        return self._of(needed(lambda index: entries[index][1], [i for _, i in outputs]), outputs)
+
+    def with_given(self, names: Container[str], op: Literal["field", "position"] = "field") -> Program:
+        """The same program with the parameters and positions of some names taken as fields, or as positions."""
+        nodes: list[Node] = []
+        for node in self.nodes:
+            if not node.args and node.name in names:
+                nodes.append(node._replace(op=op, varies=True))
+            else:
+                nodes.append(
+                    node._replace(varies=node.varies or any(nodes[each].varies for each in node.args))
+                )
+        return Program(tuple(nodes), self.outputs)
 
     def last(self, inputs: Container[str]) -> Program:
         """The same program with all lines that need some of its parameters or fields behind those that do not."""
@@ -73,7 +77,6 @@ class Program:
         return Program(
             tuple(_renumbered(self.entries[old], number) for old in order),
             tuple((name, number[i]) for name, i in outputs),
-            tuple((name, number[i]) for name, i in self.next_states),
         )
 
     @cached_property
@@ -98,10 +101,6 @@ class Program:
         return self._inputs("field")
 
     @cached_property
-    def states(self) -> tuple[str, ...]:
-        return self._inputs("state")
-
-    @cached_property
     def tables(self) -> tuple[str, ...]:
         """The tables that are looked up, each once."""
         return tuple(dict.fromkeys(self._inputs("lookup")))
@@ -109,7 +108,7 @@ class Program:
     @property
     def names(self) -> dict[str, list[str]]:
         """The names of the outputs, and of the inputs of every kind, in their order."""
-        kinds = ("parameters", "positions", "fields", "states", "tables")
+        kinds = ("parameters", "positions", "fields", "tables")
         return {"outputs": list(self.output_names), **{kind: list(getattr(self, kind)) for kind in kinds}}
 
     def _inputs(self, kind: str) -> tuple[str, ...]:
@@ -134,7 +133,6 @@ class Program:
         """The program as lines ``v12 = v3 * v7``."""
         lines = [f"v{i} = {_spelled(*entry)}" for i, entry in enumerate(self.entries)]
         lines += [f"output {name} = v{i}" for name, i in self.outputs]
-        lines += [f"carry {name} = v{i}" for name, i in self.next_states]
         return "\n".join(lines)
 
     def yields_truth(self, index: int) -> bool:

@@ -53,7 +53,7 @@ class Registers:
 
 def _last_uses(lines: Lines) -> dict[int, int]:
     last = {a: index for index, line in enumerate(lines.lines) for a in line.args}
-    last.update(dict.fromkeys((*lines.outputs, *lines.carried), len(lines.lines)))
+    last.update(dict.fromkeys(lines.outputs, len(lines.lines)))
     return last
 
 

@@ -65,7 +65,7 @@ class InTurn:
     def _parts(self) -> tuple[Program, Program] | None:
         """Programs of the early and of the other outputs; None where code would not have the same bits."""
         program, names = self.program, list(self.program.output_names)
-        if program.fields or program.states or not available():
+        if program.fields or not available():
             return None
         if not all(op in _ALIKE for op, args, *_ in program.entries if args):
             return None

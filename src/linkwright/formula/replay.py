@@ -53,7 +53,7 @@ class Replay:
         if node.name in self._given:
             return self._given[node.name]
         t = self.trace
-        make = {"parameter": t.parameter, "position": t.position, "field": t.field_input, "state": t.state}
+        make = {"parameter": t.parameter, "position": t.position, "field": t.field_input}
         return make[node.op](node.name)
 
 
@@ -147,13 +147,13 @@ def operations(program: Program, chosen: set[int]) -> Iterator[int]:
 def inlined(program: Program, trace: Trace, inputs: Mapping[str, Scalar]) -> dict[str, Scalar | bool]:
     """The outputs of a program written into a trace, with values of that trace for some of its inputs.
 
-    So a motion traced over positions becomes one at a state, a cycle value, or another function of them.
+    So a motion traced over positions becomes a cycle value, or another function of them.
     """
     return Replay(program, trace=trace, inputs=inputs).outputs
 
 
 def across_designs(program: Program) -> Program:
-    """A program without positions and states with its parameters as positions: the lanes are designs."""
+    """A program without positions with its parameters as positions: the lanes are designs."""
     t = Trace()
     return Program.of(t, inlined(program, t, {name: t.position(name) for name in program.parameters}))
 
@@ -176,8 +176,7 @@ def along_input(program: Program) -> tuple[Program, Program] | None:
             replay.values[index] = replay.trace.position(f"{_ALONE}{index}")
         else:
             replay.write(index)
-    following = {name: replay.values[i] for name, i in program.next_states}
-    rest = Program.of(replay.trace, replay.outputs, following)
+    rest = Program.of(replay.trace, replay.outputs)
     wanted = [name for name in rest.positions if name.startswith(_ALONE)]
     return Program(program.entries, tuple((name, int(name.removeprefix(_ALONE))) for name in wanted)).only(
         wanted

@@ -138,7 +138,7 @@ class ScalarProgram:
         self._position = LineRunner(lines, [i for i, x in enumerate(lines) if x.varies and x.is_operation])
         self._inputs = {
             op: [i for i, line in enumerate(lines) if line.op == op]
-            for op in ("parameter", "position", "field", "state")
+            for op in ("parameter", "position", "field")
         }
         self._prepared: tuple[tuple[float, ...] | None, list[Any]] = (None, [])
 
@@ -146,27 +146,21 @@ class ScalarProgram:
         self,
         parameters: Sequence[float],
         positions: Sequence[float],
-        states: Sequence[float] = (),
         fields: Sequence[float] = (),
-    ) -> tuple[list[float], list[float]]:
-        """Outputs and next states at one position.
+    ) -> list[float]:
+        """Outputs at one position.
 
-        All arguments in the order of ``program.parameters``, ``.positions``, ``.states`` and
-        ``.fields``, as Python floats. Truth values among the outputs are 1.0 or 0.0.
-        Raises ValueError where a number of inputs is wrong.
+        All arguments in the order of ``program.parameters``, ``.positions`` and ``.fields``, as Python floats. Truth
+        values among the outputs are 1.0 or 0.0. Raises ValueError where a number of inputs is wrong.
         """
         values = self._design_values(parameters)
         self._put(values, "position", positions)
         self._put(values, "field", fields)
-        self._put(values, "state", states)
         self._position.run(values)
-        return (
-            [float(values[i]) for i in self.lines.outputs],
-            [values[i] for i in self.lines.carried],
-        )
+        return [float(values[i]) for i in self.lines.outputs]
 
     def of_design(self, parameters: Sequence[float]) -> Callable[[Sequence[float]], list[float]]:
-        """Outputs of one design from the inputs per position, of programs without states and fields."""
+        """Outputs of one design from the inputs per position, of programs without fields."""
         known, places, outputs = list(self._start), self._inputs["position"], self.lines.outputs
         for index, value in zip(self._inputs["parameter"], parameters, strict=True):
             known[index] = value

@@ -159,7 +159,7 @@ def _one_design(program: Program, columns: Mapping[str, ArrayLike], run: Run) ->
         if program.tables
         else _short.get(program, None, lambda: ScalarProgram(program))
     )
-    outputs, _ = scalar.step((), [float(np.asarray(columns[name])[0]) for name in program.positions])
+    outputs = scalar.step((), [float(np.asarray(columns[name])[0]) for name in program.positions])
     return np.array(outputs)[:, None]
 
 

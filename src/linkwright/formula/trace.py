@@ -151,12 +151,8 @@ class Trace:
         return self._line("position", name=name, varies=True)
 
     def field_input(self, name: str) -> Value:
-        """One number per design and position (a load found from an earlier result)."""
+        """One number per design and position (a load found from an earlier result, the start of an iteration)."""
         return self._line("field", name=name, varies=True)
-
-    def state(self, name: str) -> Value:
-        """A number carried from one position to the next (the start of an iteration)."""
-        return self._line("state", name=name, varies=True)
 
     # operations ---------------------------------------------------------------------------
     def add(self, a: Scalar, b: Scalar) -> Scalar:

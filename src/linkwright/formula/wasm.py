@@ -1,6 +1,6 @@
 """Programs as WebAssembly modules for browsers, by the same text that native code is made of.
 
-Positions are taken in vectors of four numbers (two of SIMD128 at a time); a program with states has one design.
+Positions are taken in vectors of four numbers (two of SIMD128 at a time).
 Square roots, absolute values and floors are instructions; the other functions are imported from the host
 (``env.linkwright_sin`` …), as native code takes them from the C library. The only other import is the memory.
 Function ``kernel`` takes the address of the program's call block (see ``ir_kernel.Block``; 64 bits per place,
@@ -22,7 +22,7 @@ from linkwright.formula.program import Program
 from linkwright.formula.wasm_module import linked
 
 _TRIPLE = "wasm32-unknown-unknown"
-#: Positions in one step of a loop; programs that carry states have one design.
+#: Positions in one step of a loop.
 WIDTH = 4
 #: Functions of a module besides its kernels: written into these, since vectors would pass between them on a stack.
 _INTERNAL = re.compile(r"(?m)^(define internal .*) nounwind \{$")
@@ -33,7 +33,7 @@ def wasm_module(program: Program) -> bytes | None:
     machine = _machines() if importlib.util.find_spec("llvmlite") else None
     if machine is None:
         return None
-    text, level = kernel(Lines.of(program), 1 if program.next_states else WIDTH, None, library=True)
+    text, level = kernel(Lines.of(program), WIDTH, None, library=True)
     text = _INTERNAL.sub(r"\1 alwaysinline nounwind {", text.replace(f"@{ENTRY}(", "@kernel("))
     return linked(_object(text, machine[level]), {"kernel": 0})
 

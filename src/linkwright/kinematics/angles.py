@@ -91,7 +91,7 @@ class Angles:
     def _found(self, group: Group, step: TreeJoint) -> Scalar:
         if step.free and step.turns:
             now = self.poses[step.child].direction
-            before = self.dimensions.trace.state(turn_state(step.child))
+            before = self.dimensions.trace.field_input(turn_state(step.child))
             found = nearest_turn(angle(now.y, now.x), before)
             self.counted[step.child] = found
             return found

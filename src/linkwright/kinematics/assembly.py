@@ -228,13 +228,13 @@ class _Probe:
     ) -> float:
         """The squared distance of a group's points, m²."""
         values = self._values(modes, inputs)
-        outputs, _ = self.steps.step(
+        outputs = self.steps.step(
             [values[name] for name in self.program.parameters],
             [values[name] for name in self.program.positions],
-            [states[name] for name in self.program.states],
+            [states[name] for name in self.program.fields],
         )
         goals = self.goals[group.name].items()
-        gap = sum((float(outputs[self.places[name]]) - goal) ** 2 for name, goal in goals)
+        gap = sum((outputs[self.places[name]] - goal) ** 2 for name, goal in goals)
         return gap if gap == gap else math.inf
 
     def _values(self, modes: dict[str, float], inputs: Mapping[str, float]) -> dict[str, float]:

@@ -59,7 +59,7 @@ class DrawnAssembly:
         """Of every unknown the inputs of the trace that change with it."""
         trace, found = motion.trace, list[dict[Value, Scalar]]()
         for k in range(len(self.steps)):
-            own = {kind: trace.state(name) for name, (at, kind) in states.items() if at == k}
+            own = {kind: trace.field_input(name) for name, (at, kind) in states.items() if at == k}
             found.append(
                 {own["cos"]: -own["sin"], own["sin"]: own["cos"]} if "cos" in own else {own[""]: 1.0}
             )

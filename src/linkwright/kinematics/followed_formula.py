@@ -21,7 +21,6 @@ from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.scalar_backend import ScalarProgram
-from linkwright.formula.states import inputs_as_fields
 from linkwright.formula.trace import Mask, Scalar
 from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.groups import counted, in_one_step, iterated, state_name, upstream
@@ -98,7 +97,7 @@ class FollowedFormula:
         with self.programs.lock:
             program = Program.of(self.programs.motion.trace, outputs)
         return ScalarProgram(
-            inputs_as_fields(program, [f"{name}.speed" for name in self.programs.mechanism.drivers])
+            program.with_given([f"{name}.speed" for name in self.programs.mechanism.drivers])
         )
 
     def _outputs(self) -> Mapping[str, Scalar | bool]:
@@ -177,13 +176,13 @@ class FollowedGroups:
         numbers = tuple(float(self.design.parameters[name]) for name in program.parameters)
         parts = (name.partition(":") for name in program.positions)
         given = [(_GIVEN[kind], drivers.index(owner)) for kind, _, owner in parts]
-        speeds = [drivers.index(name.removesuffix(".speed")) for name in program.fields]
-        read = [(_READ[kind], k) for k, kind in (places[name] for name in program.states)]
+        speeds = {f"{name}.speed": (k, "speed") for k, name in enumerate(drivers)}
+        read = [(_READ.get(kind), k) for k, kind in ({**places, **speeds}[name] for name in program.fields)]
 
         def at(z: Sequence[float], q: Sequence[float], ahead: Sequence[float]) -> list[float]:
             inputs = [kind(q[k], ahead[k]) for kind, k in given]
-            states = [kind(z[k]) for kind, k in read]
-            return scalar.step(numbers, inputs, states, [ahead[k] for k in speeds])[0]
+            fields = [kind(z[k]) if kind else ahead[k] for kind, k in read]
+            return scalar.step(numbers, inputs, fields)
 
         return at
 
@@ -233,7 +232,7 @@ class FollowedGroups:
             inputs |= driven(name, rotary, (q[:, k], still, still), np.cos, np.sin)
         z = z.copy()
         for _ in range(3):
-            found = program.run(numbers, inputs, None, self.states(z) or None, length=len(z))
+            found = program.run(numbers, inputs, self.states(z), length=len(z))
             moved = np.zeros(len(z))
             for k, (_, sine, unit, mine, turns) in enumerate(self._found):
                 value = found[row[f"at {k}"]]

@@ -212,10 +212,10 @@ class GroupTracer:
     def _start(self, group: Group, step: TreeJoint) -> Coordinate:
         trace, name = self.dimensions.trace, state_name(group, step)
         if step.slides:
-            return trace.state(f"{name}.s")
+            return trace.field_input(f"{name}.s")
         if geared(group):
-            return trace.state(f"{name}.angle")
-        return Rotor(Vec(trace.state(f"{name}.x"), trace.state(f"{name}.y")), UNTURNED.local)
+            return trace.field_input(f"{name}.angle")
+        return Rotor(Vec(trace.field_input(f"{name}.x"), trace.field_input(f"{name}.y")), UNTURNED.local)
 
 
 #: Square of the last Newton correction (relative) below which a position counts as found.

@@ -132,7 +132,7 @@ def _turned(
     for k in range(count):
         q = start + tau * k / count
         inputs = turned(name, q, cos, sin)
-        found.append(scalar.step(numbers, [inputs.get(each, inf) for each in program.positions])[0])
+        found.append(scalar.step(numbers, [inputs.get(each, inf) for each in program.positions]))
         if found[-1][-1] != 0.0:
             return None
     return [list(row) for row in zip(*found, strict=True)][:-1]

@@ -131,7 +131,7 @@ class MotionSolver:
         parameters = (design or self.nominal).parameters
         values = [parameters[name] for name in program.program.parameters]
         arrays = {**positions.arrays, **modes}
-        return np.asarray(program.run(values, arrays, None, states or None, length=positions.count))
+        return np.asarray(program.run(values, arrays, states, length=positions.count))
 
 
 #: Of mechanisms as they are.

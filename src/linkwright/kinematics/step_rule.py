@@ -63,7 +63,7 @@ class StepRule:
     def _state(self, name: str, begin: float | str, following: Scalar) -> Scalar:
         """A state of the rule: its value from the position before."""
         self.begin[name], self.following[name] = begin, following
-        return self.motion.trace.state(name)
+        return self.motion.trace.field_input(name)
 
     def _judge(self, placed: Placed, first: Mask) -> None:
         trace = self.motion.trace
@@ -96,7 +96,7 @@ class StepRule:
         predicted = moved(value, h * rate + 0.5 * (h * h) * second)
         if isinstance(value, Rotor):
             scale = 1.0
-            start = Vec(self.motion.trace.state(f"{name}.x"), self.motion.trace.state(f"{name}.y"))
+            start = Vec(*(self.motion.trace.field_input(f"{name}.{axis}") for axis in "xy"))
             before = Vec(
                 self._state(f"before:{name}.x", f"{name}.x", value.now.x),
                 self._state(f"before:{name}.y", f"{name}.y", value.now.y),
@@ -107,7 +107,7 @@ class StepRule:
             scale = 1.0 / self.motion.mechanism.size if joint.slides else 1.0
             state = f"{name}.s" if joint.slides else f"{name}.angle"
             way = value - self._state(f"before:{state}", state, value)
-            off = value - self.motion.trace.state(state)
+            off = value - self.motion.trace.field_input(state)
         quintic = 0.5 * h * (rate + rate_before) + (h * h * (1.0 / 12.0)) * (second_before - second)
         return way * scale, off * scale, (way - quintic) * scale, predicted
 

@@ -53,7 +53,5 @@ def _evaluated(forces: Forces, outputs: dict[str, Scalar]) -> Floats:
     program = NumpyProgram(Program.of(motion.solver.motion.trace, outputs))
     inner = program.program
     parameters = [motion.design.parameters[name] for name in inner.parameters]
-    given = {name: forces.fields[name] for name in inner.fields}
-    positions, states = motion.positions, motion.states
-    arrays = {**positions.arrays, **motion.modes}
-    return np.asarray(program.run(parameters, arrays, given, states or None, length=positions.count))
+    arrays, given = {**motion.positions.arrays, **motion.modes}, {**motion.states, **forces.fields}
+    return np.asarray(program.run(parameters, arrays, given, length=motion.steps))

@@ -66,7 +66,10 @@ class ForceSolver:
 
     def fields_needed(self) -> tuple[str, ...]:
         """Inputs per position that are found from the motion: load magnitudes, angles, friction."""
-        return self.program(self.programs.checks.names).program.fields
+        carried = self.motion.motion.next_states
+        return tuple(
+            name for name in self.program(self.programs.checks.names).program.fields if name not in carried
+        )
 
     def evaluate(
         self,
@@ -79,7 +82,6 @@ class ForceSolver:
         program = self.program(names)
         known = {**motion.design.parameters, **(numbers or {})}
         values = [known[name] for name in program.program.parameters]
-        positions, states = motion.positions, motion.states
-        arrays = {**positions.arrays, **motion.modes}
-        given = {name: fields[name] for name in program.program.fields}
-        return np.asarray(program.run(values, arrays, given, states or None, length=positions.count))
+        arrays = {**motion.positions.arrays, **motion.modes}
+        given = {**motion.states, **fields}
+        return np.asarray(program.run(values, arrays, given, length=motion.steps))

@@ -93,7 +93,7 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
         "drawing": drawn(document, motion),
         "positions": positions(motion, programs.arrays(), mode_inputs(programs.solver.assembly.modes)),
         "fields": {name: packed(row) for name, row in programs.fields().items()},
-        "starts": programs.starts if programs.iterated else {},
+        "starts": programs.starts,
         "held": programs.held,
         "phases": programs.phases,
         "angles": programs.angles,

@@ -14,9 +14,8 @@ from linkwright.core.json_data import Plain
 from linkwright.core.outputs import SLIDE, Output, row_name, row_names
 from linkwright.elements.topology import Group
 from linkwright.formula.program import Program
-from linkwright.formula.states import inputs_as_fields
 from linkwright.formula.table import Tables
-from linkwright.formula.trace import Scalar, select
+from linkwright.formula.trace import Scalar
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, program_names
 from linkwright.kinematics.programs import Manner
@@ -144,34 +143,39 @@ class PagePrograms:
 
     @cached_property
     def main(self) -> Program:
-        """All outputs; it carries states where groups are iterated."""
+        """All outputs; where groups are iterated, also their coordinates (``next:``), and all that the formula takes
+        at the next position (``then:``)."""
         motion = self.solver.motion
         outputs = self._outputs(motion)
         if not self.iterated:
             return self._with_angles(Program.of(motion.trace, {**outputs, "ok": motion.valid}))
         trace = motion.trace
-        rule = StepRule(motion, trace.position("step"))
-        passed = trace.logic("and", motion.valid, trace.compare("less", 0.5, trace.state("alive")))
-        passed = trace.logic("and", passed, rule.kept)
+        rule = self._rule
         outputs |= {f"next:{name}": value for name, value in motion.next_states.items()}
+        outputs |= {f"then:{name}": value for name, value in rule.following.items()}
         outputs |= {f"determinant:{name}": placed.determinant for name, placed in motion.placed.items()
                     if placed.coordinates}  # fmt: skip
-        following = {**rule.following, "alive": select(passed, 1.0, 0.0)}
-        self.begin = {**rule.begin, "alive": 1.0}
-        return self._with_angles(
-            Program.of(trace, {**outputs, "margin": rule.margin, "ok": passed}, following)
-        )
+        passed = trace.logic("and", motion.valid, rule.kept)
+        return self._with_angles(Program.of(trace, {**outputs, "margin": rule.margin, "ok": passed}))
+
+    @cached_property
+    def _rule(self) -> StepRule:
+        motion = self.solver.motion
+        return StepRule(motion, motion.trace.position("step"))
 
     def _with_angles(self, program: Program) -> Program:
         """The program with the angles near which angles stay, where these turn through, taken per position."""
-        return inputs_as_fields(program, [str(each["field"]) for each in self._angles])
+        return program.with_given([str(each["field"]) for each in self._angles])
 
     @cached_property
     def starts(self) -> dict[str, float | str]:
-        """First values of the states: numbers, or the name of the state that they repeat."""
-        _ = self.main
+        """What goes from one position to the next, with its first values: numbers, or the name of another that they
+        repeat."""
+        if not self.iterated:
+            return {}
         states = {name: float(row[0]) for name, row in self.motion.states.items()}
-        return {name: states.get(name, self.begin.get(name, 0.0)) for name in self.main.states}
+        begin = {**dict.fromkeys(self._rule.following, 0.0), **self._rule.begin, **states}
+        return {name: begin[name] for name in self.main.fields if name in begin}
 
     def _outputs(self, motion: MotionTrace) -> dict[str, Scalar | bool]:
         solver = self.solver
@@ -244,7 +248,9 @@ class PagePrograms:
         if self.forces is None:
             return {}
         empty = np.zeros(self.motion.positions.count)
-        return {name: self.forces.fields.get(name, empty) for name in self.main.fields}
+        return {
+            name: self.forces.fields.get(name, empty) for name in self.main.fields if name not in self.starts
+        }
 
     def arrays(self) -> dict[str, Floats]:
         """The inputs per position."""

@@ -12,7 +12,6 @@ function run(work, code) {
   const call = new Kernel(work.program, code, work.tables).call(work.n);
   call.set(work.values);
   call.give(arrays({ ...work.positions, ...work.fields }));
-  call.starts.set(number(work.starts));
   call.run();
   return Object.fromEntries(call.program.outputs.map((name) => [name, [...call.row(name)]]));
 }

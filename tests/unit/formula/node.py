@@ -30,7 +30,6 @@ def work(
     n: int,
     *,
     fields: Mapping[str, Any] | None = None,
-    starts: Sequence[float] = (),
     tables: Tables | None = None,
 ) -> dict[str, Any]:
     """One evaluation of one design as plain data."""
@@ -42,7 +41,6 @@ def work(
         "values": dict(values),
         "positions": {name: _plain(row) for name, row in positions.items()},
         "fields": {name: _plain(row) for name, row in (fields or {}).items()},
-        "starts": list(starts),
         "tables": {name: table.numbers.tolist() for name, table in (tables or {}).items()},
         "n": n,
     }

@@ -29,7 +29,6 @@ from linkwright.formula.trace import (
 PARAMETERS = ("a", "b", "c")
 POSITIONS = ("x", "y")
 FIELDS = ("f",)
-STATES = ("s", "t")
 
 
 class Formulas:
@@ -80,16 +79,14 @@ OPERATION: dict[str, Callable] = {  # type: ignore[type-arg]
 OPERATIONS = list(OPERATION)
 
 
-def random_program(seed: int, *, carried: bool = False, fields: bool = True) -> tuple[Program, Formulas]:
+def random_program(seed: int, *, fields: bool = True) -> tuple[Program, Formulas]:
     formulas = Formulas(seed)
     t = Trace()
     inputs = [t.parameter(n) for n in PARAMETERS] + [t.position(n) for n in POSITIONS]
     inputs += [t.field_input(n) for n in FIELDS] if fields else [0.5]
-    states = [t.state(n) for n in STATES] if carried else []
-    values, truths = formulas([*inputs, *states], len(PARAMETERS))
+    values, truths = formulas(inputs, len(PARAMETERS))
     outputs = outputs_of(values, truths, inputs)
-    following = dict(zip(STATES, next_states(values), strict=True)) if carried else None
-    return Program.of(t, outputs, following), formulas
+    return Program.of(t, outputs), formulas
 
 
 def outputs_of(values: list, truths: list, inputs: list) -> dict:  # type: ignore[type-arg]
@@ -99,7 +96,3 @@ def outputs_of(values: list, truths: list, inputs: list) -> dict:  # type: ignor
     outputs |= {"design": values[8] * inputs[0], "x": inputs[3], "a": inputs[0], "constant": 2.5}
     outputs |= {"low": truths[-1], "valid": touched < 3.0, "again": outputs["v0"]}
     return outputs
-
-
-def next_states(values: list) -> list:  # type: ignore[type-arg]
-    return [v / (1.0 + absolute(v)) for v in values[-2:]]

@@ -19,7 +19,6 @@ from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.registers import NUMBER, ROW, TRUTH, Registers
 from linkwright.formula.replay import Replay, across_designs
-from linkwright.formula.states import states_as_fields
 from linkwright.formula.trace import Scalar, Trace, Value
 from linkwright.formula.vector import Vec, choose
 
@@ -107,7 +106,7 @@ def test_a_line_varies_if_one_of_its_arguments_does() -> None:
     a, x, f = t.parameter("a"), t.position("x"), t.field_input("f")
     for value, varies in ((a + 1.0, False), (a + x, True), (x * a, True), (-a, False), (-x, True), (a * f, True),
                           (t.select(a < 1.0, a, 2.0), False), (t.select(a < 1.0, a, x), True),
-                          (t.lookup("way", a), False), (t.lookup("way", x), True), (t.state("s"), True)):  # fmt: skip
+                          (t.lookup("way", a), False), (t.lookup("way", x), True), (f, True)):  # fmt: skip
         assert isinstance(value, Value)
         assert bool(t.node(value.index).varies) is varies
 
@@ -212,10 +211,9 @@ def test_vectors_are_complex_numbers(traced: bool) -> None:
 
 
 @pytest.mark.parametrize("seed", range(6))
-@pytest.mark.parametrize("carried", [False, True])
-def test_no_value_is_written_over_before_its_last_use(seed: int, carried: bool) -> None:
+def test_no_value_is_written_over_before_its_last_use(seed: int) -> None:
     """Every line is followed through the buffers that it is read from."""
-    lines = Lines.of(random_program(seed, carried=carried)[0])
+    lines = Lines.of(random_program(seed)[0])
     registers = Registers.of(lines)
     held: dict[tuple[str, int], int] = {}
     working = [i for i, line in enumerate(lines.lines) if line.varies and line.is_operation]
@@ -231,7 +229,7 @@ def test_no_value_is_written_over_before_its_last_use(seed: int, carried: bool) 
     rows = {number: index for index, (kind, number) in registers.places.items() if kind == ROW}
     rows |= dict(registers.copies)
     assert [rows[row] for row in range(len(lines.outputs))] == list(lines.outputs)
-    for index in (*lines.outputs, *lines.carried):
+    for index in lines.outputs:
         assert index not in registers.places or held[registers.places[index]] == index
     for kind, count in ((NUMBER, registers.numbers), (TRUTH, registers.truths)):
         used = {number for name, number in registers.places.values() if name == kind}
@@ -249,15 +247,12 @@ def test_a_chain_of_sums_needs_one_buffer() -> None:
     assert [row for row, _ in registers.copies] == [1, 2]
 
 
-def test_states_become_fields_and_parameters_positions() -> None:
-    program = random_program(3, carried=True)[0]
-    assert program.states and program.fields
-    open_ = states_as_fields(program, [program.states[0]])
-    assert open_.states == program.states[1:] and program.states[0] in open_.fields
-    assert [name for name, _ in open_.next_states] == list(program.states[1:])
-    closed = states_as_fields(program)
-    assert (closed.states, closed.next_states) == ((), ())
+def test_inputs_become_fields_and_parameters_positions() -> None:
     plain = random_program(3)[0]
+    first, *rest = plain.parameters
+    given = plain.with_given([first])
+    assert given.parameters == tuple(rest) and {*given.fields} == {first, *plain.fields}
+    assert first in plain.with_given([first], "position").positions
     lanes = across_designs(plain)
     assert lanes.parameters == () and set(plain.parameters) <= set(lanes.positions)
     again = Replay(plain)
@@ -269,21 +264,21 @@ def test_a_program_says_what_it_does() -> None:
     t = Trace()
     a, x = t.parameter("a"), t.position("x")
     program = Program.of(
-        t, {"y": a * a + t.lookup("way", x, 2), "low": (x < a) & ~(a <= x)}, {"s": t.state("s") - 1.5}
+        t, {"y": a * a + t.lookup("way", x, 2), "low": (x < a) & ~(a <= x), "s": t.field_input("s") - 1.5}
     )
     assert program.text().splitlines() == [
         "v0 = parameter a", "v1 = position x", "v2 = v0 * v0", "v3 = lookup[way, 2](v1)", "v4 = v2 + v3",
-        "v5 = v1 < v0", "v6 = v0 <= v1", "v7 = not(v6)", "v8 = v5 & v7", "v9 = state s", "v10 = 1.5",
-        "v11 = v9 - v10", "output y = v4", "output low = v8", "carry s = v11",
+        "v5 = v1 < v0", "v6 = v0 <= v1", "v7 = not(v6)", "v8 = v5 & v7", "v9 = field s", "v10 = 1.5",
+        "v11 = v9 - v10", "output y = v4", "output low = v8", "output s = v11",
     ]  # fmt: skip
     assert program.counts() == {
         "design": {"mul": 1},
         "position": {"add": 1, "and": 1, "less": 1, "less_equal": 1, "lookup": 1, "not": 1, "sub": 1},
     }
     part = program.only(["low"])
-    assert (part.output_names, part.tables, part.states) == (("low",), (), ("s",))
+    assert (part.output_names, part.tables, part.fields) == (("low",), (), ())
     assert len(program.key) == 32 and program.key != part.key
-    assert [program.yields_truth(i) for _, i in program.outputs] == [False, True]
+    assert [program.yields_truth(i) for _, i in program.outputs] == [False, True, False]
 
 
 REALS = (

@@ -12,9 +12,7 @@ from tests.unit.formula.objectives import Term, gradient_of, table_of
 from tests.unit.formula.random_programs import (
     PARAMETERS,
     POSITIONS,
-    STATES,
     Formulas,
-    next_states,
     outputs_of,
     random_program,
 )
@@ -36,14 +34,13 @@ Floats = NDArray[np.float64]
 needs_compiler = pytest.mark.skipif(not available(), reason="llvmlite is not installed")
 
 
-def direct(formulas: Formulas, p: Floats, x: Floats, f: Floats, start: list[float] | None = None) -> Floats:
+def direct(formulas: Formulas, p: Floats, x: Floats, f: Floats) -> Floats:
     """Outputs (outputs, n) by Python floats, one position after another."""
-    columns, states = [], list(start or [])
+    columns = []
     for i in range(x.shape[1]):
         inputs = [float(v) for v in (*p, *x[:, i], f[i])]
-        values, truths = formulas([*inputs, *states], len(PARAMETERS))
+        values, truths = formulas(inputs, len(PARAMETERS))
         columns.append([float(v) for v in outputs_of(values, truths, inputs).values()])
-        states = next_states(values) if start else []
     return np.array(columns).T
 
 
@@ -75,9 +72,7 @@ def test_numpy_and_scalar_agree_with_direct_evaluation(seed: int) -> None:
         at = {**positions, "f": f[d]}
         for i in range(5):
             along = [at[name][i] for name in program.positions]
-            outputs, _ = scalar.step(
-                table[d].tolist(), along, fields=[at[name][i] for name in program.fields]
-            )
+            outputs = scalar.step(table[d].tolist(), along, fields=[at[name][i] for name in program.fields])
             agree(np.array(outputs), want[:, i])
 
 
@@ -117,26 +112,6 @@ def test_compiled_code_agrees_with_direct_evaluation_for_every_length(n: int) ->
         agree(stored[d], want)
         alone = compiled.store(table[d : d + 1], positions, {"f": f[d : d + 1]})
         np.testing.assert_array_equal(alone[0], stored[d])
-
-
-@pytest.mark.usefixtures("vectors")
-@pytest.mark.parametrize("designs", [1, 7, 8, 19])
-@pytest.mark.parametrize("seed", range(3))
-def test_states_are_carried_alike(seed: int, designs: int) -> None:
-    program, formulas = random_program(seed, carried=True)
-    p, x, f = case(seed, 6, designs)
-    table = np.array([ordered(program, row) for row in p])
-    positions = dict(zip(POSITIONS, x, strict=True))
-    begin = np.random.default_rng(seed).normal(size=(designs, 2))
-    start = np.array([[row[STATES.index(n)] for n in program.states] for row in begin])
-    want = np.array([direct(formulas, p[d], x, f[d], list(begin[d])) for d in range(designs)])
-    evaluator = NumpyProgram(program)
-    agree(evaluator.run_designs(table, positions, {"f": f}, start=start), want)
-    agree(evaluator.run_designs(table[:1], positions, {"f": f[:1]}, start=start[0]), want[:1])
-    compiled = compile_program(program)
-    if compiled is not None:
-        agree(compiled.store(table, positions, {"f": f}, start=start), want)
-        agree(compiled.store(table[:1], positions, {"f": f[:1]}, start=start[:1]), want[:1])
 
 
 @needs_compiler
@@ -222,25 +197,22 @@ def test_gradients_of_random_programs_equal_differences(seed: int, backend: str)
 
 
 @pytest.mark.usefixtures("vectors")
-@pytest.mark.parametrize("carried", [False, True])
-def test_truths_count_as_one_and_numbers_but_zero_as_true(carried: bool) -> None:
-    """In sums, choices and conditions, per position and per design, of values and of states."""
+def test_truths_count_as_one_and_numbers_but_zero_as_true() -> None:
+    """In sums, choices and conditions, per position and per design."""
     t = Trace()
     x, a = t.position("x"), t.parameter("a")
     low, rich = x < 0.5, a < 3.0
-    total = t.state("s") + low if carried else x
     outputs = {
         "counted": low * 2.0 + rich - t.negate(rich),
         "chosen": select(x, a, -a),
         "alone": select(a, 1.0, 2.0) + low,
         "both": t.logic("and", x, a),
         "neither": t.negate(t.logic("or", x, a)) + 0.0,
-        "total": total,
+        "total": x,
     }
-    program = Program.of(t, outputs, {"s": total} if carried else None)
+    program = Program.of(t, outputs)
     row = np.array([-1.0, 0.0, 0.25, 0.5, 2.0, 0.0, -0.0, math.inf, 0.4])
     table, positions = np.array([[2.0], [0.0], [4.0]]), {"x": row}
-    start = np.array([[1.0]]) if carried else None
     want = []
     for (number,) in table:
         below, few, some = row < 0.5, float(number < 3.0), number != 0.0
@@ -248,20 +220,18 @@ def test_truths_count_as_one_and_numbers_but_zero_as_true(carried: bool) -> None
             [
                 2.0 * below + few - (1.0 - few), np.where(row != 0.0, number, -number),
                 (1.0 if some else 2.0) + below, (row != 0.0) & some, ~((row != 0.0) | some),
-                1.0 + np.cumsum(below) if carried else row,
+                row,
             ]
         )  # fmt: skip
     evaluator = NumpyProgram(program)
-    starts = None if start is None else np.repeat(start, 3, axis=0)
-    np.testing.assert_array_equal(evaluator.run_designs(table, positions, start=starts), want)
-    scalar, state = ScalarProgram(program), [1.0] if carried else []
+    np.testing.assert_array_equal(evaluator.run_designs(table, positions), want)
+    scalar = ScalarProgram(program)
     for place, number in enumerate(row):
-        found, state = scalar.step([2.0], [number], state)
+        found = scalar.step([2.0], [number])
         np.testing.assert_array_equal(found, [each[place] for each in want[0]])
     for parameters, found in zip(table, want, strict=True):
-        own = None if start is None else start[0]
-        (alone,) = evaluator.run_designs(parameters[None, :], positions, start=own)
+        (alone,) = evaluator.run_designs(parameters[None, :], positions)
         np.testing.assert_array_equal(alone, found)
     compiled = compile_program(program) if available() else None
     if compiled is not None:
-        np.testing.assert_array_equal(compiled.store(table, positions, start=starts), want)
+        np.testing.assert_array_equal(compiled.store(table, positions), want)

@@ -11,7 +11,6 @@ import pytest
 from tests.every import every
 from tests.unit.formula.sweeps import sweep
 
-from linkwright.formula.lines import Lines
 from linkwright.formula.llvm_backend import CompiledProgram, available, compile_program
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
@@ -24,16 +23,11 @@ pytestmark = pytest.mark.skipif(not available(), reason="no llvmlite")
 X = np.linspace(0.0, 1.0, 40)
 
 
-def line(*, carried: bool = False) -> CompiledProgram:
-    """a x + f; or the sum of the x so far, a times."""
+def line() -> CompiledProgram:
+    """a x + f."""
     t = Trace()
     a, x, f = t.parameter("a"), t.position("x"), t.field_input("f")
-    if carried:
-        total = t.state("s") + x
-        program = Program.of(t, {"y": a * total + f}, {"s": total})
-    else:
-        program = Program.of(t, {"y": a * x + f})
-    compiled = compile_program(program)
+    compiled = compile_program(Program.of(t, {"y": a * x + f}))
     assert compiled is not None
     return compiled
 
@@ -58,8 +52,6 @@ def test_missing_inputs_and_other_shapes_are_refused() -> None:
         product().repeated({"x": X})(np.ones(2))
     with pytest.raises(ValueError, match=r"\(2, 2\)"):
         program.store(np.ones((2, 2)), {"x": X}, {"f": np.ones((2, 40))})
-    with pytest.raises(ValueError, match=r"\bs\b"):
-        line(carried=True).store(np.ones((2, 1)), {"x": X}, {"f": np.ones((2, 40))})
 
 
 def test_parameters_given_again_are_read_where_they_lie() -> None:
@@ -102,12 +94,6 @@ def test_outputs_that_nobody_holds_make_room_for_the_next() -> None:
         other[0, 0] = 1.0
 
 
-def test_states_without_next_values_are_not_compiled() -> None:
-    t = Trace()
-    with pytest.raises(ValueError, match=r"\bs\b"):
-        compile_program(Program.of(t, {"y": t.state("s") * 2.0}))
-
-
 def test_a_program_of_parameters_alone_has_the_length_of_the_inputs_that_are_given() -> None:
     t = Trace()
     program = Program.of(t, {"y": 2.0 * t.parameter("a")})
@@ -136,11 +122,6 @@ def test_numbers_of_inputs_that_do_not_fit_are_refused() -> None:
         ScalarProgram(program).step([1.0], [1.0])
     with pytest.raises(ValueError, match=r"\ba\b.*\(2, 2\)"):
         sweep(program, np.ones((2, 2)), {"x": X}, [("y", "max")], fields={"f": np.ones((2, 40))})
-    other = Trace()
-    s, r = other.state("s"), other.state("r")
-    half = Program.of(other, {"y": s + r}, {"s": s + 1.0})
-    with pytest.raises(ValueError, match=r"\br\b"):
-        Lines.of(half)
 
 
 def test_machines_without_the_compiler_or_the_count_of_cores(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,7 +16,6 @@ from linkwright.formula.derivative import forward, reverse
 from linkwright.formula.llvm_backend import available
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
-from linkwright.formula.states import states_as_fields
 from linkwright.formula.trace import Trace, absolute, cos, select, sin, sqrt, stop
 
 BACKENDS = ["numpy", pytest.param("llvm", marks=pytest.mark.skipif(not available(), reason="no llvmlite"))]
@@ -194,31 +193,6 @@ def test_stop_cuts_derivatives() -> None:
     np.testing.assert_allclose(got[derived.output_names.index("y|a")], 3.0 * X, rtol=1e-15)
     _, slope = gradient_of(program, [Term("y")]).evaluate([[3.0]], {"x": X})
     assert slope[0, 0] == pytest.approx(3.0 * X.sum(), rel=1e-14)
-
-
-def test_states_are_constants_and_gradients_take_them_as_fields() -> None:
-    t = Trace()
-    s, a, x = t.state("s"), t.parameter("a"), t.position("x")
-    following = s * a + x
-    program = Program.of(t, {"y": following * a}, {"s": following})
-    derived = forward(program, ["a"])
-    got = dict(
-        zip(
-            derived.output_names,
-            NumpyProgram(derived).run_designs([[0.5]], {"x": X}, start=[1.0])[0],
-            strict=True,
-        )
-    )
-    value, states = 1.0, []
-    for x_value in X:
-        states.append(value)
-        value = value * 0.5 + x_value
-    np.testing.assert_allclose(got["y|a"], 2.0 * np.array(states) * 0.5 + X, rtol=1e-13)
-    with pytest.raises(ValueError):  # noqa: PT011
-        reverse(program, ["y"])
-    gradient = gradient_of(states_as_fields(program), [Term("y")])
-    _, slope = gradient.evaluate([[0.5]], {"x": X}, {"s": np.array([states])})
-    assert slope[0, 0] == pytest.approx(got["y|a"].sum(), rel=1e-13)
 
 
 def test_what_cannot_be_differentiated_is_refused() -> None:

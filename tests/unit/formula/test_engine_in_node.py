@@ -14,7 +14,6 @@ from tests.unit.formula.node import in_node, needs_node, work
 import linkwright as lw
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
-from linkwright.formula.states import states_as_fields
 from linkwright.formula.table import Table
 from linkwright.formula.tangent import slope
 from linkwright.formula.trace import Trace, angle, cos, exp, floor, log, power, select, sin
@@ -57,7 +56,7 @@ def gallery_work(name: str) -> tuple[dict[str, Any], dict[str, Any]] | None:
     solver = ForceSolver(motion.solver)
     forces = run_forces(motion, False, solver)
     names = tuple(motion.solver.outputs.standard[:-1]) + solver.outputs.standard
-    program = states_as_fields(solver.program(names).program)
+    program = solver.program(names).program
     fields = {**forces.fields, **motion.states}
     values = {each: motion.design.parameters[each] for each in program.parameters}
     positions = {**motion.positions.arrays, **motion.modes}
@@ -77,10 +76,10 @@ def test_every_gallery_file_gives_the_numbers_of_numpy(tmp_path: Path) -> None:
         agree(got["text"], want, f"{name} in JavaScript")
 
 
-def test_functions_look_ups_and_states(tmp_path: Path) -> None:
-    """Every function, a periodic spline with two derivatives, truths that count, and a running sum."""
+def test_functions_and_look_ups(tmp_path: Path) -> None:
+    """Every function, a periodic spline with two derivatives, truths that count, and a field."""
     t = Trace()
-    x, a, s = t.position("x"), t.parameter("a"), t.state("s")
+    x, a, s = t.position("x"), t.parameter("a"), t.field_input("s")
     total = s + x * a
     low, high = x < a, t.logic("or", x <= -2.0, x > 8.0)
     outputs = {
@@ -91,12 +90,13 @@ def test_functions_look_ups_and_states(tmp_path: Path) -> None:
         "turned": -x + select(floor(x), 3.0, a), "bound": 1.0 / select(low, math.inf, -2.0),
         "below": 1.0 / select(low, -math.inf, 4.0), "none": select(high, math.nan, x),
     }  # fmt: skip
-    program = Program.of(t, outputs, {"s": total})
+    program = Program.of(t, outputs)
     table = Table.spline([0.0, 1.0, 2.5, 4.0], [1.0, 3.0, 2.0, 1.5], periodic=True)
     n = 41
     positions = {"x": np.linspace(-7.0, 9.0, n)}
-    (want,) = NumpyProgram(program).run_designs([[0.7]], positions, start=[0.25], tables={"table": table})
-    job = work(program, {"a": 0.7}, positions, n, starts=[0.25], tables={"table": table})
+    fields = {"s": np.linspace(0.25, 3.0, n)}
+    want = NumpyProgram(program).run([0.7], positions, fields, tables={"table": table})
+    job = work(program, {"a": 0.7}, positions, n, fields=fields, tables={"table": table})
     (got,) = in_node([job], tmp_path)
     for kind in ("wasm", "text"):
         agree(got[kind], dict(zip(program.output_names, want, strict=True)), kind)

@@ -63,7 +63,7 @@ def evaluate(program: Program, backend: str, p: list[float], x: dict[str, Floats
         return stored
     scalar = ScalarProgram(program, more.get("tables"))
     rows = zip(*(x[name] for name in program.positions), strict=True)
-    return np.array([scalar.step(p, [float(v) for v in row])[0] for row in rows]).T
+    return np.array([scalar.step(p, [float(v) for v in row]) for row in rows]).T
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
@@ -229,40 +229,33 @@ def test_straight_tables_stay_level_beyond_their_ends_and_break_where_they_say(b
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
-def test_look_ups_of_a_design_and_of_a_state(backend: str) -> None:
-    """y' = law(a + y / 10), from the look-up at the dimension on."""
+def test_look_ups_of_a_design_and_of_a_field(backend: str) -> None:
     xs, ys = curve(12, 9)
     spline, table = CubicSpline(xs, ys), Table.spline(xs, ys)
     t = tr.Trace()
-    a, s = t.parameter("a"), t.state("s")
-    start = t.lookup("law", a)
-    following = t.lookup("law", a + s * 0.1)
-    program = Program.of(t, {"start": start + 0.0 * s, "s": following}, {"s": following})
+    a, f = t.parameter("a"), t.field_input("f")
+    program = Program.of(t, {"alone": t.lookup("law", a) + 0.0 * f, "both": t.lookup("law", a + f * 0.1)})
     numbers = np.linspace(xs[1], xs[-2], 11)
-    value, want = np.full(11, 0.25), []
-    for _ in range(5):
-        value = spline(numbers + value * 0.1)
-        want.append(value)
+    fields = np.random.default_rng(12).uniform(-1.0, 1.0, (11, 5))
+    want = spline(numbers[:, None] + fields * 0.1)
     if backend == "scalar":
         scalar = ScalarProgram(program, {"law": table})
         for d, number in enumerate(numbers):
-            outputs, state = scalar.step([float(number)], [], [0.25])
-            assert outputs[0] == pytest.approx(spline(number), rel=1e-12)
-            assert state[0] == pytest.approx(want[0][d], rel=1e-12)
+            outputs = scalar.step([float(number)], [], [float(fields[d, 0])])
+            assert outputs == pytest.approx([float(spline(number)), want[d, 0]], rel=1e-12)
         return
     got = sweep(
         program,
         numbers[:, None],
         {},
-        [("start", "first"), ("s", "last"), ("s", "first")],
-        start=[0.25],
-        length=5,
+        [("alone", "first"), ("both", "last"), ("both", "first")],
+        fields={"f": fields},
         tables={"law": table},
         backend=backend,  # type: ignore[arg-type]
     )
-    np.testing.assert_allclose(got["start.first"], spline(numbers), rtol=1e-12)
-    np.testing.assert_allclose(got["s.first"], want[0], rtol=1e-12)
-    np.testing.assert_allclose(got["s.last"], want[-1], rtol=1e-12)
+    np.testing.assert_allclose(got["alone.first"], spline(numbers), rtol=1e-12)
+    np.testing.assert_allclose(got["both.first"], want[:, 0], rtol=1e-12)
+    np.testing.assert_allclose(got["both.last"], want[:, -1], rtol=1e-12)
 
 
 @pytest.mark.parametrize("backend", ["numpy", pytest.param("llvm", marks=needs_compiler)])
@@ -328,7 +321,7 @@ def test_the_program_does_not_depend_on_the_numbers_of_a_table() -> None:
 
 def test_a_slope_in_the_trace_is_a_value_like_others() -> None:
     t = tr.Trace()
-    x, a, s = t.position("x"), t.parameter("a"), t.state("s")
+    x, a, s = t.position("x"), t.parameter("a"), t.field_input("s")
     y = tr.exp(a * x) * tr.sin(x) + s * x
     first = slope(y, {x: 1.0})
     second = slope(first, {x: 1.0})
@@ -338,7 +331,7 @@ def test_a_slope_in_the_trace_is_a_value_like_others() -> None:
     assert mixed == 1.0
     program = Program.of(t, {"first": first, "second": second, "along": along})
     at = np.linspace(-1.0, 1.0, 7)
-    got = NumpyProgram(program).run([0.7], {"x": at}, states={"s": np.full(7, 0.3)})
+    got = NumpyProgram(program).run([0.7], {"x": at}, {"s": np.full(7, 0.3)})
     for place, number in enumerate(at):
 
         def f(v: Any) -> Any:

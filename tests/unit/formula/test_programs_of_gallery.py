@@ -15,7 +15,6 @@ import linkwright as lw
 from linkwright.formula.llvm_backend import available, compile_program
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
-from linkwright.formula.states import states_as_fields
 
 Floats = NDArray[np.float64]
 MODELS = ["jaw_crusher_sixbar", "shaper_quick_return", "dyad_rpp", "triad", "peaucellier", "swing_conveyor"]
@@ -44,12 +43,9 @@ def used(request: pytest.FixtureRequest) -> list[Used]:
 
     def recorded(self: NumpyProgram, parameters: Any, positions: Any, *more: Any, **named: Any) -> Floats:
         result = original(self, parameters, positions, *more, **named)
-        fields, states = (*more, None, None)[:2]
-        if not self.program.states or states:
-            program = states_as_fields(self.program)
-            given = {**(fields or {}), **(states or {})}
-            own = {name: given[name] for name in program.fields}
-            seen.append(Used(program, [float(p) for p in parameters], positions, own, result.shape[1]))
+        given = {**(more[0] or {})} if more else {}
+        own = {name: given[name] for name in self.program.fields}
+        seen.append(Used(self.program, [float(p) for p in parameters], positions, own, result.shape[1]))
         return result
 
     with pytest.MonkeyPatch.context() as patch:

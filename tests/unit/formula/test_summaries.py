@@ -143,10 +143,6 @@ def test_gradients_and_inputs_that_do_not_fit_are_refused() -> None:
         Gradient(slider(), Reduction("x", "mean"), ["speed"])
     with pytest.raises(ValueError, match="'w'"):
         Gradient(slider(), Reduction("w", "mean"))
-    t = Trace()
-    s = t.state("s") + t.parameter("a") * t.position("q")
-    with pytest.raises(ValueError, match=r"\bs\b"):
-        Gradient(Program.of(t, {"s": s}, {"s": s}), Reduction("s", "last"))
     sums = Summaries(slider(), ASKED)
     with pytest.raises(ValueError, match=r"\[3, 36\]"):
         sums.evaluate(designs(2), INPUT, {"other": np.ones((2, 3))}, backend="numpy")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-import mpmath
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -15,8 +14,7 @@ from linkwright.formula.program import Program
 from linkwright.formula.reductions import KINDS, VALID_COUNT, Kind, Reduction
 from linkwright.formula.replay import along_input
 from linkwright.formula.table import Table
-from linkwright.formula.tangent import slope
-from linkwright.formula.trace import Trace, exp, maximum, select, sqrt
+from linkwright.formula.trace import Trace, exp, select, sqrt
 
 BACKENDS = ["numpy", pytest.param("llvm", marks=pytest.mark.skipif(not available(), reason="no llvmlite"))]
 PLAIN = [kind for kind in KINDS if not kind.startswith("at_")]
@@ -109,35 +107,6 @@ def test_results_do_not_depend_on_threads_or_chunks(backend: str) -> None:
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
-@pytest.mark.parametrize("designs", [1, 8, 11])
-def test_reductions_of_carried_states(backend: str, designs: int) -> None:
-    t = Trace()
-    s, x, a = t.state("s"), t.position("x"), t.parameter("a")
-    following = s * 0.5 + x * a
-    program = Program.of(t, {"y": following, "valid": x < 0.9, "f": t.field_input("g") * a}, {"s": following})
-    rng = np.random.default_rng(designs)
-    xs, gains, starts = rng.uniform(size=50), rng.normal(size=designs), rng.normal(size=designs)
-    field = rng.normal(size=(designs, 50))
-    kinds = [Reduction("y", kind) for kind in PLAIN] + [Reduction("f", "max")]
-    got = sweep(
-        program, gains[:, None], {"x": xs}, kinds, fields={"g": field}, start=starts[:, None], backend=backend
-    )
-    for d in range(designs):
-        value, values = starts[d], []
-        for i, v in enumerate(xs):
-            value = value * 0.5 + v * gains[d]
-            if v < 0.9:
-                values.append((i, value))
-        ys = np.array([y for _, y in values])
-        want = {"min": ys.min(), "max": ys.max(), "mean": ys.mean(), "sum": ys.sum()}
-        want |= {"rms": np.sqrt((ys**2).mean()), "count": len(ys), "first": ys[0], "last": ys[-1]}
-        want |= {"argmin": values[int(ys.argmin())][0], "argmax": values[int(ys.argmax())][0]}
-        for kind, number in want.items():
-            np.testing.assert_allclose(got[f"y.{kind}"][d], number, rtol=1e-11)
-        np.testing.assert_allclose(got["f.max"][d], (field[d] * gains[d])[xs < 0.9].max(), rtol=1e-14)
-
-
-@pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("n", [1, 5, 8, 13, 16, 40])
 def test_values_are_taken_where_another_output_has_its_extreme(backend: str, n: int) -> None:
     t = Trace()
@@ -160,31 +129,6 @@ def test_values_are_taken_where_another_output_has_its_extreme(backend: str, n: 
                 if best is None or number > best:
                     best, want = number, float(rows[kind.output][i])
             np.testing.assert_allclose(got[kind.name][d], want, rtol=1e-15, err_msg=kind.name)
-
-
-@pytest.mark.parametrize("backend", BACKENDS)
-@pytest.mark.parametrize("designs", [1, 8, 21])
-def test_an_iteration_without_inputs_over_the_positions_finds_roots(backend: str, designs: int) -> None:
-    """Newton's steps for x eˣ = a, kept between bounds; against mpmath's function of Lambert."""
-    t = Trace()
-    x, a = t.state("x"), t.parameter("a")
-    error = x * exp(x) - a
-    step = x - error / slope(error, {x: 1.0})
-    program = Program.of(t, {"x": step, "error": error}, {"x": maximum(step, 1e-3)})
-    numbers = np.linspace(0.1, 20.0, designs)
-    start = np.log1p(numbers)[:, None]
-    got = sweep(
-        program,
-        numbers[:, None],
-        {},
-        [("x", "last"), ("error", "last")],
-        start=start,
-        length=7,
-        backend=backend,
-    )
-    want = [float(mpmath.lambertw(number).real) for number in numbers]
-    np.testing.assert_allclose(got["x.last"], want, rtol=1e-14)
-    assert np.abs(got["error.last"]).max() < 1e-13
 
 
 def test_what_does_not_exist_is_refused() -> None:

@@ -35,9 +35,9 @@ def evaluated(time: float, step: float, states: dict[str, float]) -> dict[str, f
     """All outputs at one time."""
     found, _, run = traced()
     arrays = {**at_times(found.mechanism, [time]).arrays, "step": np.array([step])}
-    given = {name: np.array([[states[name]]]) for name in run.program.states}
+    given = {name: np.array([[states[name]]]) for name in run.program.fields}
     known = [[found.solver.nominal.parameters[name] for name in run.program.parameters]]
-    values = run.run_designs(known, arrays, {}, given, length=1)[0, :, 0]
+    values = run.run_designs(known, arrays, given, length=1)[0, :, 0]
     return dict(zip(run.program.output_names, map(float, values), strict=True))
 
 

@@ -39,8 +39,8 @@ class Solved:
         program = Program.of(trace, {"carrier": quantity.carrier, "value": quantity.value})
         numbers = self.motion.design.parameters
         given = [numbers[name] for name in program.parameters]
-        arrays, states = self.motion.positions.arrays, self.motion.states or None
-        rows = NumpyProgram(program).run(given, arrays, states=states, length=self.motion.steps)
+        arrays, states = self.motion.positions.arrays, self.motion.states
+        rows = NumpyProgram(program).run(given, arrays, states, length=self.motion.steps)
         return rows[0], rows[1], quantity.shown(rows[0])
 
 

@@ -8,9 +8,8 @@ var e = {
 	tailLow: 5,
 	tailHigh: 6,
 	parameters: 7,
-	out: 8,
-	starts: 9
-}, t = 10, n = 4;
+	out: 8
+}, t = 9, n = 4;
 function r(e, t, n) {
 	let r = e[0], i = 5 + r + 1, a = Math.floor((t - e[1]) / e[2]), o = e[3] === 0 ? t : t - a * e[2], s = 0;
 	for (let t = r; t > 1;) {
@@ -35,23 +34,20 @@ var i = class {
 	parameters;
 	positions = {};
 	fields = {};
-	starts;
 	out;
 	stride;
 	rows = {};
 	constructor(e, t, r, i) {
-		this.program = e, this.n = t;
-		let a = e.states.length > 0;
-		this.stride = a ? t : Math.max(t, n), this.parameters = r.floats(e.parameters.length);
+		this.program = e, this.n = t, this.stride = Math.max(t, n), this.parameters = r.floats(e.parameters.length);
 		for (let t of e.positions) this.positions[t] = r.floats(this.stride);
 		for (let t of e.fields) this.fields[t] = r.floats(this.stride);
-		this.starts = r.floats(e.states.length), this.out = r.floats(e.outputs.length * this.stride);
-		let o = [
+		this.out = r.floats(e.outputs.length * this.stride);
+		let a = [
 			...Object.values(this.positions),
 			...Object.values(this.fields),
 			...i
 		];
-		this.run = r.caller(this, o, i, a), e.outputs.forEach((e, n) => this.rows[e] = this.out.subarray(n * this.stride, n * this.stride + t));
+		this.run = r.caller(this, a, i), e.outputs.forEach((e, n) => this.rows[e] = this.out.subarray(n * this.stride, n * this.stride + t));
 	}
 	run;
 	row(e) {
@@ -86,7 +82,7 @@ var i = class {
 function o(e) {
 	return {
 		floats: (e) => new Float64Array(e),
-		caller: (t, n, r) => () => e(t.parameters, Object.values(t.positions), Object.values(t.fields), r, t.starts, t.out, t.stride)
+		caller: (t, n, r) => () => e(t.parameters, Object.values(t.positions), Object.values(t.fields), r, t.out, t.stride)
 	};
 }
 function s(e, n) {
@@ -110,20 +106,20 @@ function s(e, n) {
 	};
 	return {
 		floats: s,
-		caller: (e, n, i, o) => {
-			let l = new BigInt64Array(r.buffer, s(t + n.length).byteOffset, t + n.length);
-			c(l, e, n, o);
-			let u = l.byteOffset;
-			return () => a(u);
+		caller: (e, n) => {
+			let i = new BigInt64Array(r.buffer, s(t + n.length).byteOffset, t + n.length);
+			c(i, e, n);
+			let o = i.byteOffset;
+			return () => a(o);
 		}
 	};
 }
-function c(r, i, a, o) {
-	let s = (e, t) => r[e] = BigInt(t), c = i.n, l = c % n, u = c - l;
-	s(e.designs, 1), s(e.length, i.stride), s(e.count, c), s(e.fullEnd, u);
-	let [d, f, p] = u ? l ? [
-		c - n,
-		n - l,
+function c(r, i, a) {
+	let o = (e, t) => r[e] = BigInt(t), s = i.n, c = s % n, l = s - c;
+	o(e.designs, 1), o(e.length, i.stride), o(e.count, s), o(e.fullEnd, l);
+	let [u, d, f] = l ? c ? [
+		s - n,
+		n - c,
 		n
 	] : [
 		-1,
@@ -132,8 +128,8 @@ function c(r, i, a, o) {
 	] : [
 		0,
 		0,
-		l
+		c
 	];
-	o || (s(e.tailStart, d), s(e.tailLow, f), s(e.tailHigh, p)), s(e.parameters, i.parameters.byteOffset), s(e.out, i.out.byteOffset), s(e.starts, i.starts.byteOffset), a.forEach((e, n) => s(t + n, e.byteOffset));
+	o(e.tailStart, u), o(e.tailLow, d), o(e.tailHigh, f), o(e.parameters, i.parameters.byteOffset), o(e.out, i.out.byteOffset), a.forEach((e, n) => o(t + n, e.byteOffset));
 }
 export { i as Call, a as Kernel, r as look };
