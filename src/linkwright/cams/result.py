@@ -17,7 +17,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.search import ends, first_largest
-from linkwright.curves.curve import Curve
+from linkwright.curves.curve import Curve, Extreme
 from linkwright.errors import RequestError
 from linkwright.laws.program import MotionProgram
 from linkwright.parts.base import Block, Result
@@ -35,14 +35,6 @@ POINTS = 1440
 #: Share of the largest contact force that is none.
 ROUNDING = 1e-12
 _FEWEST, _MOST = 36, 100_000
-
-
-@dataclass(frozen=True)
-class Extreme:
-    """The largest or smallest value over the turn, with its place (rad)."""
-
-    value: float
-    place: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -85,12 +77,11 @@ class CamDesign(Result):
     def _extreme(self, values: Any, kind: str) -> Extreme:
         program = self.cam.program
         inner = program.breaks[(program.breaks > 0) & (program.breaks < program.period)]
-        found = Curve.of(values, 0.0, program.period, pieces=24, knots=inner).extreme(kind)
-        return Extreme(found.value, found.place)
+        return Curve.of(values, 0.0, program.period, pieces=24, knots=inner).extreme(kind)
 
     @cached_property
     def pressure_angle_rise(self) -> Extreme:
-        """The pressure angle (rad) of largest size while the follower rises."""
+        """The pressure angle (rad) of largest size while the follower rises, and its place (rad)."""
         return self._steepest(1.0)
 
     @cached_property
@@ -116,14 +107,14 @@ class CamDesign(Result):
             found = values(phi)
             j = first_largest(np.abs(found))
             low, high = phi[max(j - 1, 0)], phi[min(j + 1, 32)]
-        return Extreme(float(found[j]), float(phi[j]))
+        return Extreme(float(phi[j]), float(found[j]))
 
     @cached_property
     def smallest_radius(self) -> Extreme | None:
         """The profile's smallest radius of curvature where it is convex (m), over all walls; None without any."""
         found = [self._extreme(lambda phi, w=wall: w.contact(phi).bend, "max") for wall in self.cam.walls]
         sharpest = max(found, key=lambda each: each.value)
-        return Extreme(1.0 / sharpest.value, sharpest.place) if sharpest.value > 0 else None
+        return Extreme(sharpest.place, 1.0 / sharpest.value) if sharpest.value > 0 else None
 
     @cached_property
     def hollow_radius(self) -> Extreme | None:
@@ -134,7 +125,7 @@ class CamDesign(Result):
         if self.cam.follower.kind == "flat":
             return None
         found = self._extreme(lambda phi: self.wall.contact(phi).bend, "min")
-        return Extreme(-1.0 / found.value, found.place) if found.value < -1e-9 * abs(self.size) else None
+        return Extreme(found.place, -1.0 / found.value) if found.value < -1e-9 * abs(self.size) else None
 
     @property
     def least_growth(self) -> float:
@@ -210,7 +201,7 @@ class CamDesign(Result):
         """The largest (``max``) or smallest (``min``) contact force, N, found between the places of the curves."""
         found = self._extreme(self._contact_force, kind)
         nothing = abs(found.value) <= ROUNDING * float(np.abs(self.contact_force).max())
-        return Extreme(0.0, found.place) if nothing else found
+        return Extreme(found.place, 0.0) if nothing else found
 
     def extreme_torque(self, kind: str) -> Extreme:
         """The same of the torque, N·m."""

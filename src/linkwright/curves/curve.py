@@ -40,7 +40,7 @@ class Extreme:
 
     place: float
     value: float
-    smooth: bool
+    smooth: bool = True
 
 
 class Curve:

@@ -13,7 +13,7 @@ from linkwright.errors import RequestError
 from linkwright.formula.reductions import Reduction
 from linkwright.kinetostatics.named_outputs import Quantity
 
-#: Kinds of summaries, and the engine's reductions they need.
+#: Kinds of summaries, and the reductions they need.
 KINDS: Mapping[str, tuple[str, ...]] = {
     "min": ("min",),
     "max": ("max",),
@@ -68,8 +68,8 @@ class StrokeSummary(Summary):
 
 
 @dataclass(frozen=True)
-class Extreme:
-    """Largest or smallest value of a signal: ``value``, ``time`` s, ``input`` rad or m (NaN without a driver).
+class SummaryValue:
+    """The value of a summary of one machine; ``time`` s and ``input`` rad or m are NaN where it belongs to no place.
 
     ``exact``: found between the solved positions to the machine's resolution of a flat extreme, else a sample.
     """
@@ -81,7 +81,7 @@ class Extreme:
 
 
 def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity]) -> list[Reduction]:
-    """The engine's reductions; raises LinkwrightError for a mean of what is known by its tangent only."""
+    """The reductions of a sweep; raises LinkwrightError for a mean of what is known by its tangent only."""
     found: dict[Reduction, None] = {}
     for summary in summaries:
         if quantities[summary.output].reference is not None and summary.kind not in _GROWING:
@@ -97,7 +97,7 @@ def finished(
     results: Mapping[str, Floats | Whole],
     input_: Floats,
 ) -> Floats:
-    """The summary (designs,) from the engine's reductions; NaN where no position counts."""
+    """The summary (designs,) from its reductions; NaN where no position counts."""
     if summary.kind in ("argmin", "argmax"):
         place = np.asarray(results[f"{summary.output}.{summary.kind}"], dtype=np.int64)
         return np.where(place >= 0, input_[np.maximum(place, 0)], np.nan)

@@ -17,7 +17,7 @@ from linkwright.core.search import first_largest
 from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.cycle.solved import Solved
-from linkwright.cycle.summary import Extreme, Summary
+from linkwright.cycle.summary import Summary, SummaryValue
 from linkwright.errors import LinkwrightError
 from linkwright.events.limit_positions import limit_positions
 from linkwright.formula.recently_made import Recent
@@ -37,7 +37,7 @@ from linkwright.metrics.solved_pieces import SolvedPieces
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
 #: Finds summaries of some type of one machine.
-Finder: TypeAlias = "Callable[[Sequence[Any], Analysis], list[Extreme]]"
+Finder: TypeAlias = "Callable[[Sequence[Any], Analysis], list[SummaryValue]]"
 _FINDERS: dict[type[Summary], Finder] = {}
 
 
@@ -51,7 +51,7 @@ def finds(kind: type[Summary]) -> Callable[[Finder], Finder]:
     return filed
 
 
-def _first_largest(*found: Extreme) -> Extreme:
+def _first_largest(*found: SummaryValue) -> SummaryValue:
     """The one of largest size, of equal ones the first."""
     ordered = sorted(found, key=lambda each: each.time)
     return ordered[first_largest(np.abs([each.value for each in ordered]))]
@@ -73,8 +73,8 @@ class Analysis(PartlyReached):
         self._words: dict[str, None] = {}
         self._outputs = motion.solver.programs.meanings
         self._asked: dict[Summary, None] = {}
-        self._found: dict[Summary, Extreme] = {}
-        self._parts: dict[Summary, Extreme] = {}
+        self._found: dict[Summary, SummaryValue] = {}
+        self._parts: dict[Summary, SummaryValue] = {}
         self._solved: list[Solved] = []
 
     def __getstate__(self) -> dict[str, Any]:
@@ -171,7 +171,7 @@ class Analysis(PartlyReached):
             values[:, ~solved.ok] = np.nan
         return values
 
-    def part(self, summary: Summary) -> Extreme:
+    def part(self, summary: Summary) -> SummaryValue:
         """A summary over the cycle with its place where it has one.
 
         ``peak``: the largest size; places of extremes of a mechanism's outputs are its outermost limit positions.
@@ -185,7 +185,7 @@ class Analysis(PartlyReached):
             self._parts[summary] = found
         return self._parts[summary]
 
-    def _of_cycle(self, part: Summary) -> Extreme | None:
+    def _of_cycle(self, part: Summary) -> SummaryValue | None:
         """A part of a cycle that is passed by one formula, found at once with all that were asked for."""
         if not part.of_cycle or self._machine is None:
             return None
@@ -207,17 +207,17 @@ class Analysis(PartlyReached):
         assert self._machine is not None
         return not self._meant(words).of_course or self._machine.tells(words)
 
-    def _read_of(self, solved: Solved, part: Summary) -> Extreme | None:
+    def _read_of(self, solved: Solved, part: Summary) -> SummaryValue | None:
         """A part of one machine's cycle; None of one that is not passed."""
         if not solved.passed[0]:
             return None
         time = solved.time_of(part.name)
-        return Extreme(
+        return SummaryValue(
             float(solved.values[part.name][0]), float(time[0]), float(solved.input_at(time)[0]), True
         )
 
     @cached_property
-    def _together(self) -> dict[Summary, Extreme | None]:
+    def _together(self) -> dict[Summary, SummaryValue | None]:
         return {}
 
     @cached_property
@@ -241,13 +241,16 @@ class Analysis(PartlyReached):
         near = np.where(self.motion.ok, np.abs(self.motion.time - time), np.inf)
         return float(self.forces.roundings[near.argmin()])
 
-    def _summarised(self, summary: Summary) -> Extreme:
+    def _summarised(self, summary: Summary) -> SummaryValue:
         kind, finder = summary.kind, _FINDERS.get(type(summary))
         if finder is not None:
             return self._found_together(summary, finder)
         if kind in ("argmax", "argmin", "range") and (output := self.output(summary.output)):
             return self._of_limits(output, kind)
-        nothing, signal = Extreme(float("nan"), float("nan"), float("nan"), True), self.signal(summary.output)
+        nothing, signal = (
+            SummaryValue(float("nan"), float("nan"), float("nan"), True),
+            self.signal(summary.output),
+        )
         if kind in ("mean", "rms"):
             value = (self.mean_of if kind == "mean" else self.rms_of)(signal)
             return replace(nothing, value=value, exact=self.cycle is not None)
@@ -271,7 +274,7 @@ class Analysis(PartlyReached):
         found = high if kind == "argmax" else low
         return replace(found, value=found.input)
 
-    def _found_together(self, part: Summary, finder: Finder) -> Extreme:
+    def _found_together(self, part: Summary, finder: Finder) -> SummaryValue:
         """A part that a finder finds, at once with those of all that were asked for."""
         if part not in self._found:
             alike = [each for each in {**self._asked, part: None} if type(each) is type(part)]
@@ -279,7 +282,7 @@ class Analysis(PartlyReached):
             self._found |= zip(missing, finder(missing, self), strict=True)
         return self._found[part]
 
-    def _extreme(self, output: str, kind: str) -> Extreme | None:
+    def _extreme(self, output: str, kind: str) -> SummaryValue | None:
         side: Kind = "max" if kind == "max" else "min"
         signal = self.signal(output)
         return self.extreme(signal, side) if self.forces is None else self.extreme(signal, side, of="forces")
@@ -294,16 +297,16 @@ class Analysis(PartlyReached):
             self._outputs[words] = output_meant(self.motion.mechanism, words)
         return self._outputs[words]
 
-    def _of_limits(self, output: Output, kind: str) -> Extreme:
+    def _of_limits(self, output: Output, kind: str) -> SummaryValue:
         """Place of an output's outermost limit position, or the way between them."""
         if kind == "range":
             return self._range(output)
         end = next(each for each in self.outermost(output) if each.kind == kind.removeprefix("arg"))
-        return Extreme(end.input, end.time, end.input, True)
+        return SummaryValue(end.input, end.time, end.input, True)
 
-    def _range(self, output: Output) -> Extreme:
+    def _range(self, output: Output) -> SummaryValue:
         """The way of an output between its outermost places, the largest one of all stretches that are reached."""
-        nowhere = Extreme(float("nan"), float("nan"), float("nan"), self.resolver.possible)
+        nowhere = SummaryValue(float("nan"), float("nan"), float("nan"), self.resolver.possible)
         if found := self.ranges(output):
             return replace(
                 nowhere, value=max(way for way, _ in found), exact=all(exact for _, exact in found)
@@ -362,12 +365,14 @@ class Analysis(PartlyReached):
         return float(np.sqrt(self.mean_of(signal, square=True)))
 
     @overload
-    def extreme(self, signal: Callable[[Motion], Floats], kind: Kind) -> Extreme | None: ...
+    def extreme(self, signal: Callable[[Motion], Floats], kind: Kind) -> SummaryValue | None: ...
     @overload
     def extreme(
         self, signal: Callable[[Forces], Floats], kind: Kind, *, of: Literal["forces"]
-    ) -> Extreme | None: ...
-    def extreme(self, signal: Callable[..., Floats], kind: Kind, *, of: str = "motion") -> Extreme | None:
+    ) -> SummaryValue | None: ...
+    def extreme(
+        self, signal: Callable[..., Floats], kind: Kind, *, of: str = "motion"
+    ) -> SummaryValue | None:
         """Largest or smallest value of a signal over the cycle, found between the positions where that can be.
 
         ``signal`` takes a Motion (or Forces, with ``of="forces"``) and gives (n,). None where no position is
@@ -381,7 +386,7 @@ class Analysis(PartlyReached):
         index = first_largest(sign * values)
         time = self.motion.time
         at = float(self.motion.input[index]) if self.motion.inputs else float("nan")
-        sample = Extreme(float(values[index]), float(time[index]), at, False)
+        sample = SummaryValue(float(values[index]), float(time[index]), at, False)
         if not self.resolver.possible or self.motion.steps < 3:
             return sample
         if self.cycle is not None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.cycle.summary import Extreme, Summary
+from linkwright.cycle.summary import Summary, SummaryValue
 from linkwright.formula.trace import Scalar
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Result
@@ -109,7 +109,7 @@ def _itself(value: Scalar) -> Scalar:
     return value
 
 
-def _first(*parts: Extreme) -> float:
+def _first(*parts: SummaryValue) -> float:
     return parts[0].input
 
 

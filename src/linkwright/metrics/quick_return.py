@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.core.outputs import Output
-from linkwright.cycle.summary import Extreme, Summary
+from linkwright.cycle.summary import Summary, SummaryValue
 from linkwright.formula.trace import Scalar, floor, maximum
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, Number
@@ -69,6 +69,6 @@ def _angle(cycle: float, first: Scalar, last: Scalar) -> Scalar:
     return pi * (2.0 * _slow(cycle, first, last) - 1.0)
 
 
-def _begin(cycle: float, first: Extreme, last: Extreme) -> float:
+def _begin(cycle: float, first: SummaryValue, last: SummaryValue) -> float:
     """Where the slow stroke begins."""
     return first.input if ((last.input - first.input) / cycle) % 1.0 >= 0.5 else last.input

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
-from linkwright.cycle.summary import Extreme
+from linkwright.cycle.summary import SummaryValue
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import ROUNDING, Forces
@@ -63,7 +63,7 @@ class PartlyReached:
         span = time[-1] - time[0]
         return float(np.trapezoid(kept, time) / span) if span else float(np.mean(kept))
 
-    def extreme_of_part(self, signal: Signal, sign: float, of: str, sample: Extreme) -> Extreme:
+    def extreme_of_part(self, signal: Signal, sign: float, of: str, sample: SummaryValue) -> SummaryValue:
         """The largest (``sign`` 1) or smallest value of a signal, of which one ``sample`` is known; NaN where nothing
         tells it."""
         found = [way.extreme(signal, sign, of) for way in self.ways]

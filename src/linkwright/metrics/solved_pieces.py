@@ -20,7 +20,7 @@ from linkwright.curves.curve import increasing
 from linkwright.curves.pieces import HIGH, LOW, Columns, Layout, Pieces, Wanted
 from linkwright.curves.polynomials import NODES, WEIGHTS, best_of, climbed, largest
 from linkwright.cycle.solved import PIECES
-from linkwright.cycle.summary import Extreme
+from linkwright.cycle.summary import SummaryValue
 from linkwright.events.course import Course
 from linkwright.kinematics.motion import Motion
 from linkwright.metrics.one_sided_limits import AWAY, SLOWED, STEEPEST, limit, weights
@@ -147,13 +147,13 @@ class SolvedPieces:
 
     def extreme(
         self, signal: Signal, sign: float, of: str, spans: Sequence[tuple[float, float]] = ()
-    ) -> Extreme | None:
+    ) -> SummaryValue | None:
         """The largest (``sign`` 1) or smallest value of a signal; ``spans``: in these times, s, alone, of which the
         second may lie in the next cycle. NaN where nothing tells it, None where something is not solved."""
         found = self._near_enough(_one(signal), of, Wanted(sides=((0, sign),)), np.ravel(spans))
         for end, most, _ in found.limits:
             if most == sign * np.inf:
-                return Extreme(most, end, self.resolver.input_at(end), True)
+                return SummaryValue(most, end, self.resolver.input_at(end), True)
         pieces = found.pieces
         if not pieces.passed[0]:
             return None
@@ -175,7 +175,7 @@ class SolvedPieces:
             most = 0.0
         if isinstance(self, SolvedStretch) and found.untold(sign, most, int(piece[best])):
             most = float("nan")
-        return Extreme(sign * most, time, self.resolver.input_at(time), True)
+        return SummaryValue(sign * most, time, self.resolver.input_at(time), True)
 
 
 class SolvedStretch(SolvedPieces):

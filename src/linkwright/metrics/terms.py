@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.search import first_largest
-from linkwright.cycle.summary import Extreme
+from linkwright.cycle.summary import SummaryValue
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.formula.trace import Scalar, absolute, minimum, select
 from linkwright.metrics import METRICS, Analysis
@@ -40,7 +40,7 @@ def _worst(numbers: Sequence[Number], better: str, *values: Scalar) -> Scalar:
     return reduce(minimum if better == "higher" else _larger, _each(numbers, values))
 
 
-def _place_of_worst(numbers: Sequence[Number], better: str, *parts: Extreme) -> float:
+def _place_of_worst(numbers: Sequence[Number], better: str, *parts: SummaryValue) -> float:
     rest = iter(parts)
     own = [tuple(islice(rest, len(number.summaries))) for number in numbers]
     values: Any = _each(numbers, [np.float64(each.value) for each in parts])

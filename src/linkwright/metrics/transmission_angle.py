@@ -8,7 +8,7 @@ from math import nan, radians
 from typing import ClassVar
 
 from linkwright.core.outputs import Output
-from linkwright.cycle.summary import STROKES, Extreme, StrokeSummary, Summary
+from linkwright.cycle.summary import STROKES, StrokeSummary, Summary, SummaryValue
 from linkwright.elements.topology import Group
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis, finds
@@ -82,17 +82,17 @@ def _driven_dyads(analysis: Analysis) -> list[tuple[Group, Output]]:
 
 
 @finds(StrokeSummary)
-def on_strokes(parts: Sequence[StrokeSummary], analysis: Analysis) -> list[Extreme]:
+def on_strokes(parts: Sequence[StrokeSummary], analysis: Analysis) -> list[SummaryValue]:
     """Such parts of one machine, each the smallest of all its strokes that way: of the stroke in which it lies the
     smallest of the cycle."""
-    found: list[Extreme] = []
+    found: list[SummaryValue] = []
     period = analysis.motion.positions.period or 0.0
     of = "motion" if analysis.forces is None else "forces"
     for part in parts:
         assert analysis.cycle is not None
         spans = _strokes(part, analysis, period)
         lowest = analysis.cycle.extreme(analysis.signal(part.output), -1.0, of, spans)
-        found.append(lowest or Extreme(nan, nan, nan, False))
+        found.append(lowest or SummaryValue(nan, nan, nan, False))
     return found
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
-from linkwright.cycle.summary import Extreme, Summary
+from linkwright.cycle.summary import Summary, SummaryValue
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.equivalent import Equivalent, equivalent
 from linkwright.machine.flywheel import flywheel_inertia
@@ -33,12 +33,12 @@ class TrueSpeedSummary(Summary):
 
 
 @finds(TrueSpeedSummary)
-def of_machine(parts: Sequence[TrueSpeedSummary], analysis: Analysis) -> list[Extreme]:
+def of_machine(parts: Sequence[TrueSpeedSummary], analysis: Analysis) -> list[SummaryValue]:
     """Such parts of one machine; raises LinkwrightError where it would stop, or does not run steadily."""
     return [_of_machine(part, analysis) for part in parts]
 
 
-def _of_machine(part: TrueSpeedSummary, analysis: Analysis) -> Extreme:
+def _of_machine(part: TrueSpeedSummary, analysis: Analysis) -> SummaryValue:
     assert analysis.forces is not None
     reduced, cycle = steady_cycle(analysis.forces)
     size, fluctuation, nan = 0.0, part.required, float("nan")
@@ -46,11 +46,11 @@ def _of_machine(part: TrueSpeedSummary, analysis: Analysis) -> Extreme:
         energy, own = reduced.energy.value, reduced.mean_inertia
         size = flywheel_inertia(energy, reduced.speed, fluctuation, present=own)
         if part.kind == "size":
-            return Extreme(cycle.flywheel(fluctuation, size), nan, nan, True)
+            return SummaryValue(cycle.flywheel(fluctuation, size), nan, nan, True)
     if part.kind == "fluctuation":
-        return Extreme(cycle.fluctuation(size), nan, nan, True)
+        return SummaryValue(cycle.fluctuation(size), nan, nan, True)
     place, value = getattr(cycle.curve(size, motor_torque=reduced.load.mean), part.kind)
-    return Extreme(value, nan, reduced.input_at(place), True)
+    return SummaryValue(value, nan, reduced.input_at(place), True)
 
 
 def steady_cycle(forces: Forces) -> tuple[Equivalent, SteadyCycle]:

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from linkwright.cycle.summary import Extreme, Summary
+from linkwright.cycle.summary import Summary, SummaryValue
 from linkwright.formula.trace import Scalar, absolute, select
 from linkwright.kinetostatics.named_outputs import RATIO
 from linkwright.metrics.analysis import Analysis
@@ -32,7 +32,7 @@ def _advantage(least: float, high: Scalar, low: Scalar) -> Scalar:
     return 1.0 / absolute(_largest(least, high, low))
 
 
-def _place(least: float, high: Extreme, low: Extreme) -> float:
+def _place(least: float, high: SummaryValue, low: SummaryValue) -> float:
     if max(abs(high.value), abs(low.value)) <= least:
         return nan
     return high.input if abs(high.value) >= _BUT_ROUNDING * abs(low.value) else low.input

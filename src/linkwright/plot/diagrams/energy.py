@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.cycle.summary import Extreme
+from linkwright.cycle.summary import SummaryValue
 from linkwright.errors import LinkwrightError
 from linkwright.machine.energy import EnergyFluctuation
 from linkwright.machine.equivalent import Equivalent, equivalent
@@ -95,9 +95,9 @@ def _curve(running: SteadyRunning, speed: SpeedCurve, flywheel: float, name: str
     label = f"{name}{inertia}: δ = {significant(speed.fluctuation, 3)}"
     reduced = running.equivalent
 
-    def exact(kind: Kind) -> Extreme:
+    def exact(kind: Kind) -> SummaryValue:
         angle, value = speed.fastest if kind == "max" else speed.slowest
-        return Extreme(value, angle / reduced.speed, reduced.input_at(angle), True)
+        return SummaryValue(value, angle / reduced.speed, reduced.input_at(angle), True)
 
     x = reduced.start + reduced.direction * speed.angle
     return Curve(label, speed.speed, colour=colour, x=x, extremes=exact)

@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeAlias, TypeVar, cast
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.cycle.summary import Extreme
+from linkwright.cycle.summary import SummaryValue
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.positions import at_times
@@ -29,7 +29,7 @@ Result: TypeAlias = Mechanism | Motion | Forces | SteadyRunning
 STEPS = 720
 TURN = 2 * np.pi
 T = TypeVar("T")
-Extremes: TypeAlias = Callable[[Kind], Extreme | None]
+Extremes: TypeAlias = Callable[[Kind], SummaryValue | None]
 
 
 class Source:
@@ -119,7 +119,7 @@ class Source:
         loads = of == "forces"
         analysis = Analysis.of(self.forces if loads else self.motion)
 
-        def found(kind: Kind) -> Extreme | None:
+        def found(kind: Kind) -> SummaryValue | None:
             extreme = analysis.extreme(signal, kind, of="forces") if loads else analysis.extreme(signal, kind)
             return extreme if extreme is not None and extreme.exact else None
 
@@ -131,7 +131,7 @@ class Source:
             return None
         between = self.extremes(signal)
 
-        def found(kind: Kind) -> Extreme | None:
+        def found(kind: Kind) -> SummaryValue | None:
             extreme = between(kind)
             if extreme is None:
                 return None

@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from linkwright.cams.report import RATES
-from linkwright.cams.result import CamDesign, Extreme
+from linkwright.cams.result import CamDesign
+from linkwright.curves.curve import Extreme
 from linkwright.errors import RequestError
 from linkwright.pictures.diagram import FAINT, INK, Figure
 from linkwright.plot.diagrams.base import Request, result_diagram
