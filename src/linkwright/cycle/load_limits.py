@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from math import pi
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
-from linkwright.curves.pieces import HIGH, LOW
 from linkwright.cycle.block import Block, ByColumns, Swings
 from linkwright.cycle.machine import Machine
-from linkwright.events.events import AT
 from linkwright.events.formula import ROW
 from linkwright.events.limits import Limits
 from linkwright.kinetostatics.load_site import (
@@ -29,9 +26,6 @@ from linkwright.loads.signals import BetweenLimits
 
 #: Designs of which limits are sought together.
 BLOCK = 1024
-#: Newton's steps from a limit of a design to that of one near it, and the change of the input in the last one that
-#: ends them well, rad.
-NEAR_STEPS, CONVERGED = 5, 1e-10
 
 
 class LoadLimits:
@@ -69,52 +63,6 @@ class LoadLimits:
                 for first in range(0, count, BLOCK)
             ]
         )
-
-
-class NearLimits:
-    """Limits of designs near one whose limits are known, one design at a time.
-
-    ``start``: the limits of that one.
-    """
-
-    def __init__(self, sought: LoadLimits, start: FoundLimits) -> None:
-        self.sought, machine = sought, sought.machine
-        self.known = replace(machine.known, compiled=True)
-        self._order = [(output, kind) for output in sought.outputs for kind in ("max", "min")]
-        course = machine.course
-        speed, begin = float(course.first.law.constant_speed or 0.0), course.first.law.at(0.0)
-        inputs = np.array([start.numbers[limit_name(*each)][0] for each in self._order])
-        self.speed, self.begin, self.times = speed, begin, (inputs - begin) / speed
-        rates = sought.swings.rates
-        place = {} if rates is None else rates.place
-        rows = [2 * place[str(k)] for k in range(len(sought.outputs)) for _ in ("max", "min")]
-        self._rows, self._columns = np.array(rows), np.arange(len(rows))
-
-    def limits(self, values: Mapping[str, float]) -> dict[str, float] | None:
-        """Their numbers of the design with these values of the dimensions that vary; None where Newton's steps do
-        not come to an end."""
-        rates = self.sought.swings.rates
-        if rates is None:
-            return None
-        formula, time = rates.with_slope, self.times
-        columns = {name: np.full(len(time), value) for name, value in values.items()}
-        for _ in range(NEAR_STEPS):
-            found = formula.run(self.known, {**columns, LOW: time, HIGH: time + 1.0}, AT)[0]
-            step = found[self._rows, self._columns] / found[self._rows + 1, self._columns]
-            time = time - step
-        if not float(np.abs(step).sum()) * abs(self.speed) <= CONVERGED:
-            return None
-        columns |= {LOW: time, HIGH: time + 1.0}
-        numbers = {
-            limit_name(*each): self.begin + self.speed * at
-            for each, at in zip(self._order, time.tolist(), strict=True)
-        }
-        for output in dict.fromkeys(phase.output for phase in self.sought.phases if phase.in_part):
-            value = self.sought.swings.values[output].run(self.known, columns, AT)[0, 0]
-            for (own, kind), there in zip(self._order, value.tolist(), strict=True):
-                if own == output:
-                    numbers[value_name(own, kind)] = there
-        return numbers
 
 
 class FoundLimits:

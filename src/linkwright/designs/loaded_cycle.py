@@ -3,24 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import field, replace
 from functools import cached_property
+from math import inf
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import kind_of, owners_of
+from linkwright.core.outputs import kind_of, owners_of, row_name
 from linkwright.cycle.load_limits import FoundLimits, LoadLimits
 from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.designs.traced_outputs import Traced, design_table
 from linkwright.errors import LinkwrightError
 from linkwright.formula.reductions import VALID_COUNT, Results
-from linkwright.formula.trace import Scalar, select
+from linkwright.formula.trace import Mask, Scalar, absolute, select
 from linkwright.kinetostatics.friction_stage import can_be_traced
 from linkwright.kinetostatics.load_site import turns_steadily
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
+from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads, traced_magnitude
 from linkwright.loads.base import Load
 from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.strokes import TURN
@@ -36,9 +37,9 @@ class LoadedCycle:
     need none; ``constants``: numbers that programs take beside dimensions."""
 
     traced: Traced
-    loads: AlongInput
-    limits: LoadLimits | None
-    constants: Mapping[str, float]
+    loads: AlongInput = AlongInput(frozenset())
+    limits: LoadLimits | None = None
+    constants: Mapping[str, float] = field(default_factory=dict)
 
     def solve(self, part: Mapping[str, Floats]) -> FoundLimits | None:
         """The limits of the designs with the given columns."""
@@ -48,6 +49,24 @@ class LoadedCycle:
         """What a program takes of the designs with the given columns and limits, (designs, names)."""
         known = {**self.traced.solver.nominal.parameters, **self.constants}
         return design_table(names, known, {**part, **limits})
+
+    @cached_property
+    def sizes(self) -> dict[str, Scalar]:
+        """Magnitudes of loads, and the friction, by the names of the fields that forces know them by."""
+        motion, friction = self.traced.solver.motion, self.traced.forces.programs.friction
+        loads = {
+            row_name("magnitude", name): traced_magnitude(motion, name) for name in sorted(self.loads.names)
+        }
+        return loads if friction is None else {**loads, **friction.sizes}
+
+    @property
+    def sound(self) -> Mask:
+        """Whether every load has a value at a position, and the friction is certain."""
+        trace, friction = self.traced.solver.motion.trace, self.traced.forces.programs.friction
+        found: Mask = True if friction is None else friction.certain
+        for name in self.loads.fallible:
+            found = trace.logic("and", found, absolute(self.sizes[row_name("magnitude", name)]) < inf)
+        return found
 
     @cached_property
     def doubts(self) -> dict[str, Scalar]:
