@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from contextlib import suppress
+from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_or_more
 from linkwright.designs.alternatives import Alternative
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
+from linkwright.metrics.by_name import is_summary, measured, metric_named, metric_of, number_named, wanted
 from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.of_output import OWN
-from linkwright.metrics.terms import measured, metric_named, metric_of, number_named
-from linkwright.metrics.wanted import is_summary, wanted
 from linkwright.registry import offered
 from linkwright.words import say
 from linkwright.words.sentence import Sentence, in_words
@@ -25,7 +25,7 @@ class Criterion:
 
     name: str
 
-    @property
+    @cached_property
     def metric(self) -> type[Metric] | None:
         """The metric; None for a summary of an output."""
         found = None if is_summary(self.name) else metric_of(self.name)

@@ -15,12 +15,12 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
+from linkwright.metrics.by_name import measured
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.hulls_of_designs import hulls_of_designs
 from linkwright.metrics.of_designs import MetricsOfDesigns, numbers_of_designs
 from linkwright.metrics.of_output import Asked
 from linkwright.metrics.ranges_of_designs import ranges_of_designs
-from linkwright.metrics.terms import measured
 
 #: Designs up to which what finds their numbers together may choose to do so without a compiler.
 FEW = 512

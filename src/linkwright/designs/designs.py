@@ -31,7 +31,7 @@ from linkwright.formula.threads import chunks
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.wanted import wanted
+from linkwright.metrics.by_name import wanted
 
 if TYPE_CHECKING:
     import pandas

@@ -25,11 +25,10 @@ from linkwright.kinematics.positions import Positions, at_inputs
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.by_name import is_metric, refuse_obstacle
 from linkwright.metrics.hulls_of_designs import hulls_of_designs, swept
 from linkwright.metrics.of_designs import MetricsOfDesigns, numbers_of_designs, refuse_unsteady
 from linkwright.metrics.ranges_of_designs import ranged, ranges_of_designs
-from linkwright.metrics.terms import refuse_obstacle
-from linkwright.metrics.wanted import is_metric
 from linkwright.words.sentence import Sentence
 
 

@@ -37,7 +37,7 @@ from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.wanted import wanted
+from linkwright.metrics.by_name import wanted
 from linkwright.units import LARGEST
 
 VALUE = "objective"

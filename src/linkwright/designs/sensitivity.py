@@ -187,7 +187,7 @@ def sensitivity(
 
 def split(each: str | tuple[str, str]) -> str | Summary:
     """An output alone, or a summary of it; raises LinkwrightError for a kind that has no derivative."""
-    from linkwright.metrics.wanted import wanted
+    from linkwright.metrics.by_name import wanted
 
     output = each if isinstance(each, str) else None
     found = wanted([each])

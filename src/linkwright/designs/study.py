@@ -33,10 +33,10 @@ from linkwright.formula.machine_code import available
 from linkwright.formula.threads import chunks
 from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.by_name import is_summary
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.of_output import Asked
 from linkwright.metrics.outputs import usual_output
-from linkwright.metrics.wanted import is_summary
 from linkwright.registry import offered
 from linkwright.units import si_unit
 from linkwright.words.sentence import Sentence

@@ -26,7 +26,7 @@ from linkwright.errors import RequestError
 from linkwright.export.base import package
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import METRICS
-from linkwright.metrics.wanted import wanted
+from linkwright.metrics.by_name import wanted
 from linkwright.whole_files import make_folder, write_whole
 
 Sampling = Literal["grid", "sobol"]

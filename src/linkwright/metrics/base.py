@@ -144,12 +144,10 @@ class Number:
     def measured(self, analysis: Analysis) -> tuple[float, float, bool]:
         """Value, place, and whether it is exact between the positions, of one machine."""
         parts = [analysis.part(each) for each in self.summaries]
-        found: Scalar = parts[0].value
-        if self.formula is not _itself:
-            with np.errstate(divide="ignore", invalid="ignore"):  # infinite as of many designs, not an error
-                found = self.formula(*(np.float64(part.value) for part in parts))
+        with np.errstate(divide="ignore", invalid="ignore"):  # infinite as of many designs, not an error
+            found, at = self.formula(*(np.float64(part.value) for part in parts)), self.at(*parts)
         assert isinstance(found, float)
-        return float(found), self.at(*parts), all(part.exact for part in parts)
+        return float(found), at, all(part.exact for part in parts)
 
 
 class Metric(ABC):

@@ -18,10 +18,10 @@ from linkwright.formula.summaries import Backend
 from linkwright.formula.threads import cores, spread_over
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.by_name import chosen_subjects, metric_of
 from linkwright.metrics.of_designs import MetricsOfDesigns
 from linkwright.metrics.swept_area import of_driver, points, turned
 from linkwright.metrics.swept_hull import Curves, SweptHull
-from linkwright.metrics.terms import chosen_subjects, metric_of
 
 #: Designs whose curves are kept at the same time.
 BLOCK = 256

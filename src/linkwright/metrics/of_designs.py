@@ -30,8 +30,8 @@ from linkwright.machine.steady_designs import SteadyDesigns
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import Number
+from linkwright.metrics.by_name import number_named
 from linkwright.metrics.of_output import Asked
-from linkwright.metrics.terms import number_named
 from linkwright.metrics.true_speed import EFFORT, INERTIA, TrueSpeedSummary
 
 #: Designs of one block: what is found of them stays in a core's cache.
@@ -83,8 +83,8 @@ def numbers_of_designs(
     """Registered metrics (``peak_reaction``, ``peak_reaction O5``) and summaries (``driver.effort rms``) of all
     designs of a mechanism with some dimensions changed, those that apply to it and are formulas of summaries.
 
-    ``steps``: of the motion by which it is judged what applies; ``asked``: see ``terms.number_named``. None where the
-    cycle is no formula of one position (see ``cycle.machine.Machine``), or the dimensions move its times. What is
+    ``steps``: of the motion by which it is judged what applies; ``asked``: see ``by_name.number_named``. None where
+    the cycle is no formula of one position (see ``cycle.machine.Machine``), or the dimensions move its times. What is
     found for a machine is kept.
     """
     given, addresses = tuple(names), tuple(varied)

@@ -29,8 +29,8 @@ from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.programs import force_programs
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.by_name import chosen_subjects, metric_of
 from linkwright.metrics.of_designs import MetricsOfDesigns
-from linkwright.metrics.terms import chosen_subjects, metric_of
 
 #: Newton steps, and the last one's size, rad.
 STEPS, CONVERGED = 12, 1e-10

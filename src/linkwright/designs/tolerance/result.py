@@ -20,7 +20,7 @@ from linkwright.designs.tolerance.problem import Limit, Tolerances
 from linkwright.designs.varied_dimensions import design_values
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
-from linkwright.metrics.wanted import wanted
+from linkwright.metrics.by_name import wanted
 from linkwright.parts.base import PERCENT, Block, Result, Row, fault, put, shown
 from linkwright.words import Say
 from linkwright.worked.page import Step

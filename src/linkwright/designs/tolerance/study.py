@@ -11,7 +11,7 @@ from linkwright.designs.varied_dimensions import misfits
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
 from linkwright.kinematics.names import output_meant
 from linkwright.metrics.base import METRICS
-from linkwright.metrics.wanted import is_metric, wanted
+from linkwright.metrics.by_name import is_metric, wanted
 from linkwright.parts.base import fault
 from linkwright.registry import PROBABLE, nearest
 
