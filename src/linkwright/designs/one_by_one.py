@@ -19,7 +19,7 @@ from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.programs import words_name
-from linkwright.kinetostatics.run import forces_of_motion
+from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.words.sentence import Sentence
 
@@ -67,7 +67,7 @@ def outputs_alone(motion: Motion, quantities: Iterable[Quantity]) -> dict[str, F
             ForceSolver(motion.solver).evaluate(names, motion, {}) if names else np.empty((0, motion.steps))
         )
     else:
-        values = forces_of_motion(motion, False).evaluate(names)
+        values = run_forces(motion, False).evaluate(names)
     found = dict(zip(words, np.where(motion.ok, values, np.nan), strict=True))
     return {name: found[name] if name in found else _of_course(motion, each) for name, each in asked.items()}
 

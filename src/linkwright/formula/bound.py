@@ -36,14 +36,10 @@ class BoundPlan:
 
     Fill ``inputs[kind][place]`` (and, without an axis for the designs, the numbers of the boundary through
     :meth:`set_design`; ``numbers``: the parameters that these are for) and ``tables`` in the program's order, call
-    :meth:`run`,
-    read ``outputs`` of shape (outputs, designs, positions) or (outputs, positions). ``late``: the line at which the
-    second part of a run begins.
+    :meth:`run`, read ``outputs`` of shape (outputs, designs, positions) or (outputs, positions).
     """
 
-    def __init__(
-        self, lines: Lines, registers: Registers, designs: int | None, positions: int, late: int = 0
-    ) -> None:
+    def __init__(self, lines: Lines, registers: Registers, designs: int | None, positions: int) -> None:
         self._lines = lines
         self._single = designs is None
         self._full: tuple[int, ...] = (positions,) if designs is None else (designs, positions)
@@ -64,8 +60,10 @@ class BoundPlan:
             i: self._design_numbers[k, ...] for k, i in enumerate(self._numbers_at)
         }
         self._arrays = self._lay_out(registers)
-        self._early = self._span(registers, range(late))
-        self._late = self._span(registers, range(late, len(lines.lines)))
+        self._calls = self._calls_for(
+            [i for i, line in enumerate(lines.lines) if line.varies and line.is_operation]
+        )
+        self._calls += [(np.copyto, (self.outputs[row], self._arrays[i])) for row, i in registers.copies]
         self._design_calls = [] if self._single else self._calls_for(lines.design_lines())
 
     def _lay_out(self, registers: Registers) -> list[NDArray[Any]]:
@@ -92,13 +90,6 @@ class BoundPlan:
                 self.inputs[line.op].append(array)
             arrays.append(array)
         return arrays
-
-    def _span(self, registers: Registers, span: range) -> list[Call]:
-        """The calls of some lines per position, outputs that are copies among them."""
-        lines = self._lines.lines
-        calls = self._calls_for([i for i in span if lines[i].varies and lines[i].is_operation])
-        copies = [(row, i) for row, i in registers.copies if i in span]
-        return calls + [(np.copyto, (self.outputs[row], self._arrays[i])) for row, i in copies]
 
     def _calls_for(self, chosen: list[int]) -> list[Call]:
         calls: list[Call] = []
@@ -133,17 +124,7 @@ class BoundPlan:
 
     def run(self) -> None:
         """Evaluate the lines per position and fill the outputs."""
-        self.run_early()
-        self.run_late()
-
-    def run_early(self) -> None:
-        """The first part."""
-        for function, args in self._early:
-            function(*args)
-
-    def run_late(self) -> None:
-        """The second part."""
-        for function, args in self._late:
+        for function, args in self._calls:
             function(*args)
 
 

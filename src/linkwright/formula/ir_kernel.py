@@ -10,32 +10,22 @@ from linkwright.formula.reductions import PLACE, Accumulation
 
 
 def kernel(
-    lines: Lines,
-    width: int,
-    accumulation: Accumulation | None,
-    *,
-    library: bool = False,
-    exact: bool = False,
+    lines: Lines, width: int, accumulation: Accumulation | None, *, library: bool = False
 ) -> tuple[str, int]:
-    """The module, and how much it is to be optimised.
-
-    ``library``: all functions are called from outside, lane by lane; ``exact``: every operation is rounded by itself.
-    """
-    text = Kernel(lines, width, accumulation, library, exact).text()
+    """The module, and how much it is to be optimised; ``library``: functions are called from outside, by lanes."""
+    text = Kernel(lines, width, accumulation, library).text()
     return text, optimisation(text)
 
 
 class Kernel:
     """Lanes are positions: full vectors first, then the last ones, overlapping the others."""
 
-    def __init__(
-        self, lines: Lines, width: int, accumulation: Accumulation | None, library: bool, exact: bool
-    ) -> None:
+    def __init__(self, lines: Lines, width: int, accumulation: Accumulation | None, library: bool) -> None:
         self.lines = lines
         self.shape = Shape.of(lines, accumulation)
         self.width = width
         self.accumulation = accumulation
-        self.writer = LineWriter(lines, width, library=library, exact=exact)
+        self.writer = LineWriter(lines, width, library=library)
         self.sums = None if accumulation is None else AccumulatorWriter(self.writer, accumulation)
 
     def text(self) -> str:

@@ -10,7 +10,7 @@ from linkwright.formula.ir_lookup import LOOKUP
 from linkwright.formula.ir_vectors import Lanes
 from linkwright.formula.lines import Line, Lines
 
-#: What the compiler may assume of code that is not exact: signs of zero, reciprocals, fused and regrouped operations.
+#: What the compiler may assume: signs of zero, reciprocals, fused and regrouped operations.
 #: Never that there is no NaN and no infinity.
 FAST = "nsz arcp contract reassoc"
 _ARITHMETIC = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
@@ -21,14 +21,12 @@ _LOGIC = {"and": "and", "or": "or"}
 class LineWriter(Lanes):
     """Writes lines as instructions; ``%v12`` is line 12, ``%w12`` the same in all lanes.
 
-    ``library``: functions are called from outside, lane by lane. ``exact``: every operation is rounded by itself.
-    ``names`` and ``tables`` may be changed where lines are written beside others: the names of values, and where
-    the tables stand.
+    ``library``: functions are called from outside, lane by lane. ``names`` and ``tables`` may be
+    changed where lines are written beside others: the names of values, and where the tables stand.
     """
 
-    def __init__(self, lines: Lines, width: int, library: bool = False, exact: bool = False) -> None:
+    def __init__(self, lines: Lines, width: int, library: bool = False) -> None:
         super().__init__(width)
-        self.may = "" if exact else f"{FAST} "
         self.lines = lines.lines
         self.outputs = lines.outputs
         self._in_lanes = {} if library or width < 2 else IN_LANES
@@ -93,7 +91,7 @@ class LineWriter(Lanes):
         value = self.name(index)
         args = [self.operand(a, vector) for a in line.args]
         if line.op in _ARITHMETIC:
-            return [f"{value} = {_ARITHMETIC[line.op]} {self.may}{kind} {args[0]}, {args[1]}"]
+            return [f"{value} = {_ARITHMETIC[line.op]} {FAST} {kind} {args[0]}, {args[1]}"]
         if line.op in _COMPARISON:
             operands = self.type_of(line.args[0], vector)
             return [f"{value} = fcmp {_COMPARISON[line.op]} {operands} {args[0]}, {args[1]}"]
@@ -111,7 +109,7 @@ class LineWriter(Lanes):
         """An intrinsic, a function in all lanes, or a call of the C library, lane by lane."""
         if function.exact:
             suffix = f"v{self.width}f64" if vector else "f64"
-            return [f"{value} = call {self.may}{kind} @llvm.{function.exact}.{suffix}({kind} {args[0]})"]
+            return [f"{value} = call {FAST} {kind} @llvm.{function.exact}.{suffix}({kind} {args[0]})"]
         name = f"@linkwright_{function.library}"
         if not vector:
             return [f"{value} = call double {name}({', '.join(f'double {a}' for a in args)})"]
@@ -155,7 +153,7 @@ _Writer = Callable[[LineWriter, Line, str, str, list[str], bool], list[str]]
 
 
 def _negation(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
-    return [f"{value} = fneg {w.may}{kind} {args[0]}"]
+    return [f"{value} = fneg {FAST} {kind} {args[0]}"]
 
 
 def _inverse(w: LineWriter, line: Line, value: str, kind: str, args: list[str], vector: bool) -> list[str]:

@@ -33,27 +33,25 @@ _LONGEST_CALL, _SHORTEST_CALL = 1 << 20, 1 << 16
 _CALLS_PER_THREAD = 4
 
 
-def compile_program(
-    program: Program, accumulation: Accumulation | None = None, *, exact: bool = False
-) -> CompiledProgram | None:
+def compile_program(program: Program, accumulation: Accumulation | None = None) -> CompiledProgram | None:
     """The program as machine code, or None where llvmlite is missing.
 
     Without an ``accumulation`` every output is stored (:meth:`CompiledProgram.store`, ``.repeated``); with
     one, of this program, its reductions are found inside the loop (:meth:`CompiledProgram.sweep`).
-    ``exact``: every operation is rounded by itself, as NumPy does. Machine code is kept in memory and on disk. Raises
+    Machine code is kept in memory and on disk. Raises
     ValueError for unknown outputs.
     """
     if not available():
         return None
     owner = program if accumulation is None else accumulation
-    return _compiled.get(owner, exact, lambda: _compile(program, accumulation, exact))
+    return _compiled.get(owner, None, lambda: _compile(program, accumulation))
 
 
-def _compile(program: Program, accumulation: Accumulation | None, exact: bool) -> CompiledProgram:
+def _compile(program: Program, accumulation: Accumulation | None) -> CompiledProgram:
     needed = program if accumulation is None else accumulation.needed
     width = machine_code.host().width
-    key = f"{needed.key} {'stored' if accumulation is None else accumulation.key}{' exact' if exact else ''}"
-    code = loaded_code(key, lambda: kernel(Lines.of(needed), width, accumulation, exact=exact), ENTRY)
+    key = f"{needed.key} {'stored' if accumulation is None else accumulation.key}"
+    code = loaded_code(key, lambda: kernel(Lines.of(needed), width, accumulation), ENTRY)
     return CompiledProgram(needed, accumulation, code, width)
 
 

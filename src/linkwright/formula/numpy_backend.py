@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Container, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -31,26 +31,17 @@ class NumpyProgram:
 
     What depends on the design only is evaluated once per design. Division by zero and roots of
     negative numbers give infinities and NaN without warnings. Truth values among the outputs
-    are 1.0 or 0.0. May be used from several threads. ``late``: parameters and fields that :meth:`run_in_turn` takes
-    later than all others.
+    are 1.0 or 0.0. May be used from several threads.
     """
 
-    def __init__(self, program: Program, late: Container[str] = ()) -> None:
+    def __init__(self, program: Program) -> None:
         self.program = program
         self.lines = Lines.of(program)
         self.registers = Registers.of(self.lines)
         lines = self.lines.lines
         self._start = start_values(lines)
         self._parameter_lines = [i for i, line in enumerate(lines) if line.op == "parameter"]
-        inputs = {"parameter": program.parameters, "field": program.fields}
-        begin = (i for i, x in enumerate(lines) if x.op in inputs and inputs[x.op][x.place] in late)
-        self._late = next(begin, len(lines))
-        places = list(zip(self._parameter_lines, program.parameters, strict=True))
-        self._known = [each for each in places if each[0] < self._late]
-        self._found = [each for each in places if each[0] >= self._late]
-        design = self.lines.design_lines()
-        self._design = LineRunner(lines, [i for i in design if i < self._late])
-        self._late_design = LineRunner(lines, [i for i in design if i >= self._late])
+        self._design = LineRunner(lines, self.lines.design_lines())
         self._own = threading.local()
 
     def run(
@@ -80,52 +71,6 @@ class NumpyProgram:
             plan.run()
         return plan.outputs.copy()
 
-    def run_in_turn(
-        self,
-        parameters: Mapping[str, float],
-        positions: Arrays,
-        late: Callable[[Floats], Mapping[str, Any] | None],
-        *,
-        early: int,
-        length: int | None = None,
-        tables: Tables | None = None,
-    ) -> Floats | None:
-        """As :meth:`run`, of a program whose late inputs stand last (see ``Program.last``).
-
-        ``parameters``: by name; ``late`` takes the outputs (outputs, n), of which the first ones, so many as are
-        ``early`` and need no late input, are there already, and gives the late inputs by name; with None the
-        evaluation ends with None.
-        """
-        n = self._length(positions, {}, length)
-        plans, key = self._plans(), (None, n)
-        plan = plans.pop(key, None) or self._new_plan(None, n)
-        plan.numbers = None
-        plan.tables[:] = given_tables(self.program.tables, tables)
-        values = [*self._start, *plan.tables]
-        for index, name in self._known:
-            values[index] = parameters[name]
-        self._design.run(values)
-        plan.set_design(values)
-        for buffer, name in zip(plan.inputs["position"], self.program.positions, strict=True):
-            buffer[...] = positions[name]
-        with np.errstate(all="ignore"):
-            plan.run_early()
-        found = np.empty(plan.outputs.shape)
-        found[:early] = plan.outputs[:early]
-        given = late(found)
-        if given is not None:
-            for index, name in self._found:
-                values[index] = given[name]
-            self._late_design.run(values)
-            plan.set_design(values)
-            for buffer, name in zip(plan.inputs["field"], self.program.fields, strict=True):
-                buffer[...] = given[name]
-            with np.errstate(all="ignore"):
-                plan.run_late()
-            found[early:] = plan.outputs[early:]
-        plans[key] = plan
-        return None if given is None else found
-
     def _set_design(self, plan: BoundPlan, numbers: list[float], tables: Tables | None) -> None:
         """The lines per design; those of the call before where the same numbers are given again."""
         if numbers == plan.numbers and not self.program.tables:
@@ -135,7 +80,6 @@ class NumpyProgram:
         for index, value in zip(self._parameter_lines, numbers, strict=True):
             values[index] = value
         self._design.run(values)
-        self._late_design.run(values)
         plan.set_design(values)
         plan.numbers = numbers
 
@@ -243,20 +187,15 @@ class NumpyProgram:
             raise ValueError(f"parameters must have the shape (designs, {wanted}), but have {table.shape}")
         return table
 
-    def _plans(self) -> dict[tuple[int | None, int], BoundPlan]:
-        """Of this thread."""
-        return self._own.__dict__.setdefault("plans", {})  # type: ignore[no-any-return]
-
     def _plan(self, designs: int | None, n: int) -> BoundPlan:
-        plans, key = self._plans(), (designs, n)
+        """That of this thread."""
+        plans: dict[tuple[int | None, int], BoundPlan] = self._own.__dict__.setdefault("plans", {})
+        key = designs, n
         if key not in plans:
             if len(plans) >= _KEPT_PLANS:
                 plans.pop(next(iter(plans)))
-            plans[key] = self._new_plan(designs, n)
+            plans[key] = BoundPlan(self.lines, self.registers, designs, n)
         return plans[key]
-
-    def _new_plan(self, designs: int | None, n: int) -> BoundPlan:
-        return BoundPlan(self.lines, self.registers, designs, n, self._late)
 
 
 def numpy_program(program: Program) -> NumpyProgram:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Container, Mapping
 from functools import cached_property
 from typing import Literal
 
@@ -49,7 +49,12 @@ class Program:
         """The same program for some of its outputs."""
         entries, by_name = self.entries, dict(self.outputs)
         outputs = [(name, by_name[name]) for name in names]
-        return self._of(needed(lambda index: entries[index][1], [i for _, i in outputs]), outputs)
+        order = needed(lambda index: entries[index][1], [i for _, i in outputs])
+        number = {old: new for new, old in enumerate(order)}
+        return Program(
+            tuple(_renumbered(entries[old], number) for old in order),
+            tuple((name, number[i]) for name, i in outputs),
+        )
 
     def with_given(self, names: Container[str], op: Literal["field", "position"] = "field") -> Program:
         """The same program with the parameters and positions of some names taken as fields, or as positions."""
@@ -62,22 +67,6 @@ class Program:
                     node._replace(varies=node.varies or any(nodes[each].varies for each in node.args))
                 )
         return Program(tuple(nodes), self.outputs)
-
-    def last(self, inputs: Container[str]) -> Program:
-        """The same program with all lines that need some of its parameters or fields behind those that do not."""
-        late: set[int] = set()
-        for index, (_, args, _, name, _) in enumerate(self.entries):
-            if (not args and name in inputs) or not late.isdisjoint(args):
-                late.add(index)
-        return self._of([i for i in range(len(self.entries)) if i not in late] + sorted(late), self.outputs)
-
-    def _of(self, order: Sequence[int], outputs: Iterable[tuple[str, int]]) -> Program:
-        """Lines in a new order."""
-        number = {old: new for new, old in enumerate(order)}
-        return Program(
-            tuple(_renumbered(self.entries[old], number) for old in order),
-            tuple((name, number[i]) for name, i in outputs),
-        )
 
     @cached_property
     def nodes(self) -> tuple[Node, ...]:

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
-from linkwright.core.cached_property import cached_property
 from linkwright.core.given import require
 from linkwright.core.inputs import mode_groups
 from linkwright.errors import RequestError
@@ -145,29 +144,17 @@ class MotionRun:
         return motion
 
     def _at_once(self) -> Motion | None:
-        """The motion where all positions are reached and show that nothing is passed between two of them."""
-        measures = self.measures
+        """The motion where all positions are reached and show that nothing is passed between two of them; None where
+        they do not."""
+        measures = signs_of_passages(self.solver, self.positions)
         if measures is None:
             return None
         names = (*self.solver.outputs.standard, *measures)
-        values = self.solver.evaluate(names, self.positions, {}, {})
-        return self.seen(Rows(values, self.solver.programs.places(names)))
-
-    @cached_property
-    def measures(self) -> tuple[str, ...] | None:
-        """The outputs that show whether something is passed between two positions; None where these do not tell."""
-        return signs_of_passages(self.solver, self.positions)
-
-    def seen(self, rows: Rows) -> Motion | None:
-        """The motion of rows with all that motions store and the measures, where these show that all positions are
-        reached and nothing is passed."""
-        measures = self.measures or ()
+        rows = Rows(self.solver.evaluate(names, self.positions, {}, {}), self.solver.programs.places(names))
         if np.count_nonzero(rows.values[rows.index["outcome"]]):
             return None
-        if measures:
-            first = rows.index[measures[0]]
-            if not _clear(measures, rows.values[first : first + len(measures)]):
-                return None
+        if measures and not _clear(measures, rows.values[-len(measures) :]):
+            return None
         motion = Motion(self.solver, self.solver.nominal, self.positions, {}, {}, rows)
         motion.notes = turn_notes(motion) + branch_notes(motion)
         return motion

@@ -51,11 +51,6 @@ def middle_name(a: str, b: str) -> str:
     return f"middle:{a}|{b}"
 
 
-def of_cycle(name: str) -> bool:
-    """Whether a parameter is found from the motion over the cycle."""
-    return name in (LAP, DRIFT) or name.startswith(("limit:", "limit input:", "value:", "middle:"))
-
-
 def angle_between(motion: MotionTrace, a: str, b: str) -> Scalar:
     """Angle of link b against link a, rad, for links that do not turn through: near a known middle."""
     middle = motion.trace.parameter(middle_name(a, b))

@@ -5,15 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NoReturn
 
 from linkwright.core.cached_property import cached_property
-from linkwright.core.outputs import SLIDE, Output, row_name, row_names
+from linkwright.core.outputs import Output
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
-from linkwright.formula.repeated_program import InTurn
 from linkwright.formula.trace import Scalar
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinetostatics.friction import FrictionTerms
-from linkwright.kinetostatics.load_site import of_cycle
 from linkwright.kinetostatics.named_outputs import Named
 from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.self_check import ForceChecks
@@ -120,30 +118,6 @@ class ForcePrograms:
                 self._programs[names] = NumpyProgram(Program.of(self.motion.motion.trace, values))
             return self._programs[names]
 
-    def at_once(self, measures: tuple[str, ...], asked: tuple[str, ...]) -> tuple[tuple[str, ...], InTurn]:
-        """What motions store, some measures of it, what the loads follow, what forces store and check, what else is
-        asked and traced magnitudes, with one program for all, which takes in turn what the first three tell of the
-        cycle."""
-        return _at_once.get(self, (measures, asked), lambda: self._at_once(measures, asked))
-
-    def _at_once(self, measures: tuple[str, ...], asked: tuple[str, ...]) -> tuple[tuple[str, ...], InTurn]:
-        mechanism = self.motion.mechanism
-        given = [load.magnitude for load in mechanism.loads.values()]
-        followed = [each for m in given for each in (*m.phase.outputs, *m.outputs(mechanism))]
-        turned = [each.owner for each in followed if each.kind == "angle" and each.owner in mechanism.links]
-        moved = [
-            each.owner for each in followed if each.kind == "displacement" and each.owner in mechanism.guides
-        ]
-        more = [name for link in turned for name in row_names("direction", link)]
-        more += [row_name(kind, guide) for guide in moved for kind in SLIDE]
-        early = tuple(dict.fromkeys((*self.motion.outputs.standard, *measures, *more)))
-        sizes = (row_name("magnitude", name) for name in sorted(self.along_input))
-        names = tuple(dict.fromkeys((*early, *self.checks.names, *asked, *sizes)))
-        with self.motion.lock:
-            program = Program.of(self.motion.motion.trace, {name: self._value(name) for name in names})
-        late = {*program.fields, *filter(of_cycle, program.parameters)}
-        return names, InTurn(program, len(early), late)
-
     @cached_property
     def named(self) -> Named:
         """Outputs in the user's words."""
@@ -178,4 +152,3 @@ def force_programs(
 
 
 _kept: Recent[MotionPrograms, ForcePrograms] = Recent(48)
-_at_once: Recent[ForcePrograms, tuple[tuple[str, ...], InTurn]] = Recent(48)

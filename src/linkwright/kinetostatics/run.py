@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -14,9 +13,7 @@ from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
-from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.reach_sentences import input_at
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
@@ -56,117 +53,74 @@ def solve_forces(source: Motion | Mechanism, *, static: bool = False, steps: int
         LinkwrightError: a load that cannot be evaluated, friction that does not converge or locks.
     """
     if isinstance(source, Motion):
-        return forces_of_motion(source, static)
+        return run_forces(source, static)
     require(source, Motion, Mechanism)
     return forces_of_run(MotionRun(MotionSolver(source), over_cycle(source, steps)), static)
 
 
-def run_forces(
-    motion: Motion, static: bool, solver: ForceSolver | None = None, signals: MotionSignals | None = None
-) -> Forces:
-    """Solves the forces of a motion; with a ``solver`` of the same motion solver nothing is traced again.
-
-    ``signals``: what its loads follow, where more of its cycle is known than the motion tells.
-    """
-    solver = solver or ForceSolver(motion.solver, inertia=not static)
-    fields = _load_fields(motion, solver.fields_needed(), signals or MotionSignals(motion))
-    if solver.friction.terms:
-        fields = _with_friction(motion, solver, fields)
-    return _evaluated(motion, solver, fields, static)
-
-
-def forces_of_motion(motion: Motion, static: bool) -> Forces:
-    """Forces of a motion; over a cycle in one evaluation with it if that is possible, else as :func:`run_forces`."""
-    solver, found = ForceSolver(motion.solver, inertia=not static), None
-    if motion.positions.cycle and not motion.modes and motion.whole:
-        found = solved_at_once(solver, motion.design, motion.positions, lambda _: motion)
-    return _with_notes(found) if found else run_forces(motion, static, solver)
-
-
 def forces_of_run(run: MotionRun, static: bool, failures: str = "raise") -> Forces:
-    """Motion and forces over the positions of a run, in one evaluation where that is possible, else in turn.
+    """Motion and forces over the positions of a run.
 
     Raises as :func:`run_forces` and :meth:`MotionRun.solve`.
     """
-    return forces_at_once(run, static) or run_forces(run.solve(failures), static)
+    return run_forces(run.solve(failures), static)
 
 
-def forces_at_once(run: MotionRun, static: bool) -> Forces | None:
-    """The same in one evaluation, of machines with closed forms and without friction; None where positions are not
-    reached, or something may be passed between two of them."""
-    solver = ForceSolver(run.solver, inertia=not static)
-    if run.measures is None:
-        return None
-    found = solved_at_once(solver, run.solver.nominal, run.positions, run.seen, run.measures)
-    return found and _with_notes(found)
-
-
-def solved_at_once(
-    solver: ForceSolver,
-    design: Design,
-    positions: Positions,
-    motion_of: Callable[[Rows], Motion | None],
-    measures: tuple[str, ...] = (),
+def run_forces(
+    motion: Motion,
+    static: bool,
+    solver: ForceSolver | None = None,
+    signals: MotionSignals | None = None,
     asked: tuple[str, ...] = (),
-    signals_of: Callable[[Motion], MotionSignals] = MotionSignals,
-) -> Forces | None:
-    """Forces, without notes, of the motion that ``motion_of`` makes of rows with what it stores and the ``measures``.
+) -> Forces:
+    """Solves the forces of a motion; with a ``solver`` of the same motion solver nothing is traced again.
 
-    The rows hold what is ``asked`` as well.
-
-    None where that gives none, and for groups that are followed, and for friction.
+    ``signals``: what its loads follow, where more of its cycle is known than the motion tells; ``asked``: outputs
+    that are stored beside those that forces store.
     """
-    if solver.motion.motion.next_states or solver.friction.terms:
-        return None
-    known = traced_loads(design.mechanism, solver.motion.programs)
-    whole = ForceSolver(solver.motion, inertia=solver.inertia, along_input=known.names)
-    names, program = whole.programs.at_once(measures, asked)
-    index, found, fields = (
-        solver.motion.programs.places(names),
-        list[tuple[Motion, Rows]](),
-        dict[str, Floats](),
-    )
-
-    def late(values: Floats) -> dict[str, Any] | None:
-        rows = Rows(values, index)
-        motion = motion_of(rows)
-        if motion is None:
-            return None
-        signals = signals_of(motion)
-        limits, middles = known.limits(signals), known.middles(signals)
-        if limits is None or middles is None:
-            return None
-        found.append((motion, rows))
-        fields.update(_load_fields(motion, program.program.fields, signals))
-        return {**limits, **middles, **fields}
-
-    numbers = {**design.parameters, **known.constants}
-    values = program.run(numbers, positions.arrays, late, positions.count, known.tables)
-    if values is None:
-        return None
-    fields |= {name: values[index[name]] for name in names[-len(known.names) or len(names) :]}
-    if not all(
-        (np.abs(fields[row_name("magnitude", name)]) <= LARGEST["torque"]).all() for name in known.fallible
-    ):
-        return None
-    ((motion, rows),) = found
-    solver.programs.checks.require(rows, motion)
-    return Forces(motion, solver, fields, not solver.inertia, rows)
-
-
-def _evaluated(motion: Motion, solver: ForceSolver, fields: dict[str, Floats], static: bool) -> Forces:
-    checks = solver.programs.checks
-    values = solver.evaluate(checks.names, motion, fields)
+    solver = solver or ForceSolver(motion.solver, inertia=not static)
+    names = tuple(dict.fromkeys((*solver.programs.checks.names, *asked)))
+    within = signals is not None or motion.positions.cycle
+    signals = signals or MotionSignals(motion)
+    found = _under_traced_loads(motion, solver, signals, names) if within else None
+    fields, values = found or _under_loads_of(motion, solver, signals, names)
     if not motion.ok.all():
         values[:, ~motion.ok] = np.nan
-    rows = Rows(values, {name: i for i, name in enumerate(checks.names)})
-    checks.require(rows, motion)
-    return _with_notes(Forces(motion, solver, fields, static, rows))
-
-
-def _with_notes(forces: Forces) -> Forces:
-    forces.notes = (*_indeterminate(forces.motion), *_contacts_lost(forces))
+    rows = Rows(values, {name: i for i, name in enumerate(names)})
+    solver.programs.checks.require(rows, motion)
+    forces = Forces(motion, solver, fields, static, rows)
+    forces.notes = (*_indeterminate(motion), *_contacts_lost(forces))
     return forces
+
+
+def _under_loads_of(
+    motion: Motion, solver: ForceSolver, signals: MotionSignals, names: tuple[str, ...]
+) -> tuple[dict[str, Floats], Floats]:
+    """Magnitudes of loads and friction, and outputs (names, n) under these."""
+    fields = _load_fields(motion, solver.fields_needed(), signals)
+    if solver.friction.terms:
+        fields = _with_friction(motion, solver, fields)
+    return fields, solver.evaluate(names, motion, fields)
+
+
+def _under_traced_loads(
+    motion: Motion, solver: ForceSolver, signals: MotionSignals, names: tuple[str, ...]
+) -> tuple[dict[str, Floats], Floats] | None:
+    """The same with loads in the formula; None where there are none, or limits that they need are not found."""
+    if motion.modes or not motion.whole or motion.solver.motion.next_states or solver.friction.terms:
+        return None
+    known = traced_loads(motion.mechanism, motion.solver.programs)
+    limits, middles = known.limits(signals), known.middles(signals)
+    if not known.names or limits is None or middles is None:
+        return None
+    whole = ForceSolver(motion.solver, inertia=solver.inertia, along_input=known.names)
+    fields = _load_fields(motion, whole.fields_needed(), signals)
+    sizes = [row_name("magnitude", name) for name in sorted(known.names)]
+    numbers = {**known.constants, **limits, **middles}
+    values = whole.evaluate((*names, *sizes), motion, fields, numbers, known.tables)
+    fields |= zip(sizes, values[len(names) :], strict=True)
+    most = [np.abs(fields[row_name("magnitude", name)]).max() for name in known.fallible]
+    return (fields, values[: len(names)]) if all(each <= LARGEST["torque"] for each in most) else None
 
 
 def _contacts_lost(forces: Forces) -> Iterable[Sentence]:

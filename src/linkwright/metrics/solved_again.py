@@ -14,7 +14,7 @@ from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.motion import Motion, Rows
+from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.reached_stretches import Reach
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
@@ -32,7 +32,7 @@ FEWEST = 24
 
 def in_enough_positions(motion: Motion, forces: Forces | None) -> tuple[Motion, Forces | None]:
     """A motion and its forces; of a cycle in so few positions that much can lie between them, in more."""
-    from linkwright.kinetostatics.run import forces_of_motion
+    from linkwright.kinetostatics.run import run_forces
 
     positions = motion.positions
     if not (positions.cycle and positions.steps < FEWEST and motion.inputs):
@@ -40,7 +40,7 @@ def in_enough_positions(motion: Motion, forces: Forces | None) -> tuple[Motion, 
     steps = positions.steps * ceil(FEWEST / positions.steps)
     over = over_cycle(motion.mechanism, steps, endpoint=positions.repeated)
     closer = MotionRun(MotionSolver(motion.mechanism), over).solve("mark")
-    return closer, forces and forces_of_motion(closer, forces.static)
+    return closer, forces and run_forces(closer, forces.static)
 
 
 class _SameCycle(MotionSignals):
@@ -81,7 +81,7 @@ class Resolver(Reach):
         """Motion, or Forces with ``of="forces"``, at some times, s; ``asked``: outputs beside the stored ones."""
         if of != "forces":
             return self.motion(time)
-        return self._at_once(time, asked) or self.forces(self.motion(time))
+        return self.forces(self.motion(time), asked)
 
     def forces_at(
         self, wanted: Sequence[tuple[Callable[[Forces], Floats], float, float]]
@@ -95,41 +95,17 @@ class Resolver(Reach):
         off = [np.abs(signal(forces) - value).reshape(times.shape) for signal, _, value in wanted]
         return forces, [k * BESIDE.size + int(each[k].argmin()) for k, each in enumerate(off)]
 
-    def _at_once(self, time: Floats, asked: tuple[str, ...]) -> Forces | None:
-        """Forces with their motion in one evaluation, where all positions are reached and no mode changes."""
-        from linkwright.kinetostatics.run import solved_at_once
-
-        known = self._motion
-        assert self._forces is not None
-        if known.modes or not self.whole:
-            return None
-        assert self._between is not None
-        positions = self._between.positions(time)
-
-        def motion(rows: Rows) -> Motion | None:
-            found = Motion(known.solver, known.design, positions, {}, {}, rows)
-            return found if found.ok.all() else None
-
-        return solved_at_once(
-            self._forces.solver,
-            known.design,
-            positions,
-            motion,
-            asked=asked,
-            signals_of=lambda each: _SameCycle(each, self._signals),
-        )
-
     def motion(self, time: Floats) -> Motion:
         """Motion at some times; positions out of reach are NaN, also those that could be assembled behind a gap."""
         return self.solved(time, None if self.whole else self.reached(time))
 
-    def forces(self, motion: Motion) -> Forces:
-        """Forces of such a motion."""
+    def forces(self, motion: Motion, asked: tuple[str, ...] = ()) -> Forces:
+        """Forces of such a motion; ``asked``: outputs beside the stored ones."""
         from linkwright.kinetostatics.run import run_forces
 
         known = self._forces
         assert known is not None
-        return run_forces(motion, known.static, known.solver, _SameCycle(motion, self._signals))
+        return run_forces(motion, known.static, known.solver, _SameCycle(motion, self._signals), asked)
 
     def active(self, load: Load, time: Floats) -> Flags:
         """Whether a load acts at some times, (n,)."""

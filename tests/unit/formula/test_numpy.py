@@ -56,29 +56,6 @@ def test_many_designs_equal_one_at_a_time(program: Program, designs: int, n: int
         np.testing.assert_allclose(got[d], evaluator.run(table[d], positions, {"f": f[d]}), rtol=1e-15)
 
 
-def test_inputs_may_follow_from_the_outputs_that_need_none_of_them(program: Program) -> None:
-    rng = np.random.default_rng(5)
-    x, y = rng.normal(size=(2, 33))
-    late = {"c", "f"}
-    evaluator = NumpyProgram(
-        program.last(late).only(list(dict.fromkeys(["x", "low", *program.output_names]))), late
-    )
-    for a in (0.3, 0.4, 0.3):
-
-        def found(outputs):  # type: ignore[no-untyped-def]
-            np.testing.assert_array_equal(outputs[:2], [x, x < y])
-            return {"c": -0.4, "f": outputs[0] + 1.0}
-
-        got = evaluator.run_in_turn({"a": a, "b": 1.7}, {"x": x, "y": y}, found, early=2)
-        want = np.array([expected([a, 1.7, -0.4], *v) for v in zip(x, y, x + 1.0, strict=True)]).T
-        np.testing.assert_allclose(
-            dict(zip(evaluator.program.output_names, got, strict=True))["z"], want[1], rtol=1e-14
-        )
-        assert evaluator.run_in_turn({"a": a, "b": 1.7}, {"x": x, "y": y}, lambda _: None, early=2) is None
-        both = evaluator.run([a, 1.7, -0.4], {"x": x, "y": y}, {"f": x + 1.0})
-        np.testing.assert_array_equal(got, both)
-
-
 def test_scalar_steps_agree_with_direct_evaluation(program: Program) -> None:
     scalar = ScalarProgram(program)
     for p in ([0.3, 1.7, -0.4], [0.1, 2.0, 5.0]):

@@ -10,11 +10,8 @@ from tests.invariants.edited_machines import RUBBING
 import linkwright as lw
 from linkwright.formula.recently_made import Recent
 from linkwright.kinematics import programs
-from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.program_shape import shape
-from linkwright.kinematics.solve import MotionRun
-from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinetostatics.run import forces_at_once, run_forces
+from linkwright.kinetostatics.run import run_forces
 
 pytestmark = pytest.mark.rotating
 
@@ -49,21 +46,19 @@ def test_an_edited_value_gives_the_same_bits_whatever_was_solved_before(name):
 
 @pytest.mark.parametrize("static", [False, True])
 @pytest.mark.parametrize(
-    ("name", "at_once"),
+    "name",
     [
-        ("jaw_crusher_sixbar", True),
-        ("swing_conveyor", True),
-        ("toggle_press", True),
-        ("excavator", True),
-        ("parallelogram", False),
-        ("triad", False),
-        ("change_point_fourbar", False),
+        "jaw_crusher_sixbar",
+        "swing_conveyor",
+        "toggle_press",
+        "excavator",
+        "parallelogram",
+        "triad",
+        "change_point_fourbar",
     ],
 )
-def test_motion_and_forces_at_once_have_the_bits_of_one_after_the_other(name, at_once, static):
+def test_forces_of_a_mechanism_have_the_bits_of_those_of_its_motion(name, static):
     mechanism = lw.load(f"gallery:{name}")
-    run = MotionRun(MotionSolver(mechanism), over_cycle(mechanism, 144))
-    assert (forces_at_once(run, static) is not None) == at_once
     apart = run_forces(lw.solve_motion(mechanism, steps=144), static)
     together = lw.solve_forces(mechanism, steps=144, static=static)
     for other in (together, lw.solve_forces(apart.motion, static=static)):
