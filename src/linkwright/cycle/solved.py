@@ -54,12 +54,16 @@ class Solved(Block):
         if cycle.signed is not None:
             self.corners = events(cycle.signed, self.known, self.designs, self.stretches, self.loads.columns)
             self.stretches = Stretches(self.span, [*families, *self.corners], self.loads.knots)
-        wanted = Wanted(cycle.even, tuple((k, sign) for k, sign, _ in cycle.sides), alike=cycle.alike)
-        self.pieces = Pieces(
+
+    @cached_property
+    def pieces(self) -> Pieces:
+        """The signals on pieces."""
+        cycle = self.cycle
+        return Pieces(
             lambda columns, nodes: cycle.formula.run(self.known, columns, nodes),
-            Layout(self.stretches.design, count, self._columns),
+            Layout(self.stretches.design, self.count, self._columns),
             *self.stretches.first_pieces(PIECES_OF_COURSES if cycle.even_words else PIECES),
-            wanted,
+            Wanted(cycle.even, tuple((k, sign) for k, sign, _ in cycle.sides), alike=cycle.alike),
         )
 
     def _columns(self, stretch: Indices, first: Floats, last: Floats) -> dict[str, Floats]:

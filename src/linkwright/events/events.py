@@ -195,38 +195,43 @@ class _Search:
         curve = self.curve
         nothing = NOTHING * np.maximum(curve.size, 0.0)
         self._make_sure(signal, piece, looks, nothing)
-        values = np.zeros((*near.shape, len(LOOKS)))
-        values[:, :, len(LOOKS) // 2] = curve.whole
+        values = np.repeat(curve.whole[:, :, None], len(LOOKS), axis=2)
         values[near] = looks.T
-        sig, at, look = np.nonzero(np.abs(values) > nothing[:, curve.design, None])
-        value = values[sig, at, look]
-        here, there, lap = self._following(sig * curve.designs + curve.design[at])
-        changed = np.flatnonzero(value[here] * value[there] < 0.0)
-        here, there, lap = here[changed], there[changed], lap[changed]
-        later = lap * curve.period[curve.design[at[there]]]
-        edges = self._edges_between(at[here], at[there], lap)
-        before, after = (at[here], look[here]), (at[there], look[there])
-        return self._bracket(sig[here], before, after, (value[here], value[there]), edges, later)
-
-    def _bracket(
-        self,
-        signal: Indices,
-        before: tuple[Indices, Indices],
-        after: tuple[Indices, Indices],
-        values: tuple[Floats, Floats],
-        edges: Indices,
-        later: Floats,
-    ) -> _Brackets:
-        """Between two looks of pieces, each with its piece and number, with the values there; ``later``, s, the
-        second."""
-        left, right = (
-            self.low[at] + 0.5 * self.width[at] * (1.0 + LOOKS[look]) for at, look in (before, after)
+        decided = (np.abs(values) > nothing[:, curve.design, None]).ravel()
+        places = np.arange(values.size) if decided.all() else np.flatnonzero(decided)
+        value = values.ravel()[places]
+        here, there, lap = self._changed(places, value)
+        a, b = value[here], value[there]
+        (sig, at, first), (_, to, last) = (
+            np.unravel_index(places[each], values.shape) for each in (here, there)
         )
-        right, (a, b) = right + later, values
-        guess = left + (right - left) * a / (a - b)
+        first, last = (
+            np.where(near[sig, each], look, len(LOOKS) // 2) for each, look in ((at, first), (to, last))
+        )
+        left, right = (
+            self.low[each] + 0.5 * self.width[each] * (1.0 + LOOKS[look])
+            for each, look in ((at, first), (to, last))
+        )
+        right = right + lap * curve.period[curve.design[to]]
+        edges, guess = self._edges_between(at, to, lap), left + (right - left) * a / (a - b)
         if (edges >= 0).any():
             guess = np.where(edges[0] < 0, guess, self._at_edges(edges))
-        return _Brackets(signal, before[0], left, right, guess, b > 0.0, edges)
+        return _Brackets(sig, at, left, right, guess, b > 0.0, edges)
+
+    def _changed(self, places: Indices, value: Floats) -> tuple[Indices, Indices, Floats]:
+        """Neighbours of the same signal and design, around cycles that close, among places (k,) of looks, between
+        which the sign changes, and whether the second is a lap on."""
+        curve, closed = self.curve, self.stretches.span.course.closed
+        signals, pieces = curve.whole.shape
+        begins = ((np.arange(signals)[:, None] * pieces + curve.starts) * len(LOOKS)).ravel()
+        first = np.searchsorted(places, begins)
+        last = np.append(first[1:], len(places)) - 1
+        inner = np.flatnonzero(value[1:] * value[:-1] < 0.0)
+        inner = inner[last[np.searchsorted(first, inner, "right") - 1] != inner]
+        outer = np.flatnonzero((last > first) & closed)
+        outer = outer[value[last[outer]] * value[first[outer]] < 0.0]
+        lap = np.append(np.zeros(len(inner)), np.ones(len(outer)))
+        return np.append(inner, last[outer]), np.append(inner + 1, first[outer]), lap
 
     def _make_sure(self, signal: Indices, piece: Indices, looks: Floats, nothing: Floats) -> None:
         """Values so small that the polynomials leave their signs open are replaced by those of the formula."""
@@ -237,19 +242,6 @@ class _Search:
             time = self.low[piece[row]] + 0.5 * self.width[piece[row]] * (1.0 + LOOKS[look])
             there = self._at(self.formula, piece[row], time)
             looks[look, row] = there[signal[row], np.arange(len(row))]
-
-    def _following(self, owner: Indices) -> tuple[Indices, Indices, Floats]:
-        """Neighbours (k,) of the same signal and design, around cycles that close, and whether the second is a lap
-        on."""
-        here = np.arange(len(owner))
-        begins = np.flatnonzero(np.append(True, owner[1:] != owner[:-1])[: len(owner)])
-        last = np.append(begins[1:], len(owner))[: len(begins)] - 1
-        there, lap = here + 1, np.zeros(len(owner))
-        there[last], lap[last] = begins, 1.0
-        if self.stretches.span.course.closed:
-            return here, there, lap
-        kept = lap == 0.0
-        return here[kept], there[kept], lap[kept]
 
     def _edges_between(self, left: Indices, right: Indices, lap: Floats) -> Indices:
         """Stretches whose beginnings are the first and the last cut between two pieces, (2, k); -1 in one stretch."""
