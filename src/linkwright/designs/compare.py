@@ -13,13 +13,14 @@ from linkwright.core.given import real, require
 from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
 from linkwright.designs.alternatives import Alternative, alternatives
-from linkwright.designs.criteria import USUAL, Criterion, ask, criteria
+from linkwright.designs.criteria import USUAL, Criterion, criteria
 from linkwright.designs.overlay import Overlay, overlays
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.kinematics.outcome import PositionError
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import MetricValue
+from linkwright.metrics.by_name import ask
 from linkwright.registry import offered
 from linkwright.units import si_unit
 from linkwright.words.sentence import Sentence
@@ -253,7 +254,7 @@ def compare(
     given = _weights(weights or {}, asked)
     for alternative in found:
         alternative.analysis.ask(alternative.told)
-        ask(asked, alternative)
+        ask((each.name for each in asked), alternative.analysis, alternative.asked)
     rows = []
     progress = current_progress()
     for done, each in enumerate(asked):

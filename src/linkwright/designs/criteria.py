@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from contextlib import suppress
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
@@ -11,7 +10,7 @@ from linkwright.core.given import one_or_more
 from linkwright.designs.alternatives import Alternative
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.metrics import METRICS, Metric, MetricValue
-from linkwright.metrics.by_name import is_summary, measured, metric_named, metric_of, number_named, wanted
+from linkwright.metrics.by_name import is_summary, measured, metric_named, metric_of, wanted
 from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.of_output import OWN
 from linkwright.registry import offered
@@ -75,17 +74,6 @@ def criteria(names: Iterable[str] | str) -> list[Criterion]:
     if not asked:
         raise RequestError("study.no_metric_named")
     return [criterion(str(name)) for name in dict.fromkeys(asked)]
-
-
-def ask(asked: Iterable[Criterion], each: Alternative) -> None:
-    """Says which summaries of an alternative some criteria will want, so that these are found together."""
-    with suppress(LinkwrightError):  # as far as nothing is in the way, which measuring tells
-        metrics = {one.name: one.metric for one in asked if one.metric is not None}
-        for name in sorted(metrics, key=lambda name: metrics[name].judged_last):
-            found = metric_named(name, each.asked)
-            if found is not None and found[0].applies(each.analysis):
-                number = number_named(name, each.analysis, each.asked)
-                each.analysis.ask(number.summaries if number else ())
 
 
 def criterion(name: str) -> Criterion:

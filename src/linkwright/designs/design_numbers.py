@@ -15,7 +15,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
-from linkwright.metrics.by_name import measured
+from linkwright.metrics.by_name import ask, measured
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.hulls_of_designs import hulls_of_designs
 from linkwright.metrics.of_designs import MetricsOfDesigns, numbers_of_designs
@@ -109,18 +109,20 @@ def _alone(
 ) -> tuple[dict[str, tuple[float, str]], str]:
     """Values and dimensions of the metrics that one design has, and why it lacks others."""
     found: dict[str, tuple[float, str]] = {}
-    analysis, why = None, ""
+    why = ""
+    try:
+        analysis = Analysis.of(solve_forces(solve_motion(design, failures="mark") if partial else design))
+    except RequestError:
+        raise
+    except LinkwrightError as error:
+        return found, error.sentence
+    ask(names, analysis)
     for name in names:
         try:
-            analysis = analysis or Analysis.of(
-                solve_forces(solve_motion(design, failures="mark") if partial else design)
-            )
             if (own := measured(name, analysis)) is not None:
                 found[name] = own.value, own.dimension
         except RequestError:
             raise
         except LinkwrightError as error:
             why = error.sentence
-            if analysis is None:
-                break
     return found, why

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -19,7 +20,7 @@ from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.designs.alternatives import Alternative, output_of_machine
 from linkwright.designs.cluster import current, in_turn
-from linkwright.designs.criteria import Criterion, ask, criteria
+from linkwright.designs.criteria import Criterion, criteria
 from linkwright.designs.design_numbers import side_by_side
 from linkwright.designs.designs import sweep
 from linkwright.designs.failures import Failure
@@ -33,7 +34,7 @@ from linkwright.formula.machine_code import available
 from linkwright.formula.threads import chunks
 from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.by_name import is_summary
+from linkwright.metrics.by_name import ask, is_summary
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.of_output import Asked
 from linkwright.metrics.outputs import usual_output
@@ -397,7 +398,8 @@ class _Work:
             "",
         )
         each = Alternative(design.name, design, self.output, self.steps, self.fluctuation)
-        ask(asked, each)
+        with suppress(LinkwrightError):  # where nothing is solved, measuring tells
+            ask((criterion.name for criterion in asked), each.analysis, each.asked)
         for criterion in asked:
             try:
                 found = criterion.measure(each)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial, reduce
 from itertools import islice
@@ -143,6 +144,16 @@ def number_named(name: str, analysis: Analysis, asked: Asked | None = None) -> N
     number = governing_number(chosen, metric.better)
     passed_over = number.passed_over if len(chosen) == len(numbers) and not subject else ()
     return replace(number, dimension=number.dimension or metric.dimension, passed_over=passed_over)
+
+
+def ask(names: Iterable[str], analysis: Analysis, asked: Asked | None = None) -> None:
+    """Says which summaries of a machine some metrics will want, so that these are found together."""
+    found = {name: metric_named(name, asked) for name in names if not is_summary(name)}
+    metrics = {name: each[0] for name, each in found.items() if each is not None}
+    for name in sorted(metrics, key=lambda name: metrics[name].judged_last):
+        with suppress(LinkwrightError):  # where something is in the way, measuring tells
+            number = number_named(name, analysis, asked)
+            analysis.ask(number.summaries if number else ())
 
 
 def measured(name: str, analysis: Analysis, asked: Asked | None = None) -> MetricValue | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pickle
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -14,7 +15,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse
 from linkwright.designs.alternatives import Alternative
 from linkwright.designs.cluster import current, in_turn
-from linkwright.designs.criteria import Criterion, ask, criterion
+from linkwright.designs.criteria import criterion
 from linkwright.designs.design_numbers import side_by_side
 from linkwright.designs.finished_parts import identity, surrounding
 from linkwright.designs.optimise.paths import PathErrors
@@ -25,6 +26,7 @@ from linkwright.formula.machine_code import available
 from linkwright.formula.summaries import Backend
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.by_name import ask
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.of_designs import MetricsOfDesigns
 from linkwright.metrics.of_output import Asked
@@ -189,9 +191,9 @@ class Measures:
             each = self._alternative(self.mechanism.with_dimensions(dimensions))
         except LinkwrightError:
             return (np.nan,) * len(self.numbers)
-        asked = [criterion(name) for name in self.numbers]
-        ask(asked, each)
-        return tuple(_number(one, each) for one in asked)
+        with suppress(LinkwrightError):  # where nothing is solved, measuring tells
+            ask(self.numbers, each.analysis, each.asked)
+        return tuple(_number(name, each) for name in self.numbers)
 
     def _measured(
         self, addresses: tuple[str, ...], designs: list[tuple[float, ...]]
@@ -307,10 +309,10 @@ def _of_problem(pickled: bytes) -> Measures:
     return Measures(pickle.loads(pickled))
 
 
-def _number(asked: Criterion, each: Alternative) -> float:
+def _number(name: str, each: Alternative) -> float:
     """A number of a design; NaN where it has none."""
     try:
-        found = asked.measure(each)
+        found = criterion(name).measure(each)
     except RequestError:
         raise
     except LinkwrightError:
