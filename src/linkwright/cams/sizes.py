@@ -31,11 +31,12 @@ Sized = TypeVar("Sized", bound=CamShape)
 def chosen(cam: Sized) -> Sized:
     """The cam with the smallest base circle that keeps its limits; raises ModelError where none does."""
     best: Sized | None = None
+    program = Sampled(cam.program, _places(cam.program, _LOOKS))
     for roller in cam.choose.roller_radii or (cam.follower.roller_radius,):
         there = _with(cam, roller, cam.follower.offset)
-        offset = _best_offset(there) if cam.choose.offset is not None else cam.follower.offset
+        offset = _best_offset(there, program) if cam.choose.offset is not None else cam.follower.offset
         there = _with(cam, roller, offset)
-        radius = _exactly(there, _smallest(_rule(there), _scale(cam)))
+        radius = _exactly(there, _smallest(_rule(there, program), _scale(cam)))
         if radius is not None and (best is None or radius < (best.base_radius or 0.0) - _FINE):
             best = replace(there, base_radius=radius)
     if best is None:
@@ -54,16 +55,15 @@ def _scale(cam: CamShape) -> float:
     return (high - low) * ((follower.arm or follower.pivot_distance or 1.0) if follower.oscillating else 1.0)
 
 
-def _best_offset(cam: CamShape) -> float:
+def _best_offset(cam: CamShape, program: Sampled) -> float:
     """The offset with the smallest base circle, from equal ones between the bounds, then between the best ones."""
     assert cam.choose.offset is not None
     low, high = cam.choose.offset
     whole = high - low
     while True:
         offsets = np.linspace(low, high, _OFFSETS)
-        radii = [
-            _smallest(_rule(_with(cam, cam.follower.roller_radius, e)), _scale(cam)) for e in offsets.tolist()
-        ]
+        cams = [_with(cam, cam.follower.roller_radius, e) for e in offsets.tolist()]
+        radii = [_smallest(_rule(each, program), _scale(cam)) for each in cams]
         known = np.array([np.inf if each is None else each for each in radii])
         k = int(known.argmin())
         if high - low <= _OFFSET * whole:
@@ -71,9 +71,8 @@ def _best_offset(cam: CamShape) -> float:
         low, high = float(offsets[max(k - 1, 0)]), float(offsets[min(k + 1, _OFFSETS - 1)])
 
 
-def _rule(cam: CamShape) -> Callable[[float], bool]:
+def _rule(cam: CamShape, program: Sampled) -> Callable[[float], bool]:
     """Whether a base circle keeps all limits at the places of a first look."""
-    program = Sampled(cam.program, _places(cam, _LOOKS))
     there = replace(cam, program=program)
     return lambda radius: keeps(there, radius, program.at)
 
@@ -102,9 +101,10 @@ def _keeps_exactly(cam: CamShape, radius: float) -> bool:
     design = CamDesign(there)
     rise, fall = cam.limits.angles
     smallest = design.smallest_radius
-    bends = smallest is None or smallest.value >= (cam.limits.curvature_radius or 0.0)
-    steep = abs(design.pressure_angle_rise.value) <= rise and abs(design.pressure_angle_fall.value) <= fall
-    if not (bends and steep and design.least_growth > 0):
+    if smallest is not None and smallest.value < (cam.limits.curvature_radius or 0.0):
+        return False
+    flat = abs(design.pressure_angle_rise.value) <= rise and abs(design.pressure_angle_fall.value) <= fall
+    if not (flat and design.least_growth > 0):
         return False
     most = cam.limits.contact_pressure
     return most is None or (largest := design.largest_pressure) is None or largest.value <= most
@@ -191,7 +191,7 @@ def _angles_kept(cam: CamShape, phi: Floats, angle: Floats) -> bool:
     )
 
 
-def _places(cam: CamShape, looks: int) -> Floats:
+def _places(program: Program, looks: int) -> Floats:
     """Equal places of the turn, and those of the extremes of lift, velocity and acceleration."""
-    own = [cam.program.extreme(order, kind).place for order in (0, 1, 2) for kind in ("min", "max")]
-    return np.unique(np.concatenate([cam.program.places(looks), own]))
+    own = [each.place for order in (0, 1, 2) for each in program.extremes(order)]
+    return np.unique(np.concatenate([program.places(looks), own]))

@@ -51,6 +51,10 @@ class Program(ABC):
         """The largest (``max``) or smallest (``min``) value of a derivative, with its place."""
         return self._curve(order).extreme(kind)
 
+    def extremes(self, order: int) -> tuple[Extreme, Extreme]:
+        """The smallest and the largest value of a derivative, with their places."""
+        return self._curve(order).extremes()
+
     def _curve(self, order: int) -> Curve:
         inner = self.breaks[(self.breaks > 0) & (self.breaks < self.period)]
         return Curve.of(lambda x: self.curves(x)[order], 0.0, self.period, pieces=12, knots=inner)
@@ -58,12 +62,14 @@ class Program(ABC):
     @cached_property
     def lifts(self) -> tuple[float, float]:
         """Smallest and largest lift."""
-        return self.extreme(0, "min").value, self.extreme(0, "max").value
+        low, high = self.extremes(0)
+        return low.value, high.value
 
     @cached_property
     def fastest(self) -> float:
         """Largest size of the velocity."""
-        return max(self.extreme(1, "max").value, -self.extreme(1, "min").value)
+        low, high = self.extremes(1)
+        return max(high.value, -low.value)
 
     def places(self, count: int) -> Floats:
         """About so many places over the period, all edges among them, the last one left out."""
