@@ -7,6 +7,7 @@ import pytest
 from tests.every import every
 
 import linkwright as lw
+from linkwright.cycle.summary import Summary
 from linkwright.files.build import Model
 from linkwright.metrics import METRICS, Analysis, centrode, instant_centre, metrics
 
@@ -203,7 +204,7 @@ def test_means_over_a_way_that_is_left_are_those_of_the_time_until_then(steps: i
     motion = falling_ladder(steps)
     last = 1.5 / steps * (np.flatnonzero(motion.ok)[-1])
     assert 0.89 < last < 1.0
-    assert Analysis.of(motion).part("A.x mean").value == pytest.approx(0.5, rel=1e-12)
+    assert Analysis.of(motion).part(Summary("A.x", "mean")).value == pytest.approx(0.5, rel=1e-12)
 
 
 @pytest.mark.parametrize("steps", [15, 60])

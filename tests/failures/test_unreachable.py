@@ -93,6 +93,10 @@ def test_limits_and_dead_points_of_a_part_of_a_cycle_are_those_for_any_number_of
         [np.cos(ends)] * 2, abs=1e-9
     )
     assert len(found) == 3
+    (swing,) = metrics(motion)["swing_angle"]
+    turned_back = acos((4**2 + 2.4999**2 - 5.5**2) / (2 * 4 * 2.4999))
+    beyond = np.arctan2(2 * np.sin(ends), 4 - 2 * np.cos(ends))
+    assert swing.value == pytest.approx(turned_back + beyond, abs=5e-5)  # ends follow from places beside
 
 
 def test_a_little_shorter_passes() -> None:

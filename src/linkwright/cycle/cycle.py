@@ -6,9 +6,8 @@ behind each other, whatever pattern of events each has.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,32 +16,15 @@ from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.cycle.block import Swings
 from linkwright.cycle.loads import input_end
 from linkwright.cycle.machine import VALID, Machine
+from linkwright.cycle.summaries import OF_LIMITS, Asked, Signal
 from linkwright.cycle.summary import StrokeSummary, Summary
 from linkwright.events.formula import Formula
 from linkwright.formula.trace import Scalar, absolute
 from linkwright.kinetostatics.friction import FrictionTerm
 from linkwright.loads.phases import MovingPhase, SwingPhase
 
-#: Sides of a signal on which its summaries lie.
-SIDES: Mapping[str, tuple[float, ...]] = {
-    "max": (1.0,), "min": (-1.0,), "peak": (1.0, -1.0), "range": (1.0, -1.0), "argmax": (1.0,), "argmin": (-1.0,),
-}  # fmt: skip
-EVEN = ("mean", "rms", "excess")
-#: A side of a signal: its number, sign, and the output on whose rising or falling strokes it is asked for.
-Side = tuple[int, float, tuple[Output, str] | None]
 
-
-class Signal(NamedTuple):
-    """An output in the user's words, or its square."""
-
-    words: str
-    squared: bool = False
-
-    def __str__(self) -> str:
-        return f"{self.words}²" if self.squared else self.words
-
-
-class Cycle:
+class Cycle(Asked):
     """What is wanted of a machine: ``parts``, its summaries.
 
     ``limited``: outputs whose places and extremes are those of their limit positions; ``never``: outputs by whose
@@ -58,22 +40,27 @@ class Cycle:
         even: Iterable[str] = (),
     ) -> None:
         self.machine = machine
-        self.parts = {part.name: part for part in parts}
-        self.limited = {
+        every = {part.name: part for part in parts}
+        found = {
             text: output
-            for text, part in self.parts.items()
-            if type(part) is Summary and part.kind in ("max", "min", "range", "argmax", "argmin")
+            for text, part in every.items() if type(part) is Summary and part.kind in OF_LIMITS
             for output in [machine.meant(part.output)] if output in limited
         }  # fmt: skip
-        self.on_strokes = {
+        strokes = {
             text: (machine.meant(part.by), part.way)
-            for text, part in self.parts.items()
+            for text, part in every.items()
             if isinstance(part, StrokeSummary)
         }
-        signals = {text: part for text, part in self.parts.items() if text not in self.limited}
-        self.words = {text: self._signal(part.output, part.kind) for text, part in signals.items()}
-        self.even_words = tuple(Signal(each) for each in dict.fromkeys(even))
-        self._trace(tuple(dict.fromkeys([*self.words.values(), *self.even_words])), signals)
+        words = {
+            text: self._signal(each.output, each.kind) for text, each in every.items() if text not in found
+        }
+        super().__init__(every, words, found, strokes, map(Signal, dict.fromkeys(even)))
+        signals, traces = tuple(self.number), machine.traces
+        kinds: dict[tuple[str, bool], list[int]] = {}
+        for k, each in enumerate(signals):
+            kinds.setdefault((traces.quantity(each.words).dimension, each.squared), []).append(k)
+        self.alike: list[Indices] = [np.array(rows) for rows in kinds.values() if len(rows) > 1]
+        self.formula = machine.formula(("signals", signals), lambda: self._outputs(signals))
         self.never = tuple(dict.fromkeys(never))
         self._follow()
 
@@ -81,27 +68,6 @@ class Cycle:
         """The signal from which a summary is found: of sizes their square where that tells as much."""
         squared = kind in ("max", "peak", "rms", "argmax") and self.machine.traces.square(words) is not None
         return Signal(words, squared)
-
-    def _trace(self, signals: tuple[Signal, ...], parts: Mapping[str, Summary]) -> None:
-        """The formula of all signals, and what its pieces must be met for."""
-        traces = self.machine.traces
-        kinds: dict[tuple[str, bool], list[int]] = {}
-        for k, each in enumerate(signals):
-            kinds.setdefault((traces.quantity(each.words).dimension, each.squared), []).append(k)
-        self.alike: list[Indices] = [np.array(rows) for rows in kinds.values() if len(rows) > 1]
-        self.formula = self.machine.formula(("signals", signals), lambda: self._outputs(signals))
-        self.number = {each: k for k, each in enumerate(signals)}
-        even = [self.number[self.words[text]] for text, part in parts.items() if part.kind in EVEN]
-        self.even = tuple(dict.fromkeys([*even, *(self.number[each] for each in self.even_words)]))
-        numbers: dict[Side, int] = {}
-        self.sides_of: dict[str, tuple[int, ...]] = {}
-        for text, part in parts.items():
-            own = self.words[text]
-            signs = (1.0,) if own.squared and part.kind == "peak" else SIDES.get(part.kind, ())
-            stroke = self.on_strokes.get(text)
-            sides = [(self.number[own], sign, stroke) for sign in signs]
-            self.sides_of[text] = tuple(numbers.setdefault(side, len(numbers)) for side in sides)
-        self.sides = tuple(numbers)
 
     def _outputs(self, signals: Iterable[Signal]) -> dict[str, Scalar]:
         traces = self.machine.traces

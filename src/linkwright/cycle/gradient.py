@@ -15,8 +15,8 @@ from linkwright.core.arrays import Floats
 from linkwright.curves.pieces import HIGH, LOW
 from linkwright.curves.polynomials import NODES, WEIGHTS, weights_at
 from linkwright.cycle.block import ByColumns
-from linkwright.cycle.cycle import Signal
 from linkwright.cycle.solved import Solved
+from linkwright.cycle.summaries import Signal
 
 #: Derivatives by the values of signals at the nodes, (POINTS, pieces), and by the widths of the pieces.
 Weights = tuple[dict[Signal, Floats], Floats]

@@ -172,7 +172,7 @@ def equivalent(forces: Forces) -> Equivalent:
         return np.stack([inertia, direction * _torque(solved, inertia, slope)])
 
     edges, (inertia, torque) = cycle.curve(reduced, "forces")
-    edges = abs(rate) * (edges - cycle.begin)
+    edges = abs(rate) * (edges - cycle.course.begin)
     return Equivalent(
         forces=forces,
         speed=abs(rate),

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
-from math import isnan
+from math import isnan, nan
 from typing import Any, Literal, TypeAlias, overload
 
 import numpy as np
@@ -13,31 +13,32 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, row_names
-from linkwright.core.search import first_largest
 from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.cycle.solved import Solved
-from linkwright.cycle.summary import Summary, SummaryValue
+from linkwright.cycle.summaries import OF_LIMITS
+from linkwright.cycle.summary import StrokeSummary, Summary, SummaryValue
 from linkwright.errors import LinkwrightError
+from linkwright.events.course import Course
 from linkwright.events.limit_positions import limit_positions
 from linkwright.formula.recently_made import Recent
-from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import output_meant
-from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.forces import ROUNDING, Forces
 from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.signals import Limit
 from linkwright.loads.strokes import outermost
 from linkwright.metrics.outputs import mechanism_outputs
-from linkwright.metrics.reached_extremes import PartlyReached
-from linkwright.metrics.solved_again import in_enough_positions
+from linkwright.metrics.solved_again import Resolver, in_enough_positions
 from linkwright.metrics.solved_cuts import SolvedCuts
-from linkwright.metrics.solved_pieces import SolvedPieces
+from linkwright.metrics.summaries_again import Again, Reversals, of_positions
+from linkwright.metrics.ways import Signal, Ways
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]
-#: Finds summaries of some type of one machine.
-Finder: TypeAlias = "Callable[[Sequence[Any], Analysis], list[SummaryValue]]"
+#: Finds a summary of some type of one machine.
+Finder: TypeAlias = "Callable[[Any, Analysis], SummaryValue]"
 _FINDERS: dict[type[Summary], Finder] = {}
 
 
@@ -51,13 +52,7 @@ def finds(kind: type[Summary]) -> Callable[[Finder], Finder]:
     return filed
 
 
-def _first_largest(*found: SummaryValue) -> SummaryValue:
-    """The one of largest size, of equal ones the first."""
-    ordered = sorted(found, key=lambda each: each.time)
-    return ordered[first_largest(np.abs([each.value for each in ordered]))]
-
-
-class Analysis(PartlyReached):
+class Analysis:
     """What design numbers are read from: a motion, its forces if they were solved, and what numbers share.
 
     Of a cycle in few positions it is the motion in more of them.
@@ -66,14 +61,14 @@ class Analysis(PartlyReached):
     """
 
     def __init__(self, motion: Motion, forces: Forces | None = None) -> None:
-        super().__init__(motion, forces)
+        self.motion, self.forces = motion, forces
+        self.resolver = Resolver(motion, forces)
         self.kept: dict[tuple[str, str], Any] = {}
         self._limits: dict[Output, tuple[Limit, ...]] = {}
         self._outermost: dict[Output, list[Limit]] = {}
         self._words: dict[str, None] = {}
         self._outputs = motion.solver.programs.meanings
         self._asked: dict[Summary, None] = {}
-        self._found: dict[Summary, SummaryValue] = {}
         self._parts: dict[Summary, SummaryValue] = {}
         self._solved: list[Solved] = []
 
@@ -118,6 +113,21 @@ class Analysis(PartlyReached):
         return bool(mechanism.loads) or any(link.mass or link.inertia for link in mechanism.links.values())
 
     @property
+    def closed(self) -> bool:
+        """Whether the positions are one closed cycle."""
+        return self.motion.positions.closed
+
+    @property
+    def once(self) -> slice:
+        """The positions without the repeated first one at the end of a closed cycle."""
+        return slice(0, self.motion.steps - self.motion.positions.repeated)
+
+    @property
+    def partial(self) -> bool:
+        """Whether the positions are those of the drivers' laws, of which not all are reached."""
+        return self.resolver.possible and not self.resolver.whole
+
+    @property
     def whole(self) -> bool:
         """Whether the positions are one closed cycle and all are reached."""
         return self.closed and self.motion.whole
@@ -151,7 +161,7 @@ class Analysis(PartlyReached):
         kept = self._words
         meant = self._meant(output)
         if meant.of_course:
-            return lambda each: (each.motion if isinstance(each, Forces) else each).read(meant)
+            return partial(self._of_course, output=meant)
 
         def read(solved: Motion | Forces) -> Floats:
             name, rows, evaluate = words_name(output), solved.rows, partial(self._read, solved=solved)
@@ -162,6 +172,19 @@ class Analysis(PartlyReached):
             return rows.row(name, evaluate)
 
         return read
+
+    def _of_course(self, solved: Motion | Forces, output: Output) -> Floats:
+        """An output that the motion gives, angles in the turns in which its positions have them."""
+        motion, known = solved.motion if isinstance(solved, Forces) else solved, self.motion
+        values, period = motion.read(output), known.positions.period
+        if motion is known or output.kind != "angle":
+            return values
+        angle, begin = known.read(output), float(known.time.min())
+        order = np.argsort(known.time)
+        order = order[np.isfinite(angle[order])]
+        time = motion.time if period is None else begin + (motion.time - begin) % period
+        near = np.interp(time, known.time[order], angle[order])
+        return np.asarray(values + TURN * np.round((near - values) / TURN))
 
     def _read(self, names: tuple[str, ...], solved: Motion | Forces) -> Floats:
         if isinstance(solved, Forces):
@@ -177,7 +200,7 @@ class Analysis(PartlyReached):
         ``peak``: the largest size; places of extremes of a mechanism's outputs are its outermost limit positions.
         """
         if summary not in self._parts:
-            found = self._of_cycle(summary) or self._summarised(summary)
+            found = self._of_cycle(summary) or self._found_again(summary)
             reaction = summary.output.startswith("reaction ")
             small = self.forces and reaction and abs(found.value) < self.forces.rounding
             if small and abs(found.value) < self._rounding(found.time):
@@ -241,52 +264,6 @@ class Analysis(PartlyReached):
         near = np.where(self.motion.ok, np.abs(self.motion.time - time), np.inf)
         return float(self.forces.roundings[near.argmin()])
 
-    def _summarised(self, summary: Summary) -> SummaryValue:
-        kind, finder = summary.kind, _FINDERS.get(type(summary))
-        if finder is not None:
-            return self._found_together(summary, finder)
-        if kind in ("argmax", "argmin", "range") and (output := self.output(summary.output)):
-            return self._of_limits(output, kind)
-        nothing, signal = (
-            SummaryValue(float("nan"), float("nan"), float("nan"), True),
-            self.signal(summary.output),
-        )
-        if kind in ("mean", "rms"):
-            value = (self.mean_of if kind == "mean" else self.rms_of)(signal)
-            return replace(nothing, value=value, exact=self.cycle is not None)
-        if kind == "excess":
-            rate = float(abs(self.input_rate[0]))
-            return (
-                nothing
-                if self.cycle is None
-                else replace(nothing, value=rate * self.cycle.excess(signal, self._of))
-            )
-        if kind in ("max", "min"):
-            return self._extreme(summary.output, kind) or replace(nothing, exact=False)
-        high, low = self._extreme(summary.output, "max"), self._extreme(summary.output, "min")
-        if high is None or low is None:
-            return replace(nothing, exact=False)
-        if kind == "range":
-            return replace(nothing, value=high.value - low.value, exact=high.exact and low.exact)
-        if kind == "peak":
-            largest = _first_largest(high, low)
-            return replace(largest, value=abs(largest.value))
-        found = high if kind == "argmax" else low
-        return replace(found, value=found.input)
-
-    def _found_together(self, part: Summary, finder: Finder) -> SummaryValue:
-        """A part that a finder finds, at once with those of all that were asked for."""
-        if part not in self._found:
-            alike = [each for each in {**self._asked, part: None} if type(each) is type(part)]
-            missing = [each for each in alike if each not in self._found]
-            self._found |= zip(missing, finder(missing, self), strict=True)
-        return self._found[part]
-
-    def _extreme(self, output: str, kind: str) -> SummaryValue | None:
-        side: Kind = "max" if kind == "max" else "min"
-        signal = self.signal(output)
-        return self.extreme(signal, side) if self.forces is None else self.extreme(signal, side, of="forces")
-
     def output(self, words: str) -> Output | None:
         """The output of the mechanism that words mean."""
         meant = self._meant(words)
@@ -298,71 +275,96 @@ class Analysis(PartlyReached):
         return self._outputs[words]
 
     def _of_limits(self, output: Output, kind: str) -> SummaryValue:
-        """Place of an output's outermost limit position, or the way between them."""
+        """Place, or value, of an output's outermost limit position, or the way between them."""
+        ends: dict[str, Limit] = {each.kind: each for each in reversed(self.outermost(output))}
         if kind == "range":
-            return self._range(output)
-        end = next(each for each in self.outermost(output) if each.kind == kind.removeprefix("arg"))
-        return SummaryValue(end.input, end.time, end.input, True)
+            return SummaryValue(ends["max"].value - ends["min"].value, nan, nan, True)
+        end = ends[kind.removeprefix("arg")]
+        return SummaryValue(end.input if kind.startswith("arg") else end.value, end.time, end.input, True)
 
-    def _range(self, output: Output) -> SummaryValue:
-        """The way of an output between its outermost places, the largest one of all stretches that are reached."""
-        nowhere = SummaryValue(float("nan"), float("nan"), float("nan"), self.resolver.possible)
-        if found := self.ranges(output):
-            return replace(
-                nowhere, value=max(way for way, _ in found), exact=all(exact for _, exact in found)
-            )
-        known = np.append(self.motion.read(output), [limit.value for limit in self.limits(output)])
-        exact = self.resolver.possible and not self.partial
-        return replace(nowhere, value=float(np.ptp(known[np.isfinite(known)])), exact=exact)
+    def _found_again(self, part: Summary) -> SummaryValue:
+        """A part of what no formula of the cycle gives."""
+        if type(part) in _FINDERS:
+            return _FINDERS[type(part)](part, self)
+        output, reversals = self.output(part.output), None
+        if isinstance(part, StrokeSummary):
+            driven = self._meant(part.by)
+            reversals = driven, self.limits(driven)
+        elif output and self.whole and part.kind in OF_LIMITS and self.limits(output):
+            return self._of_limits(output, part.kind)
+        return self.find(part, self.signal(part.output), self._of, reversals)
+
+    def find(
+        self, part: Summary, signal: Signal, of: str, reversals: Reversals | None = None
+    ) -> SummaryValue:
+        """A summary of a signal, (n,) of the motion or of the forces, between the positions where that can be."""
+        ways = self.ways if self.motion.steps > 2 else None
+        if part.kind in ("mean", "rms") and self.partial:
+            looked = self._known(of) if ways is None else ways.at(ways.looks, of)
+            values = signal(looked)
+            known = values[np.isfinite(values)]
+            if len(known) and np.ptp(known) <= ROUNDING * abs(known[0]):
+                return SummaryValue(float(abs(known[0]) if part.kind == "rms" else known[0]), nan, nan, False)
+            if self.closed or ways is None:
+                return SummaryValue(nan, nan, nan, False)
+        values = np.asarray(signal(self._known(of)), dtype=float)
+        sample = of_positions(self.motion, values, part.kind)
+        if ways is None or not np.isfinite(values).any() or (part.kind == "excess" and not ways.whole):
+            return sample
+        found = Again(ways, part, signal, of, reversals)
+        if found.passed.all():
+            return found.found()
+        return sample if self.partial else replace(sample, value=nan)
 
     def ranges(self, output: Output) -> list[tuple[float, bool]]:
-        """The ways of an output on all stretches of what is partly reached, and whether these are exact; none where
-        nothing is solved on one of them."""
-        found = []
-        for way in self.ways:
-            high, low = (way.extreme(lambda each: each.read(output), sign, "motion") for sign in (1.0, -1.0))
-            if high is None or low is None:
-                return []
-            found.append((high.value - low.value, not np.isnan(high.value - low.value)))
-        return found
+        """The ways of an output on all stretches of what is partly reached, and whether these are exact."""
+        if self.ways is None:
+            return []
+        signal = partial(self._of_course, output=output)
+        found = Again(self.ways, Summary("", "range"), signal, "motion")
+        return [(float(way), not isnan(way)) for way in found.values[""]]
+
+    def _known(self, of: str) -> Motion | Forces:
+        return self.forces if of == "forces" and self.forces else self.motion
 
     @property
     def _of(self) -> str:
         return "motion" if self.forces is None else "forces"
 
     @cached_property
-    def cycle(self) -> SolvedPieces | None:
-        """The cycle on pieces; None where not all of it is reached, or nothing lies between its positions."""
-        if not self.resolver.possible or self.motion.steps < 3 or not self.resolver.whole:
+    def ways(self) -> Ways | None:
+        """The whole cycle, or stretches of it that are reached; None where nothing lies between the positions."""
+        resolver = self.resolver
+        if not resolver.possible or self.motion.steps < 2:
             return None
         try:
-            if self._machine is None:
-                cuts = SolvedCuts(self.motion, self.forces, self.resolver).stretches.begin
+            if self.partial or self.motion.steps < 3:
+                found = Ways.in_part(resolver, resolver.stretches) if resolver.stretches else None
+            elif self._machine is None:
+                stretches = SolvedCuts(self.motion, self.forces, resolver).stretches
+                found = Ways.of_cycle(resolver, stretches.span.course, stretches.begin)
             else:
                 known = self._solved if not self._machine.traces.programs.signed else []
-                cuts = (known or [Solved(Cycle(self._machine, ()), {})])[0].stretches.begin
-            found = SolvedPieces.of_cycle(self.motion, self.resolver, cuts)
-            return found if found.reached else None
+                stretches = (known or [Solved(Cycle(self._machine, ()), {})])[0].stretches
+                course = Course.of(self.motion.mechanism, self.motion.positions, seam=True)
+                found = Ways.of_cycle(resolver, course, stretches.begin)
+            return found if found is not None and found.solved else None
         except LinkwrightError:
             return None
 
-    def mean_of(self, signal: Callable[..., Floats], *, square: bool = False) -> float:
-        """Mean over the time of the cycle of what the forces (without them, the motion) give, (n,), or of its
-        ``square``.
+    @property
+    def cycle(self) -> Ways | None:
+        """The whole cycle on pieces; None where not all of it is reached, or nothing lies between its positions."""
+        return self.ways if self.ways is not None and self.ways.whole else None
+
+    def mean_of(self, signal: Callable[..., Floats]) -> float:
+        """Mean over the time of the cycle of what the forces (without them, the motion) give, (n,).
 
         By integration between the positions, so that the jumps of loads fall where they are. NaN where not all of
         a closed cycle is reached, but for what is the same everywhere; of a way that ends that of the time until
         then, if it does not grow without bound; of the positions where nothing can be solved between these.
         """
-        if self.cycle is not None:
-            return self.cycle.integral(signal, self._of, square=square) / self.cycle.duration
-        if self.partial:
-            return self.mean_of_part(signal, self._of, square=square)
-        return self.mean(np.asarray(signal(self.forces or self.motion)) ** (2 if square else 1))
-
-    def rms_of(self, signal: Callable[..., Floats]) -> float:
-        """Root of the mean square over the time of the cycle, found in the same way."""
-        return float(np.sqrt(self.mean_of(signal, square=True)))
+        return self.find(Summary("", "mean"), signal, self._of).value
 
     @overload
     def extreme(self, signal: Callable[[Motion], Floats], kind: Kind) -> SummaryValue | None: ...
@@ -378,20 +380,8 @@ class Analysis(PartlyReached):
         ``signal`` takes a Motion (or Forces, with ``of="forces"``) and gives (n,). None where no position is
         reached.
         """
-        solved = self.forces if of == "forces" else self.motion
-        values = signal(solved)
-        if not np.isfinite(values).any():
-            return None
-        sign = 1.0 if kind == "max" else -1.0
-        index = first_largest(sign * values)
-        time = self.motion.time
-        at = float(self.motion.input[index]) if self.motion.inputs else float("nan")
-        sample = SummaryValue(float(values[index]), float(time[index]), at, False)
-        if not self.resolver.possible or self.motion.steps < 3:
-            return sample
-        if self.cycle is not None:
-            return self.cycle.extreme(signal, sign, of)
-        return self.extreme_of_part(signal, sign, of, sample)
+        found = self.find(Summary("", kind), signal, of)
+        return None if isnan(found.value) and not found.exact else found
 
 
 _known: Recent[Motion | Forces, Analysis] = Recent(8)

@@ -9,10 +9,11 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.curves.pieces import HIGH, LOW
-from linkwright.cycle.cycle import Cycle, Signal
+from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.cycle.solved import Solved
+from linkwright.cycle.summaries import Signal
 from linkwright.events.course import moves
 from linkwright.formula.summaries import Backend
 from linkwright.formula.threads import cores, spread_over

@@ -9,10 +9,11 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
-from linkwright.cycle.cycle import Cycle, Signal
+from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.cycle.solved import Solved
+from linkwright.cycle.summaries import Signal
 from linkwright.errors import RequestError
 from linkwright.events.course import moves
 from linkwright.formula.derivative import forward

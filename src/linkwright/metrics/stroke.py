@@ -32,7 +32,7 @@ class Stroke(Metric):
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         """Those of a machine that reaches several stretches are of each of them."""
         stretches = analysis.resolver.stretches if analysis.partial else ()
-        if len(stretches) < 2 or not analysis.ways:
+        if len(stretches) < 2 or analysis.ways is None:
             yield from super().values(analysis)
             return
         for output in self._swinging(analysis):

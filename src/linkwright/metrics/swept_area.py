@@ -22,8 +22,8 @@ from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
 from linkwright.metrics.range_of_motion import turns
-from linkwright.metrics.solved_pieces import SolvedPieces
 from linkwright.metrics.swept_hull import Curves, SweptHull
+from linkwright.metrics.ways import Ways
 
 #: Ends of ways nearer to each other than this share of the way are the same.
 SAME = 1e-9
@@ -109,13 +109,11 @@ def _curves(analysis: Analysis) -> tuple[Curves | None, bool]:
         values = np.moveaxis(rows, 1, 2).reshape(len(keys), 2, -1, POINTS)
         spans = _spans(analysis, cycle, edges, values)
         return Curves(values, *turned(mechanism, edges, analysis.closed), spans), True
-    if not analysis.ways:
+    if analysis.ways is None:
         return None, False
-    parts = [way.curve(lambda motion: _rows(motion, keys), "motion", HULL_PIECES) for way in analysis.ways]
-    values = np.concatenate([np.moveaxis(rows, 1, 2) for _, rows in parts], axis=1)
-    values = values.reshape(len(keys), 2, -1, POINTS)
-    counts = [len(edges) - 1 for edges, _ in parts]
-    begins = np.isin(np.arange(sum(counts)), np.cumsum([0, *counts[:-1]]))
+    edges, rows = analysis.ways.curve(lambda motion: _rows(motion, keys), "motion", HULL_PIECES)
+    values = np.moveaxis(rows, 1, 2).reshape(len(keys), 2, -1, POINTS)
+    begins = edges[:-1] == edges[0]
     whole = np.tile([0, len(begins) * POINTS], (len(keys), 1))
     return Curves(values, begins, np.roll(begins, -1), whole), True
 
@@ -131,7 +129,7 @@ def turned(mechanism: Mechanism, edges: Floats, closed: bool) -> tuple[Flags, Fl
     return bent[:-1], bent[1:]
 
 
-def _spans(analysis: Analysis, cycle: SolvedPieces, edges: Floats, values: Floats) -> Indices:
+def _spans(analysis: Analysis, cycle: Ways, edges: Floats, values: Floats) -> Indices:
     """The nodes of every curve from one end of its way to the other, where it is run to and fro: of all points by the
     one driver, or by a link that turns or slides on the frame; one of a point at rest."""
     mechanism, times = analysis.motion.mechanism, nodes(edges).T.ravel()
@@ -140,7 +138,7 @@ def _spans(analysis: Analysis, cycle: SolvedPieces, edges: Floats, values: Float
     for output in analysis.outputs:
         way = cycle.at(times, "motion").read(output)
         if output.kind != "angle" or np.ptp(way) < 2.0 * np.pi:
-            ends = [(cycle.begin, float(way[0])), (cycle.end, float(way[-1]))]
+            ends = [(edges[0], float(way[0])), (edges[-1], float(way[-1]))]
             reached = [*ends, *((each.time, each.value) for each in analysis.limits(output))]
             own = points_of_links(mechanism)[output_link(mechanism, output)]
             found[[keys.index(key) for key in own]] = _between(times, _once(reached))

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import pairwise
-from math import nan, radians
+from math import radians
 from typing import ClassVar
 
 from linkwright.core.outputs import Output
-from linkwright.cycle.summary import STROKES, StrokeSummary, Summary, SummaryValue
+from linkwright.cycle.summary import STROKES, StrokeSummary, Summary
 from linkwright.elements.topology import Group
 from linkwright.kinetostatics.closure import dyads
-from linkwright.metrics.analysis import Analysis, finds
+from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number, Remark
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
@@ -78,31 +78,4 @@ def _driven_dyads(analysis: Analysis) -> list[tuple[Group, Output]]:
         for group in dyads(motion.structure)
         for output in analysis.outputs
         if output_link(motion.mechanism, output) in group.links and len(analysis.limits(output)) >= 2
-    ]
-
-
-@finds(StrokeSummary)
-def on_strokes(parts: Sequence[StrokeSummary], analysis: Analysis) -> list[SummaryValue]:
-    """Such parts of one machine, each the smallest of all its strokes that way: of the stroke in which it lies the
-    smallest of the cycle."""
-    found: list[SummaryValue] = []
-    period = analysis.motion.positions.period or 0.0
-    of = "motion" if analysis.forces is None else "forces"
-    for part in parts:
-        assert analysis.cycle is not None
-        spans = _strokes(part, analysis, period)
-        lowest = analysis.cycle.extreme(analysis.signal(part.output), -1.0, of, spans)
-        found.append(lowest or SummaryValue(nan, nan, nan, False))
-    return found
-
-
-def _strokes(part: StrokeSummary, analysis: Analysis, period: float) -> list[tuple[float, float]]:
-    """The beginning and the end, s, of every stroke that way."""
-    output = analysis.output(part.by)
-    assert output is not None
-    limits = analysis.limits(output)
-    return [
-        (first.time, last.time + (0.0 if last.time > first.time else period))
-        for first, last in pairwise([*limits, limits[0]])
-        if STROKES[first.kind] == part.way
     ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
@@ -33,12 +32,8 @@ class TrueSpeedSummary(Summary):
 
 
 @finds(TrueSpeedSummary)
-def of_machine(parts: Sequence[TrueSpeedSummary], analysis: Analysis) -> list[SummaryValue]:
-    """Such parts of one machine; raises LinkwrightError where it would stop, or does not run steadily."""
-    return [_of_machine(part, analysis) for part in parts]
-
-
-def _of_machine(part: TrueSpeedSummary, analysis: Analysis) -> SummaryValue:
+def of_machine(part: TrueSpeedSummary, analysis: Analysis) -> SummaryValue:
+    """Such a part of one machine; raises LinkwrightError where it would stop, or does not run steadily."""
     assert analysis.forces is not None
     reduced, cycle = steady_cycle(analysis.forces)
     size, fluctuation, nan = 0.0, part.required, float("nan")
