@@ -14,6 +14,13 @@ Flags = NDArray[np.bool_]
 EQUAL = 1e-12
 
 
+def begins(owner: Indices) -> Indices:
+    """The number of the first of every run of equal owners."""
+    first = np.ones(len(owner), dtype=np.bool_)
+    np.not_equal(owner[1:], owner[:-1], out=first[1:])
+    return first.nonzero()[0]
+
+
 def largest(values: Floats) -> float:
     """Largest size of the numbers that are finite; 0 where there is none."""
     return float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))

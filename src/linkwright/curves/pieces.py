@@ -15,7 +15,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.arrays import Flags, Floats, Indices, begins
 from linkwright.core.dataclass import dataclass
 from linkwright.curves.polynomials import (
     HIDDEN,
@@ -133,19 +133,22 @@ class Pieces:
         self._best = np.full((len(wanted.sides), self.designs), -np.inf)
         self._owner, self._length = layout.design, np.ones(self.designs)
         self.size: Floats = np.empty(0)
+        done, most = list[_Batch](), np.zeros(self.designs, dtype=np.intp)
         crowd = wanted.crowd + 4 * np.bincount(layout.design[stretch], minlength=self.designs)
-        most, done = np.zeros_like(crowd), list[_Batch]()
         for turn in range(HALVINGS):
             batch = self._evaluated(signals, layout.columns(stretch, first, last), stretch, first, last)
+            done.append(batch)
+            if turn + 1 == HALVINGS or not batch.unmet.any():
+                break
             design = layout.design[stretch]
             count = np.bincount(design[batch.unmet], minlength=self.designs)
             if turn < EARLY:
                 most = np.maximum(most, count)
             few = count <= (crowd if turn < EARLY else np.minimum(crowd, 2 * most + MANY))
-            halved = batch.unmet & few[design] & (turn + 1 < HALVINGS)
-            done.append(batch.taken(~halved) if halved.any() else batch)
+            halved = batch.unmet & few[design]
             if not halved.any():
                 break
+            done[-1] = batch.taken(~halved)
             stretch, first, last = np.repeat(stretch[halved], 2), first[halved], last[halved]
             middle = 0.5 * (first + last)
             first, last = np.stack([first, middle], axis=1).ravel(), np.stack([middle, last], axis=1).ravel()
@@ -174,9 +177,11 @@ class Pieces:
         number = len(self._chunks)
         self._chunks.append(values)
         flat, shape, design = values.reshape(POINTS, -1), values.shape[1:], self._owner[stretch]
-        top, bottom = values.max(axis=0), values.min(axis=0)
-        orders = product(LAST_AND_MEAN, flat)
-        rough, whole = np.abs(orders[:3]).max(axis=0).reshape(shape), orders[3].reshape(shape)
+        stats = np.empty((4, *shape))
+        values.max(axis=0, out=stats[0]), values.min(axis=0, out=stats[1])
+        orders = product(LAST_AND_MEAN, flat).reshape(-1, *shape)
+        np.abs(orders[:3]).max(axis=0, out=stats[2])
+        stats[3], (top, bottom, rough) = orders[3], stats[:3]
         if self.wanted.joined:
             left, right = product(TO_ENDS, flat).reshape(2, *shape)
             same = (stretch[1:] == stretch[:-1]) & (first[1:] == last[:-1])
@@ -186,20 +191,18 @@ class Pieces:
                 np.maximum(side, gap, out=side)
         ways = np.stack([top, -bottom])
         highest = ways[self._below, self._signals]
-        starts = np.flatnonzero(np.diff(design, prepend=-1))
+        starts = begins(design)
         there, width = design[starts], columns[HIGH] - columns[LOW]
         if not number:
             self.size = np.full((shape[0], self.designs), -np.inf)
             self._length[there] = np.add.reduceat(width, starts)
         for known, new in ((self.size, ways.max(axis=0)), (self._best, highest)):
             known[:, there] = np.maximum(known[:, there], np.maximum.reduceat(new, starts, axis=1))
-        unmet = self._unmet(design, width, (top, bottom, rough), highest)
+        unmet = self._unmet(design, width, stats[:3], highest)
         places = np.full(len(design), number), np.arange(len(design))
-        return _Batch(stretch, first, last, *places, np.stack([top, bottom, rough, whole]), columns, unmet)
+        return _Batch(stretch, first, last, *places, stats, columns, unmet)
 
-    def _unmet(
-        self, design: Indices, width: Floats, stats: tuple[Floats, Floats, Floats], highest: Floats
-    ) -> Flags:
+    def _unmet(self, design: Indices, width: Floats, stats: Floats, highest: Floats) -> Flags:
         """Pieces that are not met, and matter."""
         limit, share = self.wanted.met * self._sizes(), width / self._length[design]
         found, coarse = np.zeros(len(design), dtype=np.bool_), (stats[2] > limit[:, design]).any(axis=0)
@@ -207,7 +210,7 @@ class Pieces:
         if not len(at):
             return found
         limit, even, own = limit[:, design[at]], [*self.wanted.even], self._signals
-        top, bottom, rough = (each[:, at] for each in stats)
+        top, bottom, rough = stats[:, :, at]
         matters = rough[even] * np.minimum(1.0, share[at] / self.wanted.wide) > limit[even]
         reach = highest[:, at] + SLACK * (top - bottom)[own] + HIDDEN * rough[own]
         near = (reach >= self._best[:, design[at]]) | (rough[own] * self.wanted.met > BLIND * limit[own])

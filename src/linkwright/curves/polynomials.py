@@ -8,7 +8,7 @@ import numpy as np
 from numpy.polynomial import chebyshev, legendre
 from numpy.typing import NDArray
 
-from linkwright.core.arrays import EQUAL, Floats, Indices
+from linkwright.core.arrays import EQUAL, Floats, Indices, begins
 
 #: Of every design: the piece of an extreme, its place in it (-1 to 1), and its value, (designs,) each.
 Peak = tuple[Indices, Floats, Floats]
@@ -113,20 +113,20 @@ def best_of(
 ) -> Indices:
     """Of values (k,) in the order of their owners the number of the largest one of every owner: of such as are as
     large but for ``slack`` (rounding where left out) the first, in ``time``."""
-    starts = np.flatnonzero(np.append(True, owner[1:] != owner[:-1]))
+    starts = begins(owner)
     best = np.repeat(np.maximum.reduceat(value, starts), np.diff(np.append(starts, len(owner))))
     if slack is None:
         slack = EQUAL * np.where(np.isfinite(best), np.abs(best), 0.0)
     first = np.flatnonzero(~(value < best - slack))
     if time is not None:
         first = first[np.lexsort((time[first], owner[first]))]
-    return np.asarray(first[np.append(True, owner[first][1:] != owner[first][:-1])])
+    return np.asarray(first[begins(owner[first])])
 
 
 def largest(values: Floats, design: Indices) -> Peak:
     """The largest of polynomials through ``values`` (POINTS, pieces) of every design, whose pieces lie in order."""
     top, bottom = values.max(axis=0), values.min(axis=0)
-    starts = np.flatnonzero(np.append(True, design[1:] != design[:-1]))
+    starts = begins(design)
     highest = np.repeat(np.maximum.reduceat(top, starts), np.diff(np.append(starts, len(design))))
     piece = np.flatnonzero(~(top + SLACK * (top - bottom) < highest))
     place, value = climbed(values[:, piece])

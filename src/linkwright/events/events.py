@@ -306,8 +306,8 @@ class _Search:
             with np.errstate(divide="ignore", invalid="ignore"):
                 newton = time - g / slope
             newton = np.where((newton >= left) & (newton <= right), newton, 0.5 * (left + right))
-            newton = np.where(open_, newton, time)
-            moved, time = np.abs(newton - time), newton
+            before, time = time, np.where(open_, newton, time)
+            moved = np.abs(time - before)
             open_ &= ~(moved <= NEAR * width)
             if not open_.any():
                 break

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.arrays import Flags, Floats, Indices, begins
 from linkwright.curves.pieces import LOW
 from linkwright.events.events import AT, Events
 from linkwright.events.formula import Formula
@@ -51,7 +51,7 @@ class Limits:
         begin = (events.time[ours] - self.span.begin) / self.span.period[events.design[ours]]
         ours = ours[np.lexsort((begin - np.floor(begin + 1e-12), events.design[ours]))]
         owner = events.design[ours]
-        one = np.append(True, owner[1:] != owner[:-1])[: len(owner)]
+        one = begins(owner)
         found[owner[one]] = ours[one]
         return found
 

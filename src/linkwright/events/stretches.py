@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Indices
+from linkwright.core.arrays import Floats, Indices, begins
 from linkwright.core.dataclass import dataclass
 from linkwright.events.course import Course
 
@@ -80,13 +80,14 @@ class Stretches:
         at = span.within(owner, at)
         order = np.lexsort((number >= 0, at, owner))
         owner, at, number = owner[order], at[order], number[order]
-        first = np.append(True, owner[1:] != owner[:-1])
-        apart = first | (np.diff(at, prepend=0.0) > SAME * span.period[owner])
-        owner, at, number, first = owner[apart], at[apart], number[apart], first[apart]
-        begins = np.flatnonzero(first)
-        last = np.append(begins[1:], len(owner)) - 1
+        if len(owner) > span.count:
+            apart = np.ones(len(owner), dtype=np.bool_)
+            apart[1:] = (owner[1:] != owner[:-1]) | (at[1:] - at[:-1] > SAME * span.period[owner[1:]])
+            owner, at, number = owner[apart], at[apart], number[apart]
+        begin = begins(owner)
+        last = np.append(begin[1:], len(owner)) - 1
         after = np.arange(1, len(owner) + 1)
-        after[last] = begins
+        after[last] = begin
         lap = np.where(after <= np.arange(len(owner)), span.period[owner], 0.0)
         self.design, self.begin, self.length = owner, at, at[after] + lap - at
         self.edge, self.after, self.lap = number, number[after], lap > 0.0
