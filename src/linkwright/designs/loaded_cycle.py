@@ -23,7 +23,6 @@ from linkwright.kinetostatics.load_site import turns_steadily
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads, traced_magnitude
 from linkwright.loads.base import Load
-from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.strokes import TURN
 from linkwright.mechanism.mechanism import Mechanism
 
@@ -92,7 +91,7 @@ class LoadedCycle:
 def loaded_cycle(traced: Traced, varied: Collection[str], fields: Iterable[str]) -> LoadedCycle | None:
     """That of the loads and the friction behind a program's inputs per position; None where these cannot be
     traced, or their limits not be found for many designs at once."""
-    known = along_input(traced, varied, fields, over_time=True)
+    known = _loads_of(traced, varied, fields)
     return None if known is None else with_limits(traced, known)
 
 
@@ -108,32 +107,11 @@ def with_limits(traced: Traced, known: AlongInput) -> LoadedCycle | None:
         except (NotTogether, LinkwrightError):
             return None
     constants = {**known.constants, **({} if limits is None else limits.numbers)}
-    return LoadedCycle(with_loads(traced, known), known, limits, constants)
+    return LoadedCycle(traced.with_loads(known.names, rubbing=known.rubbing), known, limits, constants)
 
 
-def with_loads(plain: Traced, known: AlongInput) -> Traced:
-    """The same outputs with these loads, and the friction, traced."""
-    if not known.names and not known.rubbing:
-        return plain
-    manner = plain.solver.manner
-    return Traced(
-        plain.mechanism,
-        manner.free,
-        plain.positions,
-        iterations=manner.iterations,
-        along_input=known.names,
-        rubbing=known.rubbing,
-    )
-
-
-def along_input(
-    traced: Traced, varied: Collection[str], fields: Iterable[str], *, over_time: bool = False
-) -> AlongInput | None:
-    """The loads behind a program's inputs per position; None where some input is no load that can be traced.
-
-    Without limits that are found ``over_time`` those between limits only over whole turns of one driver of constant
-    speed.
-    """
+def _loads_of(traced: Traced, varied: Collection[str], fields: Iterable[str]) -> AlongInput | None:
+    """The loads behind a program's inputs per position; None where some input is no load that can be traced."""
     mechanism, carried = traced.mechanism, traced.solver.motion.next_states
     given = tuple(name for name in fields if name not in carried)
     rubbing = any(kind_of(name) == "friction" for name in given)
@@ -150,7 +128,7 @@ def along_input(
     if not all(each.traceable(mechanism) for each in sizes):
         return None
     if not whole_turns(traced, varied) and (
-        any(_needs_turns(each, mechanism, over_time) for each in sizes)
+        (any(each.through_end for each in sizes) and not turns_steadily(mechanism))
         or _moves_phases(loads, varied, mechanism)
     ):
         return None
@@ -161,13 +139,6 @@ def along_input(
         return None
     constants = {**known.constants, **middles}
     return replace(known, constants=constants, rubbing=rubbing)
-
-
-def _needs_turns(size: Magnitude, mechanism: Mechanism, over_time: bool) -> bool:
-    """Whether the formula of the phase of a load needs whole turns of one driver of constant speed."""
-    if over_time and turns_steadily(mechanism):
-        return False
-    return size.through_end or (size.limits is not None and not over_time)
 
 
 def _moves_phases(loads: Iterable[Load], varied: Iterable[str], mechanism: Mechanism) -> bool:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from collections.abc import Iterable
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.cycle.summary import Summary
+from linkwright.designs.one_by_one import OF_VALUES
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
@@ -18,23 +18,13 @@ from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.quantities import shown
 from linkwright.words.sentence import Sentence
 
-#: What a summary is of the values at the positions.
-_OF: Mapping[str, Callable[[Floats], Any]] = {
-    "min": np.min,
-    "max": np.max,
-    "mean": np.mean,
-    "range": np.ptp,
-    "rms": lambda values: np.sqrt(np.mean(values * values)),
-    "peak": lambda values: np.max(np.abs(values)),
-}
-
 
 def note_of_positions(
     mechanism: Mechanism, steps: int, summaries: Iterable[Summary], dimensions: Iterable[str]
 ) -> Sentence | None:
     """That summaries are those of the positions, with how far the worst one of the machine as it is is from the one
     between them; None where none is asked."""
-    asked = [(each, kind) for each, kind in zip(summaries, dimensions, strict=True) if each.kind in _OF]
+    asked = [(each, kind) for each, kind in zip(summaries, dimensions, strict=True) if each.kind in OF_VALUES]
     if not asked:
         return None
     worst, off = None, 0.0
@@ -64,4 +54,4 @@ def _both(analysis: Analysis, summary: Summary, forces: Forces | None) -> tuple[
     found = analysis.part(summary)
     if not (found.exact and np.isfinite(found.value) and np.isfinite(values).all()):
         return 0.0, 0.0, 0.0
-    return float(_OF[summary.kind](values)), found.value, float(np.abs(values).max())
+    return float(OF_VALUES[summary.kind](values)), found.value, float(np.abs(values).max())

@@ -25,7 +25,7 @@ from linkwright.words.sentence import Sentence
 
 TURN = 2.0 * np.pi
 #: What a summary is of values at positions; extremes skip those that do not exist.
-_OF: Mapping[str, Callable[[Floats], Any]] = {
+OF_VALUES: Mapping[str, Callable[[Floats], Any]] = {
     "min": np.fmin.reduce,
     "max": np.fmax.reduce,
     "mean": np.mean,
@@ -88,7 +88,7 @@ def summary_of(summary: Summary, values: Floats, reached: Flags, inputs: Floats)
         return np.nan
     if summary.kind in ("argmin", "argmax"):
         return float(inputs[reached][first_largest(found if summary.kind == "argmax" else -found)])
-    return float(_OF[summary.kind](found))
+    return float(OF_VALUES[summary.kind](found))
 
 
 def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:

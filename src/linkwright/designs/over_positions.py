@@ -13,12 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.cycle.load_limits import FoundLimits
 from linkwright.cycle.machine import CLEAR
 from linkwright.cycle.summary import KINDS, Summary
-from linkwright.designs.loaded_cycle import (
-    LoadedCycle,
-    along_input,
-    friction_doubt,
-    with_limits,
-)
+from linkwright.designs.loaded_cycle import LoadedCycle, friction_doubt, loaded_cycle
 from linkwright.designs.objective_terms import PathError
 from linkwright.designs.traced_outputs import VALID, Traced
 from linkwright.errors import RequestError
@@ -120,21 +115,18 @@ class Builder:
         self.turns = {} if self.iterated else counted_turns(plain)
         outputs = [summary.output for summary in self.summaries]
         fields = plain.program(plain.quantities(outputs)).fields
-        loads = along_input(plain, names, fields, over_time=not self.iterated)
-        if loads is None:
-            raise RequestError("study.objective_loads", name=mechanism.name)
+        loaded = loaded_cycle(plain, names, fields)
         if self.iterated:
-            self._refuse_ways(plain, loads.outputs)
-        loaded = with_limits(plain, loads)
+            self._refuse_ways(plain, loaded)
         if loaded is None:
             raise RequestError("study.objective_loads", name=mechanism.name)
-        self.loaded, self.loads, self.traced = loaded, loads, loaded.traced
+        self.loaded, self.loads, self.traced = loaded, loaded.loads, loaded.traced
 
-    def _refuse_ways(self, plain: Traced, outputs: object) -> None:
+    def _refuse_ways(self, plain: Traced, loaded: LoadedCycle | None) -> None:
         """Refuses groups without closed form on other ways than the cycle, and loads by more limits than two."""
         cycle = over_cycle(plain.mechanism, plain.positions.steps)
-        signals = MotionSignals(plain.nominal)
-        more = any(len(signals.limits(output)) != 2 for output in outputs)  # type: ignore[attr-defined]
+        outputs = () if loaded is None else loaded.loads.outputs
+        more = any(len(MotionSignals(plain.nominal).limits(output)) != 2 for output in outputs)
         if more or plain.nominal.modes or plain.positions.key != cycle.key:
             raise RequestError("study.objective_iterates", name=plain.mechanism.name)
 

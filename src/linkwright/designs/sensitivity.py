@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING, Literal, get_args
 
@@ -17,6 +17,7 @@ from linkwright.core.read_only import Frozen, locked
 from linkwright.cycle.summary import Summary
 from linkwright.designs.known_loads import known_loads
 from linkwright.designs.objective import of_metrics
+from linkwright.designs.one_by_one import OF_VALUES
 from linkwright.designs.slopes import Slopes
 from linkwright.designs.traced_outputs import Traced
 from linkwright.designs.varied_dimensions import checked_addresses, refuse_misfits
@@ -220,11 +221,7 @@ class _Derivation:
         names = [each.output if isinstance(each, Summary) else each for each in asked if not _is_number(each)]
         loads = known_loads(traced, traced.program(traced.quantities(names)).fields, by)
         if loads.names or loads.rubbing:
-            self.traced = traced = Traced(
-                traced.mechanism, by, traced.positions, turning=True,
-                flipping=bool(traced.solver.manner.flipping), along_input=loads.names,
-                rubbing=loads.rubbing,
-            )  # fmt: skip
+            self.traced = traced = traced.with_loads(loads.names, rubbing=loads.rubbing)
         self.quantities = traced.quantities(names)
         self.work = Slopes(traced, self.quantities, by, backend, loads)
         if not self.work.certain:
@@ -259,7 +256,7 @@ class _Derivation:
 
     def _value(self, summary: Summary) -> float:
         curve = self._curve(summary.output)
-        return float(_SUMMARIES[summary.kind](curve))
+        return float(OF_VALUES[summary.kind](curve))
 
     def _number(self, name: str) -> tuple[float, Floats]:
         """A design number with its gradient."""
@@ -301,13 +298,3 @@ class _Derivation:
 
 def _is_number(each: str | Summary) -> bool:
     return isinstance(each, Summary) and not each.kind
-
-
-_SUMMARIES: Mapping[str, Callable[[Floats], float]] = {
-    "mean": lambda curve: float(curve.mean()),
-    "rms": lambda curve: float(np.sqrt((curve * curve).mean())),
-    "min": lambda curve: float(curve.min()),
-    "max": lambda curve: float(curve.max()),
-    "range": lambda curve: float(np.ptp(curve)),
-    "peak": lambda curve: float(np.abs(curve).max()),
-}

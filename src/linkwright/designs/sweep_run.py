@@ -90,7 +90,8 @@ class SweepRun:
         self.quantities = self.traced.quantities(names)
         self.reductions = [*reductions(asked, self.quantities), Reduction(NEAREST, "min")]
         self.program = self.traced.program(self.quantities)
-        self._followed = not {*self.program.fields}.isdisjoint(self.traced.solver.motion.next_states)
+        given, carried = {*self.program.fields}, self.traced.solver.motion.next_states.keys()
+        self._followed, self._under_loads = bool(given & carried), bool(given - carried)
         self.unloaded: dict[int, str] = {}
         self.alone: set[int] = set()
         self._programs: dict[tuple[str, ...], tuple[list[Quantity], Program]] = {}
@@ -100,7 +101,7 @@ class SweepRun:
         """Assembled positions (designs,), whether each design passes its cycle, and every summary (designs,)."""
         assembled, passed = np.zeros(self.designs, dtype=np.int64), np.zeros(self.designs, dtype=np.bool_)
         values = {summary: np.empty(self.designs) for summary in self.asked}
-        size = ALONE_BLOCK if self._loaded is None else TOGETHER_BLOCK if self.program.fields else BLOCK
+        size = ALONE_BLOCK if self._loaded is None else TOGETHER_BLOCK if self._under_loads else BLOCK
         size = size if self._tracked is None else TRACKED_BLOCK
         for first, end in chunks(self.designs, size):
             results = self._block(
@@ -229,7 +230,7 @@ class SweepRun:
     def _in_pieces(self, part: Mapping[str, Floats], first: int) -> Results:
         """The results of a block; in pieces of a short time each, where somebody asks how far it is. Loads that are
         found for many designs at once are found so fast that a block is one piece."""
-        if self.progress is None or (self.program.fields and self._loaded is not None):
+        if self.progress is None or (self._under_loads and self._loaded is not None):
             return self._computed(part, first)
         pieces, count = [], len(next(iter(part.values())))
         self.backend = self.manner.backend

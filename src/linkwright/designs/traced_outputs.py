@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import replace
 from functools import cached_property
 
@@ -42,8 +43,7 @@ class Traced:
 
     ``free``: dimensions that will vary; ``iterations``: Newton steps of groups without closed form;
     ``turning``: angles of links that turn through may be asked; ``flipping``: the programs take the signs of assembly
-    modes per position; ``along_input``: loads whose magnitudes are traced over the input; ``rubbing``: the friction
-    of joints is traced as well.
+    modes per position.
     """
 
     def __init__(
@@ -55,8 +55,6 @@ class Traced:
         iterations: int = 1,
         turning: bool = False,
         flipping: bool = False,
-        along_input: frozenset[str] = frozenset(),
-        rubbing: bool = False,
     ) -> None:
         self.mechanism = mechanism
         self.positions = positions
@@ -66,8 +64,19 @@ class Traced:
             groups = modal_groups(motion_programs(mechanism, manner).structure)
             manner = replace(manner, flipping=frozenset(groups))
         self.solver = MotionSolver(mechanism, manner)
-        self.forces = ForceSolver(self.solver, along_input=along_input, rubbing=rubbing)
+        self._under_loads(frozenset(), rubbing=False)
+
+    def _under_loads(self, names: frozenset[str], *, rubbing: bool) -> None:
+        self.forces = ForceSolver(self.solver, along_input=names, rubbing=rubbing)
         self.named = Named(self.forces, self._middle, self._line)
+
+    def with_loads(self, names: frozenset[str], *, rubbing: bool) -> Traced:
+        """The same with the magnitudes of some loads traced over the input, and with the friction."""
+        if not names and not rubbing:
+            return self
+        found = copy(self)
+        found._under_loads(names, rubbing=rubbing)
+        return found
 
     @cached_property
     def nominal(self) -> Motion:
