@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 from math import isnan, nan
-from typing import Any, Literal, TypeAlias, overload
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -200,7 +200,7 @@ class Analysis:
         ``peak``: the largest size; places of extremes of a mechanism's outputs are its outermost limit positions.
         """
         if summary not in self._parts:
-            found = self._of_cycle(summary) or self._found_again(summary)
+            found = self._of_formulas(summary) or self._found_again(summary)
             reaction = summary.output.startswith("reaction ")
             small = self.forces and reaction and abs(found.value) < self.forces.rounding
             if small and abs(found.value) < self._rounding(found.time):
@@ -208,36 +208,23 @@ class Analysis:
             self._parts[summary] = found
         return self._parts[summary]
 
-    def _of_cycle(self, part: Summary) -> SummaryValue | None:
+    def _of_formulas(self, part: Summary) -> SummaryValue | None:
         """A part of a cycle that is passed by one formula, found at once with all that were asked for."""
-        if not part.of_cycle or self._machine is None:
-            return None
-        if part not in self._together:
-            wanted = {**self._asked, part: None}
+        machine, wanted = self._machine, {**self._asked, part: None}
+        if machine is not None and part.of_cycle and part not in self._together:
             parts = [each for each in wanted if each.of_cycle and each not in self._together]
-            told = {each: self._tells(each.output) for each in parts}
+            self._together |= dict.fromkeys(parts)
+            parts = [each for each in parts if self._tells(each.output, machine)]
             swinging = self.outputs if self.closed else ()
-            limited = [each for each in swinging if self.limits(each) and self._machine.tells(each.name)]
-            parts = [each for each in parts if told[each]]
-            self._together |= dict.fromkeys(told)
-            solved = Solved(Cycle(self._machine, parts, limited), {})
+            limited = [each for each in swinging if self.limits(each) and machine.tells(each.name)]
+            solved = Solved(Cycle(machine, parts, limited), {})
             self._solved.append(solved)
-            self._together |= {each: self._read_of(solved, each) for each in parts}
-        return self._together[part]
+            self._together |= {each: _value(solved, each) for each in parts}
+        return self._together.get(part)
 
-    def _tells(self, words: str) -> bool:
+    def _tells(self, words: str, machine: Machine) -> bool:
         """Whether the cycle's formulas give an output."""
-        assert self._machine is not None
-        return not self._meant(words).of_course or self._machine.tells(words)
-
-    def _read_of(self, solved: Solved, part: Summary) -> SummaryValue | None:
-        """A part of one machine's cycle; None of one that is not passed."""
-        if not solved.passed[0]:
-            return None
-        time = solved.time_of(part.name)
-        return SummaryValue(
-            float(solved.values[part.name][0]), float(time[0]), float(solved.input_at(time)[0]), True
-        )
+        return not self._meant(words).of_course or machine.tells(words)
 
     @cached_property
     def _together(self) -> dict[Summary, SummaryValue | None]:
@@ -366,12 +353,6 @@ class Analysis:
         """
         return self.find(Summary("", "mean"), signal, self._of).value
 
-    @overload
-    def extreme(self, signal: Callable[[Motion], Floats], kind: Kind) -> SummaryValue | None: ...
-    @overload
-    def extreme(
-        self, signal: Callable[[Forces], Floats], kind: Kind, *, of: Literal["forces"]
-    ) -> SummaryValue | None: ...
     def extreme(
         self, signal: Callable[..., Floats], kind: Kind, *, of: str = "motion"
     ) -> SummaryValue | None:
@@ -382,6 +363,15 @@ class Analysis:
         """
         found = self.find(Summary("", kind), signal, of)
         return None if isnan(found.value) and not found.exact else found
+
+
+def _value(solved: Solved, part: Summary) -> SummaryValue | None:
+    """A summary of one machine's cycle; None of one that is not passed."""
+    if not solved.passed[0]:
+        return None
+    time = solved.time_of(part.name)
+    value, place = solved.values[part.name][0], solved.input_at(time)[0]
+    return SummaryValue(float(value), float(time[0]), float(place), True)
 
 
 _known: Recent[Motion | Forces, Analysis] = Recent(8)

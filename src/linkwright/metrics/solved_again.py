@@ -10,7 +10,6 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.cached_property import cached_property
-from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.cycle import over_cycle
@@ -22,7 +21,6 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
 from linkwright.loads.over_cycle import activity
-from linkwright.loads.signals import Limit, Whole
 
 #: Shares of the cycle at which the forces of an extreme are looked at: at a jump they are those of one side.
 BESIDE = np.array([0.0, -1e-9, 1e-9])
@@ -55,14 +53,8 @@ class _SameCycle(MotionSignals):
         return self._known.cycle
 
     @property
-    def whole(self) -> Whole:
-        return self._known.whole
-
-    def limits(self, output: Output) -> Sequence[Limit]:
-        return self._known.limits(output)
-
-    def limit_inputs(self, output: Output) -> list[tuple[float, str]]:
-        return self._known.limit_inputs(output)
+    def turned(self) -> Motion:
+        return self._known.turned
 
 
 class Resolver(Reach):
