@@ -195,7 +195,7 @@ export interface ModelData {
     inputs: { name: string; turns: boolean; values: string | null }[];
   };
   fields: Record<string, string>;
-  starts: Record<string, number | string>;
+  starts: Record<string, number>;
   /** Loads whose course is that of the original. */
   held: string[];
   phases: Phase[];

@@ -43,12 +43,11 @@ export class Solver {
   private drive: Drive | null = null;
   private readonly arrays: Record<string, Float64Array> = {};
   private readonly coordinates: Float64Array[] = [];
-  /** What goes from one position to the next. */
+  /** Chain coordinates that go from one position to the next. */
   private readonly carried: string[];
   private found: Values = {};
   private states: Values = {};
   private drawn: Values = {};
-  private determinants: Values = {};
 
   constructor(readonly data: ModelData, compiled: Code) {
     const { positions } = data;
@@ -62,11 +61,7 @@ export class Solver {
     this.inputs = steady ? Float64Array.from({ length: this.n }, (_, i) => steady.start + i * steady.step) : given ? floats(given) : new Float64Array(1);
     for (const name in data.fields) this.main.give({ [name]: floats(data.fields[name]) });
     this.carried = Object.keys(data.starts);
-    for (const name of this.carried) {
-      const start = data.starts[name];
-      if (typeof start === "number") this.states[name] = start;
-    }
-    this.drawn = this.states;
+    this.drawn = this.states = data.starts;
   }
 
   get iterated(): boolean {
@@ -100,7 +95,7 @@ export class Solver {
       put(`turn:${law.driver}`, (q) => q);
     }
     put("time", (_, i) => law.begin * ratio + i * dt);
-    put("step", () => dt);
+    put("step", (_, i) => (i ? dt : 0));
   }
 
   /** Fills the rows for these values; returns the wall in the way, or null where every position is reached. */
@@ -237,11 +232,15 @@ export class Solver {
 
   /** Fills what every position takes from the one before, from chain coordinates at the first position on. */
   private walk(states: Values): void {
-    const { one, main, carried } = this, start = carried.map((name) => this.start(name, states));
-    carried.forEach((name, k) => (main.fields[name][0] = start[k]));
-    const given = [...Object.keys(one.positions).map((name) => [one.positions[name], main.positions[name]]),
-      ...Object.keys(one.fields).map((name) => [one.fields[name], main.fields[name]])];
-    const found = carried.map((name) => [main.fields[name], one.row(`then:${name}`)]);
+    const { one, main, carried } = this, found: [Float64Array, Float64Array][] = [], given: [Float64Array, Float64Array][] = [];
+    for (const name of carried)
+      [states[name], 0, 0].forEach((value, k) => {
+        const along = main.fields[`${name}|${k}`];
+        along[0] = value;
+        found.push([along, one.row(`then:${name}|${k}`)]);
+      });
+    for (const name in one.positions) given.push([one.positions[name], main.positions[name]]);
+    for (const name in one.fields) given.push([one.fields[name], main.fields[name]]);
     one.parameters.set(main.parameters);
     for (const [here, along] of given) here.fill(along[0]);
     for (let i = 0; i < this.n; i++) {
@@ -254,11 +253,6 @@ export class Solver {
   private pending: Values = {};
   private reachedAt: Values | null = null;
 
-  private start(name: string, states: Values): number {
-    const given = this.data.starts[name];
-    return typeof given === "string" ? states[given] : (states[name] ?? given);
-  }
-
   private corrected(values: Values, states: Values): Values | null {
     const call = this.one;
     call.set({ ...values, ...this.found });
@@ -266,18 +260,12 @@ export class Solver {
     let now = states, moved = Infinity;
     for (let k = 0; k < 4 && moved > 1e-13; k++) {
       this.begin(call, now);
-      const next = { ...now };
-      moved = 0;
-      for (const name in now)
-        if (call.has(`next:${name}`)) {
-          next[name] = call.row(`next:${name}`)[0];
-          moved = Math.max(moved, Math.abs(next[name] - now[name]));
-        }
+      const next = this.after(call);
+      moved = Object.keys(next).reduce((most, name) => Math.max(most, Math.abs(next[name] - now[name])), 0);
       now = next;
     }
     const change = Object.keys(now).reduce((most, name) => Math.max(most, Math.abs(now[name] - states[name])), 0);
-    const signs = call.program.outputs.filter((name) => name.startsWith("determinant:"));
-    const kept = signs.every((name) => !(name in this.determinants) || call.row(name)[0] * this.determinants[name] > 0);
+    const kept = call.program.outputs.every((name) => !name.startsWith("kept:") || call.row(name)[0] > 0);
     return moved < 1e-9 && change < LARGEST && kept ? now : null;
   }
 
@@ -286,8 +274,6 @@ export class Solver {
     if (!this.iterated) return;
     this.states = this.pending;
     this.reachedAt = { ...values };
-    for (const name of this.main.program.outputs)
-      if (name.startsWith("determinant:")) this.determinants[name] = this.main.row(name)[0];
   }
 
   // single positions -----------------------------------------------------------------------
@@ -308,31 +294,24 @@ export class Solver {
       if (row) call.positions[name].fill(row[Math.min(i, row.length - 1)]);
     }
     for (const name in call.fields) call.fields[name].fill(this.main.fields[name][i]);
-    if (this.iterated) this.settle(call, this.statesAt(i));
+    if (this.iterated) this.settle(call, this.after(this.main, i));
     else call.run();
   }
 
   /** Chain coordinates at a position that has been solved. */
-  private statesAt(i: number): Values {
-    const states: Values = {};
-    for (const name in this.states) {
-      const row = `next:${name}`;
-      states[name] = this.main.has(row) ? this.main.row(row)[i] : this.states[name];
-    }
-    return states;
+  private after(call: Call, i = 0): Values {
+    return Object.fromEntries(this.carried.map((name) => [name, call.row(`then:${name}|0`)[i]]));
   }
 
   /** Runs one position twice, so that Newton's steps from chain coordinates near it come to their end. */
   private settle(call: Call, states: Values): void {
-    for (const again of [false, true]) {
-      if (again) for (const name in states) if (call.has(`next:${name}`)) states[name] = call.row(`next:${name}`)[0];
-      this.begin(call, states);
-    }
+    this.begin(call, states);
+    this.begin(call, this.after(call));
   }
 
   /** Runs one position as the first one, from chain coordinates near it. */
   private begin(call: Call, states: Values): void {
-    for (const name of this.carried) call.fields[name].fill(this.start(name, states));
+    for (const name of this.carried) [states[name], 0, 0].forEach((value, k) => call.fields[`${name}|${k}`].fill(value));
     call.run();
   }
 
@@ -356,7 +335,7 @@ export class Solver {
     for (const name in given) call.positions[name]?.fill(given[name]);
     for (const name in this.data.positions.modes) call.positions[name]?.fill(this.arrays[name][near]);
     for (const name in call.fields) call.fields[name].fill(this.main.fields[name][near]);
-    if (this.iterated) this.settle(call, this.statesAt(near));
+    if (this.iterated) this.settle(call, this.after(this.main, near));
     else call.run();
     return true;
   }

@@ -355,7 +355,7 @@ class Machine:
         if not self.traces.tracked:
             return None
         first = int(np.argmin(self.nominal.time))
-        start = {name: float(row[first]) for name, row in self.nominal.states.items()}
+        start = {name: row[first] for name, row in self.nominal.states.items()}
         return PathTracker(self.traces.path_step, self.course, self.known, start)
 
     def tracked(self, designs: Mapping[str, Floats], period: Floats) -> Known:

@@ -53,6 +53,11 @@ class ChainCoordinate:
         known = (cos(value), sin(value)) if len(self.states) > 1 else (value,)
         return dict(zip(self.states, known, strict=True))
 
+    def value(self, states: Mapping[str, Floats]) -> Floats:
+        """Its value by given states."""
+        first, *rest = (states[name] for name in self.states)
+        return np.asarray(np.arctan2(rest[0], first) if rest else first)
+
     def found(self, states: Mapping[str, Scalar], near: Scalar) -> Scalar:
         """Its value by what programs give, an angle with the turns of one that is near."""
         first, *rest = (states[name] for name in self.states)

@@ -17,7 +17,7 @@ from linkwright.events.following import DEGREE, FIT, Paths
 from linkwright.events.formula import Known
 from linkwright.events.path_step import PathStep, Place
 from linkwright.kinematics.groups import CONVERGED
-from linkwright.kinematics.step_rule import ROOM, ROUNDING
+from linkwright.kinematics.step_rule import ROOM, ROUNDING, misfit, quintic
 
 #: Steps of a path in a turn; how many parts those are cut into whose quintics do not fit, one number after the other.
 STEPS, FINER = 24, (4, 16, 64)
@@ -37,11 +37,10 @@ class PathTracker:
     """Tracks the designs of one machine: ``known``: its numbers, also of the dimensions that vary; ``start``: its
     states at the beginning of the ``course``."""
 
-    def __init__(self, step: PathStep, course: Course, known: Known, start: Mapping[str, float]) -> None:
+    def __init__(self, step: PathStep, course: Course, known: Known, start: Mapping[str, Floats]) -> None:
         self.step, self.course, self.known, self.scale = step, course, known, step.scale
         self.varied = {name: known.numbers[name] for name in step.varied}
-        values = [[start[name] for name in each.states] for each in step.coordinates]
-        first = np.array([np.arctan2(v[1], v[0]) if len(v) > 1 else v[0] for v in values])
+        first = np.array([each.value(start) for each in step.coordinates])
         numbers = {name: np.array([number]) for name, number in self.varied.items()}
         there = step.place(known, numbers, np.array([course.begin]), _at_rest(first[:, None]))
         self._first, self.signs = there.values[0], there.signs
@@ -96,23 +95,23 @@ class PathTracker:
             known = replace(known, compiled=True)
         first = self._approached(known, designs, begin)
         march = _March(self, known, designs, begin, duration, first, steps)
-        series, misfit = march.series()
+        series, gaps = march.series()
         reached = march.reached
-        parts, rough = [series.reshape(*series.shape[:2], -1)], np.flatnonzero(misfit.ravel() > FIT)
-        offset, count, behind = np.arange(misfit.size), np.ones(misfit.size, dtype=np.intp), misfit.size
+        parts, rough = [series.reshape(*series.shape[:2], -1)], np.flatnonzero(gaps.ravel() > FIT)
+        offset, count, behind = np.arange(gaps.size), np.ones(gaps.size, dtype=np.intp), gaps.size
         for finer in FINER if len(rough) else ():
             row, place = np.divmod(rough, steps)
             length = duration[row] / steps
             start = np.concatenate([march.knots[:, :, row, place], np.zeros((1, len(first[0]), len(row)))])
             part = _March(self, known, _some(designs, row), begin[row] + place * length, length, start, finer)
-            series, misfit = part.series()
+            series, gaps = part.series()
             parts.append(series.reshape(*series.shape[:2], -1))
             ended = np.flatnonzero(part.at < finer)
-            fits = misfit[ended, part.at[ended]] <= FIT  # else it ends at the quintic before
+            fits = gaps[ended, part.at[ended]] <= FIT  # else it ends at the quintic before
             reach = np.where(fits, part.reached[ended], part.at[ended] / finer)
             reached[row[ended]] = (place[ended] + reach) / steps
             offset[rough], count[rough] = behind + np.arange(len(rough)) * finer, finer
-            behind, rough = behind + misfit.size, rough[(misfit > FIT).any(axis=1)]
+            behind, rough = behind + gaps.size, rough[(gaps > FIT).any(axis=1)]
         rows = np.concatenate(parts, axis=2) if len(parts) > 1 else parts[0]
         apart, turning = march.now[0] - first[0], np.array([[each.turns] for each in self.step.coordinates])
         gained = np.where(turning, 2.0 * np.pi * np.round(apart / (2.0 * np.pi)), 0.0)
@@ -184,24 +183,13 @@ class _March:
         short = np.flatnonzero(self.done > 0.0)  # designs that end within a step
         knots[:, :, short, self.at[short] + 1] = self.now[:3, :, short]
         h[short, self.at[short]] *= self.done[short]
-        p, v, a = knots[0], h * knots[1, ..., :-1], 0.5 * h * h * knots[2, ..., :-1]
-        v1, a1 = h * knots[1, ..., 1:], 0.5 * h * h * knots[2, ..., 1:]
-        rise = p[..., 1:] - p[..., :-1]
-        d, dv, da = rise - v - a, v1 - v - 2.0 * a, a1 - a
-        misfit = np.abs(rise - 0.5 * (v + v1) - (a - a1) / 6.0) / self.tracker.scale[:, :, None]
-        series = np.stack(
-            [
-                p[..., :-1],
-                v,
-                a,
-                10.0 * d - 4.0 * dv + da,
-                7.0 * dv - 15.0 * d - 2.0 * da,
-                6.0 * d - 3.0 * dv + da,
-            ]
-        )
+        p, v, a = knots[0], h * knots[1, ..., :-1], h * h * knots[2, ..., :-1]
+        ends = p[..., 1:] - p[..., :-1], v, a, h * knots[1, ..., 1:], h * h * knots[2, ..., 1:]
+        gap = np.abs(misfit(*ends)) / self.tracker.scale[:, :, None]
+        series = np.stack([p[..., :-1], v, 0.5 * a, *quintic(*ends)])
         for k in range(1, DEGREE + 1):
             series[k][:, short, self.at[short]] /= self.done[short] ** k
-        return series, np.asarray(np.fmax.reduce(misfit, axis=0, initial=0.0))
+        return series, np.asarray(np.fmax.reduce(gap, axis=0, initial=0.0))
 
 
 def _at_rest(x: Floats) -> Floats:

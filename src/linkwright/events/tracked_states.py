@@ -39,7 +39,7 @@ class TrackedStates:
         self.known = Known(solver.nominal.parameters, compiled=compiled)
         step = PathStep(self.motion, self.course, solver.manner.free)
         first = int(np.argmin(positions.time))
-        start = {name: float(row[first]) for name, row in nominal.states.items()}
+        start = {name: row[first] for name, row in nominal.states.items()}
         self.tracker = PathTracker(step, self.course, self.known, start)
         self.shares = (positions.time - self.course.begin) / (self.course.duration or 1.0)
         t = Trace()

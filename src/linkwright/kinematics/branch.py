@@ -19,7 +19,7 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import Law
 from linkwright.kinematics.followed_formula import FollowedGroups, Root
-from linkwright.kinematics.step_rule import CORRECTION, LARGEST, ROUNDING, doubt
+from linkwright.kinematics.step_rule import CORRECTION, LARGEST, ROUNDING, doubt, misfit, quintic
 
 #: Longest and shortest step of the drivers, rad or share of the mechanism's size.
 LONGEST, FLOOR = 0.5, 2e-8
@@ -155,12 +155,8 @@ class Branch:
             along = ((q - q0[k]) / self.way.unit * gone[k]).sum(axis=1) / square[k]
             t = np.where(square[k] > 0.0, along, (x - x0[k]) / (x1 - x0)[k])[:, None]
         z, v, s = (a[k, i] for i in range(3))
-        rise, dv, ds = (b[k, i] - each for i, each in enumerate((z, v, s)))
-        d = rise - v - 0.5 * s
-        dv = dv - s
-        cubic = 10.0 * d - 4.0 * dv + 0.5 * ds
-        fourth = 7.0 * dv - 15.0 * d - ds
-        fifth = 6.0 * d - 3.0 * dv + 0.5 * ds
+        rise = b[k, 0] - z
+        cubic, fourth, fifth = quintic(rise, v, s, b[k, 1], b[k, 2])
         near = z + t * (v + t * (0.5 * s + t * (cubic + t * (fourth + t * fifth))))
         return near, np.abs(rise), known
 
@@ -264,7 +260,7 @@ class _Walk:
 
     def _off(self, a: Root, guess: list[float], b: Root) -> float:
         """The rule's doubt of a step; infinite where a coordinate changes too much."""
-        change = correction = misfit = 0.0
+        change = correction = gap = 0.0
         share = self.share
         if self.slides:
             share = list(share)
@@ -276,10 +272,10 @@ class _Walk:
             gone, one = z1 - z0, share[k]
             change = max(change, abs(gone) * one)
             correction = max(correction, abs(z1 - near) * one)
-            misfit = max(misfit, abs(gone - 0.5 * (v0 + v1) - (s0 - s1) / 12.0) * one)
+            gap = max(gap, abs(misfit(gone, v0, s0, v1, s1)) * one)
         if not change < LARGEST:
             return math.inf
-        return float(doubt(change, correction, misfit, ROUNDING))  # type: ignore[arg-type]
+        return float(doubt(change, correction, gap, ROUNDING))  # type: ignore[arg-type]
 
 
 #: Shares of a step at which laws are compared with its straight line, and its end.

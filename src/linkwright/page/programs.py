@@ -13,14 +13,18 @@ from linkwright.core.inputs import mode_groups
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import SLIDE, Output, row_name, row_names
 from linkwright.elements.topology import Group
+from linkwright.events.following import chain_coordinates
+from linkwright.events.path_step import TracedStep
+from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
+from linkwright.formula.replay import inlined
 from linkwright.formula.table import Tables
-from linkwright.formula.trace import Scalar
+from linkwright.formula.trace import Mask, Scalar, Trace, select
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, program_names
 from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinematics.step_rule import StepRule
+from linkwright.kinematics.step_rule import ROOM
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.closure import dyads, transmission
 from linkwright.kinetostatics.forces import Forces
@@ -143,39 +147,46 @@ class PagePrograms:
 
     @cached_property
     def main(self) -> Program:
-        """All outputs; where groups are iterated, also their coordinates (``next:``), and all that the formula takes
-        at the next position (``then:``)."""
+        """All outputs; where groups are iterated, what the formula takes of them at the next position as well
+        (``then:``)."""
         motion = self.solver.motion
-        outputs = self._outputs(motion)
-        if not self.iterated:
-            return self._with_angles(Program.of(motion.trace, {**outputs, "ok": motion.valid}))
-        trace = motion.trace
-        rule = self._rule
-        outputs |= {f"next:{name}": value for name, value in motion.next_states.items()}
-        outputs |= {f"then:{name}": value for name, value in rule.following.items()}
-        outputs |= {f"determinant:{name}": placed.determinant for name, placed in motion.placed.items()
-                    if placed.coordinates}  # fmt: skip
-        passed = trace.logic("and", motion.valid, rule.kept)
-        return self._with_angles(Program.of(trace, {**outputs, "margin": rule.margin, "ok": passed}))
-
-    @cached_property
-    def _rule(self) -> StepRule:
-        motion = self.solver.motion
-        return StepRule(motion, motion.trace.position("step"))
-
-    def _with_angles(self, program: Program) -> Program:
-        """The program with the angles near which angles stay, where these turn through, taken per position."""
+        outputs = {**self._outputs(motion), "ok": motion.valid}
+        program = self._after_step(outputs) if self.iterated else Program.of(motion.trace, outputs)
         return program.with_given([str(each["field"]) for each in self._angles])
 
+    def _after_step(self, outputs: Mapping[str, Scalar | bool]) -> Program:
+        """Outputs after a step from the position before, and whether that counts."""
+        motion, t = self.solver.motion, Trace()
+        step = TracedStep(motion, t.field_input, t.position("step"), 2)
+        found = inlined(Program.of(motion.trace, {**step.outputs, **outputs}), t, step.states)
+        values = step.values(found)
+        doubt = step.doubt(t, {**found, **values}, step.groups, ROOM)
+        passed: Mask = t.compare("less", doubt, 1.0)
+        made = {name: found[name] for name in outputs}
+        for name in step.groups:
+            made[f"kept:{name}"] = kept = found[f"determinant {name}"] * self._signs[name]
+            passed = t.logic("and", passed, t.compare("less", 0.0, kept))
+        for name, value in values.items():
+            orders = (value, found[f"{name}'"], found[f"{name}''"])
+            made |= {f"then:{name}|{k}": each for k, each in enumerate(orders)}
+        return Program.of(t, {**made, "margin": 1.0 - doubt, "ok": select(passed, found["ok"], 0.0)})
+
     @cached_property
-    def starts(self) -> dict[str, float | str]:
-        """What goes from one position to the next, with its first values: numbers, or the name of another that they
-        repeat."""
-        if not self.iterated:
-            return {}
-        states = {name: float(row[0]) for name, row in self.motion.states.items()}
-        begin = {**dict.fromkeys(self._rule.following, 0.0), **self._rule.begin, **states}
-        return {name: begin[name] for name in self.main.fields if name in begin}
+    def _signs(self) -> dict[str, float]:
+        """Signs of the determinants of groups that are iterated."""
+        placed = self.motion.solver.motion.placed.items()
+        names = {name: each.determinant for name, each in placed if each.coordinates}
+        program = NumpyProgram(Program.of(self.motion.solver.motion.trace, names))
+        numbers = [self.motion.design.parameters[name] for name in program.program.parameters]
+        arrays, count = {**self.motion.positions.arrays, **self.motion.modes}, self.motion.steps
+        rows = program.run(numbers, arrays, self.motion.states, length=count)
+        return dict(zip(names, np.sign(rows[:, 0]).tolist(), strict=True))
+
+    @cached_property
+    def starts(self) -> dict[str, float]:
+        """Coordinates that go from one position to the next, at the first one."""
+        coordinates = chain_coordinates(self.solver.motion) if self.iterated else ()
+        return {each.name: float(each.value(self.motion.states)[0]) for each in coordinates}
 
     def _outputs(self, motion: MotionTrace) -> dict[str, Scalar | bool]:
         solver = self.solver
@@ -248,14 +259,13 @@ class PagePrograms:
         if self.forces is None:
             return {}
         empty = np.zeros(self.motion.positions.count)
-        return {
-            name: self.forces.fields.get(name, empty) for name in self.main.fields if name not in self.starts
-        }
+        carried = {f"{name}|{k}" for name in self.starts for k in range(3)}
+        return {name: self.forces.fields.get(name, empty) for name in self.main.fields if name not in carried}
 
     def arrays(self) -> dict[str, Floats]:
         """The inputs per position."""
         found = {**self.motion.positions.arrays, **self.motion.modes}
         count = self.motion.positions.count
         time = self.motion.positions.time
-        found["step"] = np.full(count, time[1] - time[0] if count > 1 else 0.0)
+        found["step"] = np.append(0.0, np.full(count - 1, time[1] - time[0] if count > 1 else 0.0))
         return {name: found[name] for name in found if name in self.main.positions}
