@@ -101,14 +101,6 @@ def bend_times(motion: Motion) -> Floats:
     return np.concatenate([cuts for _, cuts in _Way(motion).cut])
 
 
-def limit_inputs(motion: Motion, output: Output) -> list[tuple[float, str]]:
-    """The first driver's coordinates at which an output reverses, with the kinds of limits, in no order.
-
-    As :func:`limit_positions`, but with every way there and back, however short.
-    """
-    return _Reversals(motion, output).inputs()
-
-
 def limits_of(motion: Motion, output: str | None = None) -> tuple[LimitPosition, ...]:
     """The reversals of an output with its largest and its smallest value, exact in the input.
 
@@ -231,13 +223,6 @@ class _Reversals:
             self.value_names = (row_name("turned_angle", output.owner),)
         self.way = _Way(motion)
         self.law = next(iter(motion.mechanism.drivers.values())).law
-
-    def inputs(self) -> list[tuple[float, str]]:
-        """Coordinates of the first driver, and kinds."""
-        found = self.found
-        return [
-            (self.law.at(at), _kind(up)) for at, up in zip(found.time.tolist(), found.rising, strict=True)
-        ]
 
     @property
     def found(self) -> _Found:

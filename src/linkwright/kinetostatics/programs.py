@@ -16,7 +16,6 @@ from linkwright.kinetostatics.named_outputs import Named
 from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.self_check import ForceChecks
 from linkwright.kinetostatics.trace import ForceTrace, Size, trace_forces
-from linkwright.kinetostatics.traced_loads import traced_magnitude
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.friction_stage import SolvedFriction, Wrenches
@@ -133,8 +132,6 @@ class ForcePrograms:
         if name.startswith(_SIGNED):
             return self.signed[name.removeprefix(_SIGNED)]
         output = Output.of_row(name)
-        if output.kind == "magnitude":
-            return traced_magnitude(self.motion.motion, output.owner)
         return (self.motion.outputs if output.of_motion else self.outputs).value(name)
 
 

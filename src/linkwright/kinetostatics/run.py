@@ -22,10 +22,8 @@ from linkwright.kinetostatics.friction import FrictionTerm
 from linkwright.kinetostatics.programs import caused_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.kinetostatics.traced_loads import traced_loads
 from linkwright.loads.over_cycle import evaluate
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.units import LARGEST
 from linkwright.units import format as spelled
 from linkwright.words import has
 from linkwright.words.sentence import Sentence, together
@@ -80,10 +78,10 @@ def run_forces(
     """
     solver = solver or ForceSolver(motion.solver, inertia=not static)
     names = tuple(dict.fromkeys((*solver.programs.checks.names, *asked)))
-    within = signals is not None or motion.positions.cycle
-    signals = signals or MotionSignals(motion)
-    found = _under_traced_loads(motion, solver, signals, names) if within else None
-    fields, values = found or _under_loads_of(motion, solver, signals, names)
+    fields = _load_fields(motion, solver.fields_needed(), signals or MotionSignals(motion))
+    if solver.friction.terms:
+        fields = _with_friction(motion, solver, fields)
+    values = solver.evaluate(names, motion, fields)
     if not motion.ok.all():
         values[:, ~motion.ok] = np.nan
     rows = Rows(values, {name: i for i, name in enumerate(names)})
@@ -91,36 +89,6 @@ def run_forces(
     forces = Forces(motion, solver, fields, static, rows)
     forces.notes = (*_indeterminate(motion), *_contacts_lost(forces))
     return forces
-
-
-def _under_loads_of(
-    motion: Motion, solver: ForceSolver, signals: MotionSignals, names: tuple[str, ...]
-) -> tuple[dict[str, Floats], Floats]:
-    """Magnitudes of loads and friction, and outputs (names, n) under these."""
-    fields = _load_fields(motion, solver.fields_needed(), signals)
-    if solver.friction.terms:
-        fields = _with_friction(motion, solver, fields)
-    return fields, solver.evaluate(names, motion, fields)
-
-
-def _under_traced_loads(
-    motion: Motion, solver: ForceSolver, signals: MotionSignals, names: tuple[str, ...]
-) -> tuple[dict[str, Floats], Floats] | None:
-    """The same with loads in the formula; None where there are none, or limits that they need are not found."""
-    if motion.modes or not motion.whole or motion.solver.motion.next_states or solver.friction.terms:
-        return None
-    known = traced_loads(motion.mechanism, motion.solver.programs)
-    limits, middles = known.limits(signals), known.middles(signals)
-    if not known.names or limits is None or middles is None:
-        return None
-    whole = ForceSolver(motion.solver, inertia=solver.inertia, along_input=known.names)
-    fields = _load_fields(motion, whole.fields_needed(), signals)
-    sizes = [row_name("magnitude", name) for name in sorted(known.names)]
-    numbers = {**known.constants, **limits, **middles}
-    values = whole.evaluate((*names, *sizes), motion, fields, numbers, known.tables)
-    fields |= zip(sizes, values[len(names) :], strict=True)
-    most = [np.abs(fields[row_name("magnitude", name)]).max() for name in known.fallible]
-    return (fields, values[: len(names)]) if all(each <= LARGEST["torque"] for each in most) else None
 
 
 def _contacts_lost(forces: Forces) -> Iterable[Sentence]:

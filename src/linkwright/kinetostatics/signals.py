@@ -11,7 +11,7 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.drivers.base import Law
-from linkwright.events.limit_positions import limit_inputs, limit_positions
+from linkwright.events.limit_positions import limit_positions
 from linkwright.kinematics.cycle_angles import CycleAngles
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.positions import Positions
@@ -104,10 +104,6 @@ class MotionSignals:
     def limits(self, output: Output) -> Sequence[Limit]:
         """Where an output reverses within the cycle, by increasing time."""
         return sorted(limit_positions(self.turned, output), key=lambda each: each.time)
-
-    def limit_inputs(self, output: Output) -> list[tuple[float, str]]:
-        """The inputs at which an output reverses, with the kinds of limits."""
-        return limit_inputs(self.turned, output)
 
     def angle_between(self, a: str, b: str, near: float) -> Floats:
         """Angle of link b against link a, (n,) rad, within half a turn of ``near`` where the cycle begins."""

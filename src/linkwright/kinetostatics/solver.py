@@ -10,7 +10,6 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.formula.numpy_backend import NumpyProgram
-from linkwright.formula.table import Tables
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.friction import FrictionTerms
@@ -72,18 +71,10 @@ class ForceSolver:
             name for name in self.program(self.programs.checks.names).program.fields if name not in carried
         )
 
-    def evaluate(
-        self,
-        names: tuple[str, ...],
-        motion: Motion,
-        fields: Mapping[str, Floats],
-        numbers: Mapping[str, float] | None = None,
-        tables: Tables | None = None,
-    ) -> Floats:
-        """Outputs by name, shape (names, n); ``numbers``: parameters that are no dimensions; ``tables``: of loads."""
+    def evaluate(self, names: tuple[str, ...], motion: Motion, fields: Mapping[str, Floats]) -> Floats:
+        """Outputs by name, shape (names, n)."""
         program = self.program(names)
-        known = {**motion.design.parameters, **(numbers or {})}
-        values = [known[name] for name in program.program.parameters]
+        values = [motion.design.parameters[name] for name in program.program.parameters]
         arrays = {**motion.positions.arrays, **motion.modes}
         given = {**motion.states, **fields}
-        return np.asarray(program.run(values, arrays, given, length=motion.steps, tables=tables))
+        return np.asarray(program.run(values, arrays, given, length=motion.steps))

@@ -4,35 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import field
-from math import remainder
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, row_name
-from linkwright.formula.recently_made import Recent
 from linkwright.formula.table import Table
 from linkwright.formula.trace import Scalar
-from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.kinetostatics.load_site import (
-    LAP,
-    TracedSite,
-    constant_name,
-    limit_name,
-    middle_name,
-    turns_steadily,
-    value_name,
-)
+from linkwright.kinetostatics.load_site import TracedSite, constant_name, middle_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
-from linkwright.loads.strokes import TURN
 from linkwright.mechanism.mechanism import Mechanism
 
 #: An angle that covers more than this is one of a link that turns.
 TURNING = 1.9 * np.pi
-#: Nearer than this (rad of the input) limits are one, and a cycle is a whole turn.
-CLOSE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -57,21 +43,6 @@ class AlongInput:
     def sizes(self, motion: MotionTrace) -> Scalar:
         """Sum of the magnitudes of the fallible loads: not finite where one has no value."""
         return sum((traced_magnitude(motion, name) for name in self.fallible), 0.0)
-
-    def limits(self, signals: MotionSignals) -> dict[str, float] | None:
-        """Limit positions and the values there; None where the cycle is no whole number of turns of the input, or an
-        output has others than two."""
-        found: dict[str, float] = {}
-        for output in self.outputs:
-            ends, lap = signals.limit_inputs(output), abs(signals.whole.drift)
-            apart = abs(remainder(ends[0][0] - ends[1][0], lap)) if len(ends) == 2 and lap > CLOSE else 0.0
-            if apart < CLOSE or abs(remainder(lap, TURN)) > CLOSE:
-                return None
-            found[LAP] = lap
-            found |= {limit_name(output, kind): at for at, kind in ends}
-        for output in self.valued:
-            found |= {value_name(output, each.kind): each.value for each in signals.limits(output)}
-        return found
 
     def middles(self, signals: MotionSignals) -> dict[str, float] | None:
         """Angles near which the angles that loads take stay; None where a link turns through."""
@@ -103,29 +74,6 @@ def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
         {row_name("magnitude", name): each.size.curve for name, each in given.items() if each.size.curve},
         tuple(name for name, each in given.items() if each.fallible),
     )
-
-
-def traced_loads(mechanism: Mechanism, programs: MotionPrograms) -> AlongInput:
-    """The loads of a machine by itself that are traced; none but where its only driver turns at constant speed.
-
-    The others are found from its motion: those of kinds that find theirs in a way of their own, and those that divide
-    by what may go through zero between two positions.
-    """
-    turns = turns_steadily(mechanism)
-    return _traced.get(mechanism.loads, (programs, turns), lambda: _found(mechanism, turns))
-
-
-def _found(mechanism: Mechanism, turns: bool) -> AlongInput:
-    given = [
-        each
-        for each in mechanism.loads.values()
-        if not (size := each.magnitude).constant and size.traceable(mechanism) and not size.size.divides
-    ]
-    return numbers_of_loads(given if turns else (), mechanism)
-
-
-#: By the loads of a mechanism.
-_traced: Recent[Mapping[str, Load], AlongInput] = Recent(64)
 
 
 def traced_magnitude(motion: MotionTrace, name: str) -> Scalar:
