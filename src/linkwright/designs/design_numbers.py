@@ -17,10 +17,10 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.by_name import ask, measured
 from linkwright.metrics.evaluate import unloaded
-from linkwright.metrics.hulls_of_designs import hulls_of_designs
+from linkwright.metrics.hulls_of_designs import hulls_of_designs, swept
 from linkwright.metrics.of_designs import MetricsOfDesigns, numbers_of_designs
 from linkwright.metrics.of_output import Asked
-from linkwright.metrics.ranges_of_designs import ranges_of_designs
+from linkwright.metrics.ranges_of_designs import ranged, ranges_of_designs
 
 #: Designs up to which what finds their numbers together may choose to do so without a compiler.
 FEW = 512
@@ -34,13 +34,15 @@ def side_by_side(
     *,
     steps: int = 360,
 ) -> list[MetricsOfDesigns]:
-    """What finds those design numbers that are found of all designs at once; ``asked``, ``steps``: see
-    ``numbers_of_designs``."""
-    by = tuple(varied)
+    """What finds those metrics that are found of all designs at once, by formulas, hulls and ranges of motion;
+    ``asked``, ``steps``: see ``numbers_of_designs``."""
+    by, hulls = tuple(varied), [name for name in names if swept(name, mechanism)]
+    ranges = [name for name in names if ranged(name)]
+    formulas = [name for name in names if name not in (*hulls, *ranges)]
     found = (
-        numbers_of_designs(mechanism, by, names, steps=steps, asked=asked),
-        hulls_of_designs(mechanism, by, names),
-        ranges_of_designs(mechanism, by, names),
+        numbers_of_designs(mechanism, by, formulas, steps=steps, asked=asked) if formulas else None,
+        hulls_of_designs(mechanism, by, hulls) if hulls else None,
+        ranges_of_designs(mechanism, by, ranges) if ranges else None,
     )
     return [each for each in found if each is not None and each.kinds]
 

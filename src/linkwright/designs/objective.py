@@ -13,6 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_of, require
 from linkwright.core.outputs import Output
+from linkwright.designs.design_numbers import side_by_side
 from linkwright.designs.objective_terms import PathError, Terms, number_of_points, weighted
 from linkwright.designs.over_positions import Builder
 from linkwright.designs.varied_dimensions import checked_addresses, refuse_moved_positions
@@ -25,10 +26,14 @@ from linkwright.kinematics.positions import Positions, at_inputs
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.by_name import is_metric, refuse_obstacle
-from linkwright.metrics.hulls_of_designs import hulls_of_designs, swept
-from linkwright.metrics.of_designs import MetricsOfDesigns, numbers_of_designs, refuse_unsteady
-from linkwright.metrics.ranges_of_designs import ranged, ranges_of_designs
+from linkwright.metrics.by_name import is_metric
+from linkwright.metrics.hulls_of_designs import swept
+from linkwright.metrics.of_designs import (
+    MetricsOfDesigns,
+    NumbersOfDesigns,
+    numbers_of_designs,
+    refuse_obstacles,
+)
 from linkwright.words.sentence import Sentence
 
 
@@ -159,12 +164,8 @@ def objective(
     others = {term: weight for term, weight in given.items() if term not in numbers}
     compiled: Backend = "llvm" if backend == "auto" and available() else backend
     parts: list[Part] = []
-    hulls = {name: weight for name, weight in numbers.items() if swept(name, mechanism)}
-    ranges = {name: weight for name, weight in numbers.items() if ranged(name)}
-    formulas = {name: weight for name, weight in numbers.items() if name not in {*hulls, *ranges}}
-    parts += [of_metrics(mechanism, names, each, steps, compiled) for each in (hulls, ranges) if each]
-    if formulas:
-        parts.append(of_metrics(mechanism, names, formulas, steps, compiled))
+    if numbers:
+        parts += over_metrics(mechanism, names, numbers, steps, compiled)
     if others:
         parts.append(_of_positions(mechanism, names, others, steps, at, compiled))
     idle = [name for name in names if not any(name in part.names for part in parts)]
@@ -174,34 +175,35 @@ def objective(
     return Objective(names, np.array([known[name] for name in names]), parts)
 
 
-def of_metrics(
+def over_metrics(
     mechanism: Mechanism, names: tuple[str, ...], weights: Mapping[str, float], steps: int, backend: Backend
-) -> Part:
-    """The weighted sum of registered metrics, all of them areas of hulls, or ranges of motion, or none; raises
-    RequestError where it has no gradient."""
-    if (ranges := ranges_of_designs(mechanism, names, weights)) is not None:
-        return OverMetrics(ranges.dimensions, ranges, weights, backend)
-    if any(swept(name, mechanism) for name in weights):
-        hulls = hulls_of_designs(mechanism, names, weights)
-        if hulls is None:
-            raise RequestError("study.objective_swept", names=tuple(weights), name=mechanism.name)
-        return OverMetrics(hulls.dimensions, hulls, weights, backend)
-    cycle = numbers_of_designs(mechanism, names, weights, steps=steps)
-    if cycle is None:
-        _refuse_moved_cycle(mechanism, names, over_cycle(mechanism, steps))
-        raise RequestError(_refusal(mechanism, steps))
-    missing = [name for name in weights if name not in cycle.kinds]
+) -> list[OverMetrics]:
+    """The weighted sum of registered metrics, by what finds them; raises RequestError where one has no gradient."""
+    found = side_by_side(mechanism, names, [*weights], steps=steps)
+    missing = [name for name in weights if not any(name in each.kinds for each in found)]
     if missing:
-        raise RequestError("study.objective_metric", names=tuple(missing), name=mechanism.name)
-    for name in weights:
-        refuse_obstacle(name, cycle.analysis)
-    refuse_unsteady(cycle)
-    own = tuple(name for name in names if name in cycle.dimensions)
-    return OverMetrics(own, cycle, weights, backend)
+        raise RequestError(_refusal(mechanism, names, missing, steps))
+    for each in found:
+        if isinstance(each, NumbersOfDesigns):
+            refuse_obstacles(each)
+    return [
+        OverMetrics(
+            tuple(name for name in names if name in each.dimensions),
+            each,
+            {name: weights[name] for name in each.kinds},
+            backend,
+        )
+        for each in found
+    ]
 
 
-def _refusal(mechanism: Mechanism, steps: int) -> Sentence:
-    """Why design numbers of a mechanism have no gradient."""
+def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str], steps: int) -> Sentence:
+    """Why metrics of a mechanism have no gradient."""
+    if hulls := tuple(name for name in missing if swept(name, mechanism)):
+        return Sentence("study.objective_swept", names=hulls, name=mechanism.name)
+    if numbers_of_designs(mechanism, names, missing, steps=steps) is not None:
+        return Sentence("study.objective_metric", names=tuple(missing), name=mechanism.name)
+    _refuse_moved_cycle(mechanism, names, over_cycle(mechanism, steps))
     signals = MotionSignals(solve_motion(mechanism, steps=steps))
     for name, load in mechanism.loads.items():
         output = load.reverses(mechanism)

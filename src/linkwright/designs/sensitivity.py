@@ -16,7 +16,7 @@ from linkwright.core.html import html_table
 from linkwright.core.read_only import Frozen, locked
 from linkwright.cycle.summary import Summary
 from linkwright.designs.known_loads import known_loads
-from linkwright.designs.objective import of_metrics
+from linkwright.designs.objective import over_metrics
 from linkwright.designs.one_by_one import OF_VALUES
 from linkwright.designs.slopes import Slopes
 from linkwright.designs.traced_outputs import Traced
@@ -261,7 +261,7 @@ class _Derivation:
     def _number(self, name: str) -> tuple[float, Floats]:
         """A design number with its gradient."""
         mechanism, found = self.traced.mechanism, np.zeros(len(self.by))
-        objective = of_metrics(mechanism, self.by, {name: 1.0}, self.steps, "numpy")
+        (objective,) = over_metrics(mechanism, self.by, {name: 1.0}, self.steps, "numpy")
         columns = {by: np.array([mechanism.dimension(by)]) for by in self.by}
         value, slopes = objective.many(columns, 1)
         found[[self.by.index(by) for by in objective.names]] = slopes[0]

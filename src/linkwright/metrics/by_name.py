@@ -106,14 +106,6 @@ def metric_of(name: str) -> tuple[type[Metric], str] | None:
     return (METRICS[metric], subject) if metric in METRICS else None
 
 
-def refuse_obstacle(name: str, analysis: Analysis) -> None:
-    """Raises RequestError where the machine itself has an obstacle to a metric, as one that would stop."""
-    found = metric_of(name)
-    why = None if found is None else found[0]().obstacle(analysis)
-    if why is not None:
-        raise RequestError("cli.about", name=name, cause=why)
-
-
 def metric_named(name: str, asked: Asked | None = None) -> tuple[Metric, str] | None:
     """The metric that a name begins with, and the subject behind it; ``asked``: for those of ``of_output``."""
     if asked is not None and name in OWN:

@@ -38,13 +38,10 @@ def swept(name: str, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
 def hulls_of_designs(
     mechanism: Mechanism, varied: Iterable[str], names: Iterable[str]
 ) -> HullsOfDesigns | None:
-    """The areas of hulls among some design numbers, ``swept_area``, ``swept_area_of_link jaw``; None where none is,
-    the cycle is no formula of one position (see ``cycle.machine.Machine``), or the dimensions move its times."""
-    asked, addresses = [name for name in names if swept(name, mechanism)], tuple(varied)
-    if not asked:
-        return None
+    """Areas of hulls, ``swept_area``, ``swept_area_of_link jaw``; None where the cycle is no formula of one position
+    (see ``cycle.machine.Machine``), or the dimensions move its times."""
     bare = replace(mechanism, loads={})
-    own = tuple(address for address in addresses if address in bare.dimensions())
+    own = tuple(address for address in varied if address in bare.dimensions())
     nominal = solve_motion(bare, failures="mark")
     try:
         machine = Machine(bare, nominal, own)
@@ -52,7 +49,7 @@ def hulls_of_designs(
         return None
     if any(moves(bare, address, nominal.positions.steps) for address in own):
         return None
-    return HullsOfDesigns(machine, asked)
+    return HullsOfDesigns(machine, names)
 
 
 class HullsOfDesigns(MetricsOfDesigns):

@@ -31,7 +31,7 @@ from linkwright.machine.steady_designs import SteadyDesigns
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import Number
-from linkwright.metrics.by_name import number_named
+from linkwright.metrics.by_name import metric_named, number_named
 from linkwright.metrics.of_output import Asked
 from linkwright.metrics.true_speed import EFFORT, INERTIA, TrueSpeedSummary
 
@@ -277,9 +277,14 @@ def _of(program: Program, parts: Mapping[str, Floats]) -> dict[str, Floats]:
     return dict(zip(program.output_names, found, strict=True))
 
 
-def refuse_unsteady(numbers: NumbersOfDesigns) -> None:
-    """Raises RequestError where the machine itself has no true speed that is asked for."""
+def refuse_obstacles(numbers: NumbersOfDesigns) -> None:
+    """Raises RequestError where the machine itself has an obstacle to a metric, as one that would stop, or no true
+    speed that is asked for."""
     machine = numbers.machine
+    for name in numbers.kinds:
+        found = metric_named(name)
+        if found is not None and (why := found[0].obstacle(numbers.analysis)) is not None:
+            raise RequestError("cli.about", name=name, cause=why)
     start = {name: np.array([machine.mechanism.dimension(name)]) for name in machine.varied}
     if numbers.running and not numbers.evaluate(start)[1].all():
         raise RequestError("study.objective_speed", name=machine.mechanism.name)

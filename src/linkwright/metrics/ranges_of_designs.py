@@ -59,11 +59,10 @@ def ranged(name: str) -> bool:
 def ranges_of_designs(
     mechanism: Mechanism, varied: Iterable[str], names: Iterable[str]
 ) -> RangesOfDesigns | None:
-    """What finds the ranges of motion among some design numbers; None where none is, the machine passes its whole
-    cycle, dimensions move the inputs, or not one driver turns at constant speed and all groups have closed forms."""
-    asked, addresses = [name for name in names if ranged(name)], tuple(varied)
-    drivers = list(mechanism.drivers.values())
-    if not asked or len(drivers) != 1 or drivers[0].law.constant_speed is None or not drivers[0].law.rotary:
+    """Ranges of motion; None where the machine passes its whole cycle, dimensions move the inputs, or not one driver
+    turns at constant speed and all groups have closed forms."""
+    asked, addresses, drivers = tuple(names), tuple(varied), list(mechanism.drivers.values())
+    if len(drivers) != 1 or drivers[0].law.constant_speed is None or not drivers[0].law.rotary:
         return None
     for name in asked:
         chosen_subjects(name, name.partition(" ")[2], mechanism.drivers)
