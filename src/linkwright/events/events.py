@@ -247,6 +247,8 @@ class _Search:
         """Stretches whose beginnings are the first and the last cut between two pieces, (2, k); -1 in one stretch."""
         stretch, design = self.curve.stretch, self.stretches.design
         before, after = stretch[left], stretch[right]
+        if np.array_equal(before, after) and not lap.any():
+            return np.full((2, len(left)), -1)
         counts = np.bincount(design, minlength=self.stretches.span.count)
         alone = (before == after) & ((lap == 0.0) | ((counts[design[before]] == 1) & (self.stretches.edge[before] < 0)
                                                      & bool(self.stretches.span.course.turns)))  # fmt: skip

@@ -90,35 +90,40 @@ class Formula:
         self.program = program
         self.outputs, self.columns, self.fields = program.output_names, program.positions, program.fields
         self.place = {name: k for k, name in enumerate(self.outputs)}
+        parameters = program.parameters
+        self._node = parameters.index(NODE) if NODE in parameters else None
         self._pulls: dict[tuple[str, ...], Formula] = {}
 
     def run(self, known: Known, columns: Columns, nodes: Floats, fields: Columns | None = None) -> Floats:
         """Outputs, (nodes, outputs, pieces), from ``columns`` (pieces,), ``nodes`` (n,) and ``fields`` (n,
         pieces)."""
-        numbers = np.array([known.numbers.get(name, np.nan) for name in self.program.parameters])
-        table = np.tile(numbers, (len(nodes), 1))
-        if NODE in self.program.parameters:
-            table[:, self.program.parameters.index(NODE)] = nodes
-        count = len(columns[LOW])
-        given = {name: columns[name] for name in self.columns}
+        numbers = [known.numbers.get(name, np.nan) for name in self.program.parameters]
+        count, given = len(columns[LOW]), {name: columns[name] for name in self.columns}
         if PLACE in self.fields and known.paths is not None:
             fields = {**known.paths.fields(columns, nodes), **(fields or {})}
         own = {name: fields[name] for name in self.fields} if fields else {}
+        if known.compiled is None and 0 < count * len(nodes) <= FEW and not known.tables:
+            return self._one_by_one(numbers, nodes, given, own, count)
+        table = np.tile(numbers, (len(nodes), 1))
+        if self._node is not None:
+            table[:, self._node] = nodes
         if known.compiles(count * len(nodes)) and (code := self._code) is not None:
             return np.ascontiguousarray(code.store(table, given, own, length=count, tables=known.tables))
-        if known.compiled is None and 0 < count * len(nodes) <= FEW and not known.tables:
-            return self._one_by_one(table, given, own, count)
         program = numpy_program(self.program)
         return program.run_designs(table, given, own, length=count, tables=known.tables)
 
-    def _one_by_one(self, table: Floats, given: Columns, own: Columns, count: int) -> Floats:
+    def _one_by_one(
+        self, numbers: list[float], nodes: Floats, given: Columns, own: Columns, count: int
+    ) -> Floats:
         """The outputs at a few places, on plain numbers."""
-        found = np.empty((len(table), len(self.outputs), count))
-        for node, numbers in enumerate(table.tolist()):
+        found = np.empty((len(nodes), len(self.outputs), count))
+        for k, node in enumerate(nodes.tolist()):
+            if self._node is not None:
+                numbers[self._node] = node
             for piece in range(count):
                 at = [float(each[piece]) for each in given.values()]
-                there = [float(each[node, piece]) for each in own.values()]
-                found[node, :, piece] = self._scalar.step(numbers, at, there)
+                there = [float(each[k, piece]) for each in own.values()]
+                found[k, :, piece] = self._scalar.step(numbers, at, there)
         return found
 
     @cached_property

@@ -70,9 +70,8 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
 
     Exact to rounding in the input, independent of the steps. In a closed cycle the way from the last position to the
     first counts as well; the ends of an open one are no limits, nor is a rate that touches zero without changing its
-    sign. Of a rest between opposite motions the middle is given. A
-    way there and back of less than a ten millionth of the output's travel (a rest from a table of numbers with few
-    digits) counts as none.
+    sign. Of a rest between opposite motions the middle is given. A way there and back of less than a ten millionth of
+    the output's travel (a rest from a table of numbers with few digits) counts as none.
 
     Args:
         motion: positions along the drivers' laws, such as a cycle.
