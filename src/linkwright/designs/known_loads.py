@@ -8,7 +8,7 @@ on acting.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import field, replace
+from dataclasses import field
 
 import numpy as np
 
@@ -92,7 +92,6 @@ def _moving(
     over_time = not whole_turns(plain)
     if over_time and (plain.nominal.states or not along.outputs or any(each.through_end for each in sizes)):
         return None
-    along = replace(along, constants={**along.constants, **_middle_numbers(plain, along)})
     columns = {name: np.array([plain.mechanism.dimension(name)]) for name in by}
     if not along.outputs:
         return {}, {}
@@ -108,16 +107,6 @@ def _moving(
         found = limits.pull({name: np.ones(1)})
         slopes[name] = np.array([found[each][0] if each in found else 0.0 for each in by])
     return numbers, slopes
-
-
-def _middle_numbers(plain: Traced, along: AlongInput) -> dict[str, float]:
-    """Angles near which the limits of angles lie."""
-    found = {}
-    for output in along.valued:
-        if output.kind == "angle":
-            angle = plain.nominal.link(output.owner).angle
-            found[middle_name("frame", output.owner)] = 0.5 * float(np.nanmin(angle) + np.nanmax(angle))
-    return found
 
 
 def _phase(load: Load, signals: MotionSignals) -> dict[str, Floats]:

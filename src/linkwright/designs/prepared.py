@@ -137,7 +137,7 @@ class Prepared:
             return self._solve_alone(design, failures)
         if not self._checked:
             self._check(design)
-        motion = Motion(self.solver, design, self.positions, {}, {}, Rows(values, self._index))
+        motion = Motion(self.solver, design, self.positions, Rows(values, self._index))
         fields = {name: values[self._index[name]] for name in self._sizes}
         return Forces(motion, self.force_solver, fields, False, motion.rows)
 

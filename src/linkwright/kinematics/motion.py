@@ -182,9 +182,9 @@ class Motion(Plotted):
     solver: MotionSolver
     design: Design
     positions: Positions
-    states: Mapping[str, Floats]
-    modes: Mapping[str, Floats]
     rows: Rows
+    states: Mapping[str, Floats] = field(default_factory=dict)
+    modes: Mapping[str, Floats] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     barred: Floats | None = None
     followed: Followed | None = None
@@ -242,9 +242,9 @@ class Motion(Plotted):
             self.solver,
             self.design,
             self.positions.taken(order),
+            self.rows.taken(order),
             {name: row[order] for name, row in self.states.items()},
             {name: row[order] for name, row in self.modes.items()},
-            self.rows.taken(order),
             self.notes,
             None if self.barred is None else self.barred[order],
             None if self.followed is None else self.followed.taken(order),

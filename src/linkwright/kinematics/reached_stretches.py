@@ -12,8 +12,9 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.search import ends
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.fold import fold
-from linkwright.kinematics.motion import Motion, Rows
+from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.passage import Passage
+from linkwright.kinematics.solve import marked
 
 #: How far, rad or share of the size, before an end that is searched Newton's method for its fold begins, how far from
 #: it that is found at most, and how many times better it is known then; steps from its place to its time.
@@ -172,12 +173,7 @@ class Reach:
         names = known.solver.outputs.standard
         values = known.solver.evaluate(names, positions, states, modes, known.design)
         barred = np.zeros(positions.count) if reached is None else np.where(reached, 0.0, 1.0)
-        for row in states.values():
-            barred = np.where(np.isfinite(row), barred, 1.0)
-        rows = Rows(values, {name: i for i, name in enumerate(names)})
-        motion = Motion(known.solver, known.design, positions, states, modes, rows, (), barred)
-        values[:-1, ~motion.ok] = np.nan
-        return motion
+        return marked(known.solver, known.design, positions, names, values, states, modes, barred)
 
     def before(self, time: Floats) -> Indices:
         """The position at or before each time, s, through the end of a closed cycle."""

@@ -20,6 +20,7 @@ from linkwright.kinematics.change_points import (
     signs_of_passages,
 )
 from linkwright.kinematics.cycle import over_cycle, time_span
+from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.passing_proof import clear_of_zero
@@ -155,7 +156,7 @@ class MotionRun:
             return None
         if measures and not _clear(measures, rows.values[-len(measures) :]):
             return None
-        motion = Motion(self.solver, self.solver.nominal, self.positions, {}, {}, rows)
+        motion = Motion(self.solver, self.solver.nominal, self.positions, rows)
         motion.notes = turn_notes(motion) + branch_notes(motion)
         return motion
 
@@ -171,20 +172,31 @@ class MotionRun:
         codes = values[-1]
         mark_singular(codes, found, self.solver.structure)
         barred = cut_off(codes, self.positions, breaks)
-        for row in states.values():
-            barred = np.where(np.isfinite(row), barred, 1.0)
-        values[:-1, (codes != 0) | (barred != 0)] = np.nan
-        return Motion(
-            solver=self.solver,
-            design=self.solver.nominal,
-            positions=self.positions,
-            states=states,
-            modes=modes,
-            rows=Rows(values, {name: i for i, name in enumerate(names)}),
-            notes=passage_notes(found, self.positions),
-            barred=barred,
-            breaks=breaks if self.positions.is_way else frozenset(),
+        motion = marked(
+            self.solver, self.solver.nominal, self.positions, names, values, states, modes, barred
         )
+        motion.notes = passage_notes(found, self.positions)
+        motion.breaks = breaks if self.positions.is_way else frozenset()
+        return motion
+
+
+def marked(
+    solver: MotionSolver,
+    design: Design,
+    positions: Positions,
+    names: tuple[str, ...],
+    values: Floats,
+    states: Mapping[str, Floats],
+    modes: Mapping[str, Floats],
+    barred: Floats,
+) -> Motion:
+    """The motion of outputs (names, n), NaN at positions that are not solved, ``barred`` or not followed."""
+    for row in states.values():
+        barred = np.where(np.isfinite(row), barred, 1.0)
+    rows = Rows(values, solver.programs.places(names))
+    motion = Motion(solver, design, positions, rows, states, modes, barred=barred)
+    values[:-1, ~motion.ok] = np.nan
+    return motion
 
 
 def _clear(measures: tuple[str, ...], rows: Floats) -> bool:
