@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, joint_rate, moving_rate
 from linkwright.kinetostatics.programs import signed_name
 from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.loads.base import Load
 from linkwright.loads.over_cycle import switch_times
 from linkwright.metrics.solved_again import Resolver
 
@@ -28,70 +30,59 @@ LOOKS = 24
 
 
 class SolvedCuts:
-    """The cuts of a cycle of a motion, and of its forces if they were solved."""
+    """The cuts of a cycle of a motion, and of its forces if they were solved: ``stretches`` lie between them."""
 
     def __init__(self, motion: Motion, forces: Forces | None, resolver: Resolver) -> None:
-        self._motion, self._forces, self._resolver = motion, forces, resolver
+        self._motion, self._resolver = motion, resolver
         self.course = Course.of(motion.mechanism, motion.positions, seam=True)
-        self._times = bend_times(motion)
+        self.stretches = self._between(bend_times(motion))
         if forces is not None:
-            self._add(*self._switches(forces))
-            self._add(self._corners(forces))
+            self.stretches = self._between(self.stretches.begin, *self._switches(forces))
+            if names := tuple(map(signed_name, forces.solver.programs.signed)):
+                corners = self._changes(partial(self._signed, names), len(names))
+                self.stretches = self._between(self.stretches.begin, corners)
 
-    @property
-    def stretches(self) -> Stretches:
-        """What lies between them."""
-        return Stretches(one_span(self.course), [], self._times)
+    def _between(self, *times: Floats) -> Stretches:
+        found, course = np.concatenate(times), self.course
+        gone = np.inf if course.closed else course.duration
+        inside = (found - course.begin < gone) & ((found > course.begin) | course.closed)
+        return Stretches(one_span(self.course), [], found[inside])
 
-    def _add(self, *times: Floats) -> None:
-        found = np.concatenate([self._times, *times])
-        if self.course.closed:
-            found = self.course.begin + (found - self.course.begin) % self.course.duration
-        self._times = found[np.isfinite(found)]
-
-    def _switches(self, forces: Forces) -> list[Floats]:
+    def _switches(self, forces: Forces) -> Iterator[Floats]:
         """Times at which a load begins or ends to act, its table bends, or a velocity that it or friction opposes
         reverses."""
-        signals, turning = MotionSignals(self._motion), list[FrictionTerm | RelativeAngle]()
-        found = list[Floats]()
-        for load in self._motion.mechanism.loads.values():
+        mechanism, signals = self._motion.mechanism, MotionSignals(self._motion)
+        turning: list[FrictionTerm | RelativeAngle] = [*forces.solver.friction.terms]
+        for load in mechanism.loads.values():
             known, complete = switch_times(load, signals)
-            found.append(known)
+            yield known
             if not complete:
                 looks = self.course.begin + self.course.duration * np.linspace(0.0, 1.0, LOOKS + 1)
-                acts = lambda time, load=load: np.where(self._resolver.active(load, time), 1.0, -1.0)[None]  # noqa: E731
-                found.append(self._changes(acts, 1, known, looks))
-            reversing = load.reverses(self._motion.mechanism)
+                yield self._changes(partial(self._acts, load), 1, known, looks)
+            reversing = load.reverses(mechanism)
             if isinstance(reversing, Output):
-                found.append(np.array([each.time for each in signals.limits(reversing)]))
+                yield np.array([each.time for each in signals.limits(reversing)])
             elif reversing is not None:
                 turning.append(reversing)
-        turning = [each for each in [*forces.solver.friction.terms, *turning]
-                   if moving_rate(self._motion, each).any()]  # fmt: skip
-        if turning:
-
-            def rates(time: Floats) -> Floats:
-                solved = self._resolver.motion(time)
-                return np.stack([joint_rate(solved, each) for each in turning])
-
-            found.append(self._changes(rates, len(turning)))
-        return found
-
-    def _corners(self, forces: Forces) -> Floats:
-        """Times at which forces are zero with whose sizes others go."""
-        names = tuple(map(signed_name, forces.solver.programs.signed))
-        if not names:
-            return np.empty(0)
-
-        def signed(time: Floats) -> Floats:
-            solved: Forces = self._resolver.at(time, "forces")
-            values = solved.evaluate(names)
-            return np.where(np.abs(values) <= 10.0 * solved.roundings, 0.0, values)
-
-        return self._changes(signed, len(names))
+        if turning := [each for each in turning if moving_rate(self._motion, each).any()]:
+            yield self._changes(partial(self._rates, turning), len(turning))
 
     def _changes(self, values: Callable[[Floats], Floats], count: int, *more: Floats) -> Floats:
         """Times at which signals change their signs, cut at those that are known, and at ``more``."""
         signals = OfTimes(values, count, BESIDE * self.course.duration)
-        stretches = Stretches(one_span(self.course), [], np.concatenate([self._times, *more]))
-        return np.concatenate([each.time for each in events(signals, NO_NUMBERS, ONE, stretches)])
+        found = events(signals, NO_NUMBERS, ONE, self._between(self.stretches.begin, *more))
+        return np.concatenate([each.time for each in found])
+
+    def _acts(self, load: Load, time: Floats) -> Floats:
+        """1 where a load acts, else -1."""
+        return np.where(self._resolver.active(load, time), 1.0, -1.0)[None]
+
+    def _rates(self, turning: Iterable[FrictionTerm | RelativeAngle], time: Floats) -> Floats:
+        solved = self._resolver.motion(time)
+        return np.stack([joint_rate(solved, each) for each in turning])
+
+    def _signed(self, names: tuple[str, ...], time: Floats) -> Floats:
+        """Forces with whose sizes others go."""
+        solved: Forces = self._resolver.at(time, "forces")
+        values = solved.evaluate(names)
+        return np.where(np.abs(values) <= 10.0 * solved.roundings, 0.0, values)

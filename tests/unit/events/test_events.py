@@ -10,6 +10,7 @@ from linkwright.curves.pieces import HIGH, LOW
 from linkwright.events.course import Course
 from linkwright.events.events import Events, events
 from linkwright.events.formula import NODE, ROW, Formula, Known
+from linkwright.events.solved_again import OfTimes
 from linkwright.events.stretches import Span, Stretches
 from linkwright.events.strokes import between, of_limits
 from linkwright.formula.program import Program
@@ -103,3 +104,17 @@ def test_strokes_go_from_one_event_to_the_next_around_the_cycle() -> None:
     assert since == pytest.approx([0.5, 0.5, 4.0, 4.0 - TURN])
     begin, end = (found.kept(found.rising == kind) for kind in (True, False))
     assert between(begin, end, own).length == pytest.approx([np.pi, np.pi])
+
+
+def test_signals_of_times_change_their_sign_at_roots_and_at_jumps() -> None:
+    """The place of a jump, of which no slope tells, is halved down to."""
+
+    def values(time: np.ndarray) -> np.ndarray:
+        turn = time % TURN
+        return np.stack([np.cos(turn) - 0.3, np.where((turn > 2.0) & (turn < 2.1), 1.0, -1.0)])
+
+    signals = OfTimes(values, 2, 1e-9 * TURN)
+    smooth, jumping = events(signals, Known({}), {ROW: np.zeros(1)}, Stretches(span(1), []))
+    assert np.sort(smooth.time % TURN) == pytest.approx([np.arccos(0.3), TURN - np.arccos(0.3)], abs=1e-13)
+    assert np.sort(jumping.time % TURN) == pytest.approx([2.0, 2.1], abs=1e-12)
+    assert jumping.rising[np.argsort(jumping.time % TURN)].tolist() == [True, False]
