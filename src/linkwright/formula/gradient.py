@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.formula.adjoint_programs import along_positions, back_from_formulas, bar
 from linkwright.formula.program import Program
-from linkwright.formula.reductions import PLACE, VALID_COUNT, Accumulation, Reduction, Results
+from linkwright.formula.reductions import VALID_COUNT, Accumulation, Reduction, Results
 from linkwright.formula.replay import across_designs
 from linkwright.formula.summaries import Arrays, How, Run, in_blocks, over_designs, reduced
 from linkwright.formula.trace import Trace
@@ -270,13 +270,9 @@ def _evaluated(program: Program, columns: Columns, count: int, run: Run) -> dict
 
 def _place(reduction: Reduction) -> Reduction | None:
     """The number of the one position whose value a reduction is."""
-    if reduction.kind in ("first", "last"):
-        return Reduction(PLACE, reduction.kind)
-    if reduction.of:
-        return Reduction(PLACE, reduction.kind, reduction.of)
     if reduction.kind == "min":
-        return Reduction(PLACE, "at_min", reduction.output)
-    return Reduction(PLACE, "at_max", reduction.output) if reduction.kind == "max" else None
+        return Reduction(reduction.output, "argmin")
+    return Reduction(reduction.output, "argmax") if reduction.kind == "max" else None
 
 
 def _add(into: dict[str, Floats], more: Mapping[str, Floats]) -> None:

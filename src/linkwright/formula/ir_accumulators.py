@@ -5,9 +5,9 @@ from __future__ import annotations
 from linkwright.core.arrays import EQUAL
 from linkwright.formula.ir_functions import number
 from linkwright.formula.ir_lines import FAST, LineWriter
-from linkwright.formula.reductions import PLACE, Accumulation, Step
+from linkwright.formula.reductions import Accumulation, Step
 
-_START = {"min": float("inf"), "max": float("-inf"), "at_min": float("nan"), "at_max": float("nan")}
+_START = {"min": float("inf"), "max": float("-inf")}
 _BETTER = {"min": "olt", "max": "ogt"}
 #: Those that are better or as good, and which sign, times :data:`EQUAL`, makes a positive number worse.
 _AS_GOOD, _WORSE = {"min": "ole", "max": "oge"}, {"min": 1.0, "max": -1.0}
@@ -57,7 +57,7 @@ class AccumulatorWriter:
     def finish_lanes(self, k: int) -> list[str]:
         """Instructions that bring the lanes of one accumulator together in ``%r{k}``.
 
-        Extremes come first, then their position numbers, then what is taken there.
+        Extremes come first, then their position numbers.
         """
         step = self.steps[k]
         kind, value = self.kind(step.kind), f"%b{k}"
@@ -73,25 +73,7 @@ class AccumulatorWriter:
                 f"%q{k} = call i64 @llvm.vector.reduce.add.v{self.w.width}i64({kind} {value})",
                 f"%r{k} = sitofp i64 %q{k} to double",
             ]
-        return self._there(k, step) if step.of else self._first_index(k, step)
-
-    def _there(self, k: int, step: Step) -> list[str]:
-        """What the lanes with the extreme have taken; if there are several, they have taken the same."""
-        side = self._column[Step(step.kind[3:], step.of)]
-        arg = self._column.get(Step(f"arg{step.kind[3:]}", step.of))
-        source, at, kind = (
-            (f"%b{side}", f"%r{side}", "double") if arg is None else (f"%b{arg}", f"%q{arg}", "i64")
-        )
-        compare = "fcmp oeq" if arg is None else "icmp eq"
-        vector = f"<{self.w.width} x {kind}>"
-        return [
-            *self.w.spread(at, f"%best{k}", kind),
-            f"%at{k} = {compare} {vector} {source}, %best{k}",
-            f"%bits{k} = bitcast {self.w.vector} %b{k} to {self.w.integers}",
-            f"%kept{k} = select {self.w.mask} %at{k}, {self.w.integers} %bits{k}, {self.w.integers} zeroinitializer",
-            f"%q{k} = call i64 @llvm.vector.reduce.or.v{self.w.width}i64({self.w.integers} %kept{k})",
-            f"%r{k} = bitcast i64 %q{k} to double",
-        ]
+        return self._first_index(k, step)
 
     def _first_index(self, k: int, step: Step) -> list[str]:
         side = self._column[Step(step.kind.removeprefix("arg"), step.output)]
@@ -131,34 +113,20 @@ class AccumulatorWriter:
             code.append(f"{name} = fcmp une {self.w.vector} {operand}, {self.w.constant(0.0, True)}")
         return name
 
-    def _number(self, output: str, code: list[str]) -> str:
-        """An output as numbers; the position's number for :data:`PLACE`."""
-        if output != PLACE:
-            return self.w.as_number(self.rows[output], code)
-        if PLACE not in self._masks:
-            self._masks[PLACE] = "%place"
-            code.append(f"%place = sitofp {self.w.integers} %position to {self.w.vector}")
-        return self._masks[PLACE]
-
     def _extreme(self, k: int, step: Step) -> list[str]:
-        """An extreme, its position number, and other outputs there."""
+        """An extreme, and its position number."""
         code: list[str] = []
         vector, mask = self.w.vector, self.w.mask
-        value = self._number(step.output, code)
+        value = self.w.as_number(self.rows[step.output], code)
         entering = self._entering(code, once=False)
         arg = self._column.get(Step(f"arg{step.kind}", step.output))
-        there = [
-            (place, other)
-            for place, other in enumerate(self.steps)
-            if (other.kind, other.of) == (f"at_{step.kind}", step.output)
-        ]
         compared = value
-        if arg is not None or there:
+        if arg is not None:
             code += self._worse(f"%surely{k}", value, step.kind)
             compared = f"%surely{k}"
         code.append(f"%c{k} = fcmp {_BETTER[step.kind]} {vector} {compared}, %a{k}")
         better = f"%c{k}"
-        if entering is not None and arg is None and not there:
+        if entering is not None and arg is None:
             return [
                 *code,
                 f"%e{k} = select {mask} %c{k}, {vector} {value}, {vector} %a{k}",
@@ -171,9 +139,6 @@ class AccumulatorWriter:
         if arg is not None:
             kinds = self.w.integers
             code.append(f"%b{arg} = select {mask} {better}, {kinds} %position, {kinds} %a{arg}")
-        for place, other in there:
-            taken = self._number(other.output, code)
-            code.append(f"%b{place} = select {mask} {better}, {vector} {taken}, {vector} %a{place}")
         return code
 
     def _worse(self, name: str, value: str, kind: str) -> list[str]:

@@ -6,7 +6,7 @@ from linkwright.formula.ir_accumulators import AccumulatorWriter
 from linkwright.formula.ir_lines import LineWriter
 from linkwright.formula.ir_module import ENTRY, Shape, in_blocks, load_block, module_text, optimisation
 from linkwright.formula.lines import Lines
-from linkwright.formula.reductions import PLACE, Accumulation
+from linkwright.formula.reductions import Accumulation
 
 
 def kernel(
@@ -154,7 +154,7 @@ class Kernel:
     def _updates(self) -> list[str]:
         assert self.sums is not None
         code = self.sums.update()
-        if any(step.kind.startswith("arg") or PLACE in step for step in self.sums.steps):
+        if any(step.kind.startswith("arg") for step in self.sums.steps):
             position = [
                 *self.writer.spread("%i", "%i.all", "i64"),
                 f"%position = add {self.writer.integers} %i.all, {self.writer.numbers()}",
@@ -179,10 +179,7 @@ class Kernel:
     def _finish(self) -> list[str]:
         code: list[str] = []
         steps = self.sums.steps if self.sums is not None else ()
-        order = sorted(
-            range(len(steps)), key=lambda k: ("arg" in steps[k].kind) + 2 * ("at_" in steps[k].kind)
-        )
-        for k in order:
+        for k in sorted(range(len(steps)), key=lambda k: "arg" in steps[k].kind):
             assert self.sums is not None
             code += self.sums.finish_lanes(k)
             code += self._store_result(k, f"%r{k}")

@@ -14,26 +14,19 @@ from linkwright.core.dataclass import dataclass
 from linkwright.formula.program import Program
 from linkwright.formula.replay import along_input
 
-Kind = Literal[
-    "min", "max", "mean", "sum", "rms", "argmin", "argmax", "count", "first", "last", "at_min", "at_max"
-]
+Kind = Literal["min", "max", "mean", "sum", "rms", "argmin", "argmax", "count"]
 KINDS: tuple[str, ...] = get_args(Kind)
 Results = dict[str, Floats | Whole]
 
 #: The key of the number of valid positions among the results.
 VALID_COUNT = "valid.count"
-#: Stands for the number of the position, where an output is meant.
-PLACE = "#"
-#: Kinds that take the value of an output where another one has its extreme.
-_ELSEWHERE = ("at_min", "at_max")
 
 
 class Step(NamedTuple):
-    """An accumulator: ``square`` sums squares; ``at_min`` and ``at_max`` follow the extreme of ``of``."""
+    """An accumulator: ``square`` sums squares."""
 
     kind: str
     output: str
-    of: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,29 +35,23 @@ class Reduction:
 
     ``kind``: ``min``, ``max``, ``mean``, ``sum``, ``rms`` (root of the mean square), ``argmin``
     and ``argmax`` (number of the first position with the extreme), ``count`` (number of valid
-    positions where a truth output holds, or a number is not zero), ``first`` and ``last`` (value at
-    the first and last position), ``at_min`` and ``at_max`` (value at the first position where the
-    output ``of`` has its extreme). The output :data:`PLACE` is the number of the position. Extremes
-    skip NaN; the other kinds pass it on. Of values that are equal but for rounding the first position counts.
+    positions where a truth output holds, or a number is not zero). Extremes skip NaN; the other kinds pass it on. Of
+    values that are equal but for rounding the first position counts.
     """
 
     output: str
     kind: Kind
-    of: str = ""
 
     @property
     def name(self) -> str:
-        """The key among the results: ``output.kind``, or ``output.at_max.of``."""
-        return f"{self.output}.{self.kind}.{self.of}" if self.of else f"{self.output}.{self.kind}"
+        """The key among the results: ``output.kind``."""
+        return f"{self.output}.{self.kind}"
 
     @classmethod
     def named(cls, name: str) -> Reduction:
         """The reduction whose key this is. Raises ValueError for a kind that does not exist."""
         for kind in get_args(Kind):
-            if kind in _ELSEWHERE and f".{kind}." in name:
-                output, _, of = name.partition(f".{kind}.")
-                return cls(output, kind, of)
-            if kind not in _ELSEWHERE and name.endswith(f".{kind}"):
+            if name.endswith(f".{kind}"):
                 return cls(name.removesuffix(f".{kind}"), kind)
         raise ValueError(f"'{name}' is not a parameter, nor a reduction: use one of {', '.join(KINDS)}")
 
@@ -74,12 +61,6 @@ class Reduction:
         kind, output = self.kind, self.output
         if kind in ("argmin", "argmax"):
             return Step(kind[3:], output), Step(kind, output)
-        if kind in ("first", "last"):
-            side = "min" if kind == "first" else "max"
-            return Step(side, PLACE), Step(f"at_{side}", output, PLACE)
-        if kind in _ELSEWHERE:
-            side = kind[3:]
-            return Step(side, self.of), Step(f"arg{side}", self.of), Step(kind, output, self.of)
         return (Step({"mean": "sum", "rms": "square"}.get(kind, kind), output),)
 
 
@@ -100,14 +81,8 @@ class Accumulation:
         for reduction in self.reductions:
             if reduction.kind not in KINDS:
                 raise ValueError(f"there is no reduction '{reduction.kind}': use one of {', '.join(KINDS)}")
-            elsewhere = reduction.kind in _ELSEWHERE
-            if elsewhere != bool(reduction.of):
-                raise ValueError(
-                    f"the reduction '{reduction.name}' must{'' if elsewhere else ' not'} say of what"
-                )
-            for output in (reduction.output, *([reduction.of] if elsewhere else [])):
-                if output not in names and output != PLACE:
-                    raise ValueError(f"the program has no output '{output}' to reduce")
+            if reduction.output not in names:
+                raise ValueError(f"the program has no output '{reduction.output}' to reduce")
         if self.valid is not None and self.valid not in names:
             raise ValueError(f"the program has no output '{self.valid}' that says which positions are valid")
 
@@ -149,8 +124,7 @@ class Accumulation:
     @cached_property
     def needed(self) -> Program:
         """The program without the outputs that nothing here uses."""
-        wanted = dict.fromkeys(name for step in self.steps for name in (step.output, step.of))
-        outputs = [name for name in wanted if name not in ("", PLACE)]
+        outputs = list(dict.fromkeys(step.output for step in self.steps))
         if set(outputs) == set(self.program.output_names):
             return self.program
         return self.program.only(outputs)
@@ -184,7 +158,7 @@ class Accumulation:
         return results
 
 
-_START = {"min": np.inf, "max": -np.inf, "argmin": -1.0, "argmax": -1.0, "at_min": np.nan, "at_max": np.nan}
+_START = {"min": np.inf, "max": -np.inf, "argmin": -1.0, "argmax": -1.0}
 
 
 def _result(kind: str, accumulated: Floats, valid: Floats) -> Floats | Whole:
@@ -204,7 +178,6 @@ def accumulate(
 ) -> None:
     """Let positions ``first``… of (outputs, designs, positions) enter the accumulators (in place)."""
     rows = dict(zip(names, outputs, strict=True))
-    rows[PLACE] = np.broadcast_to(first + np.arange(outputs.shape[2], dtype=np.float64), outputs.shape[1:])
     mask = None if accumulation.valid is None else rows[accumulation.valid] != 0.0
     for column, step in enumerate(accumulation.steps):
         values, into = rows[step.output], table[:, column]
@@ -226,28 +199,22 @@ def _extreme(
     table: Floats,
     first: int,
 ) -> None:
-    """An extreme, its position number, and other outputs there."""
+    """An extreme, and its position number."""
     values, into = rows[step.output], table[:, accumulation.column[step]]
     sign = 1.0 if step.kind == "min" else -1.0
     entering = np.where(np.isnan(values), np.inf, sign * values)
     if mask is not None:
         entering = np.where(mask, entering, np.inf)
-    arg, at = (f"arg{step.kind}", step.output, ""), (f"at_{step.kind}", step.output)
-    there = [
-        (column, other)
-        for column, other in enumerate(accumulation.steps)
-        if other == arg or (other.kind, other.of) == at
-    ]
+    arg = accumulation.column.get(Step(f"arg{step.kind}", step.output))
     places = entering.argmin(axis=1)
     best = entering[np.arange(len(places)), places]
-    if there:
+    if arg is not None:
         places = (entering <= _worse(best)[:, None]).argmax(axis=1)
         best = entering[np.arange(len(places)), places]
-    better = np.flatnonzero((_worse(best) if there else best) < sign * into)
+    better = np.flatnonzero((best if arg is None else _worse(best)) < sign * into)
     into[better] = sign * best[better]
-    for column, other in there:
-        taken = rows[other.output][better, places[better]]
-        table[better, column] = first + places[better] if other == arg else taken
+    if arg is not None:
+        table[better, arg] = first + places[better]
 
 
 def _worse(values: Floats) -> Floats:

@@ -21,8 +21,8 @@ BACKENDS = ["numpy", pytest.param("llvm", marks=pytest.mark.skipif(not available
 COUNT = 36
 INPUT = {"q": np.arange(COUNT) * math.tau / COUNT}
 ASKED = (
-    Reduction("x", "mean"), Reduction("x", "rms"), Reduction("y", "max"), Reduction("x", "at_min", "y"),
-    Reduction("y", "first"), Reduction("x", "last"), Reduction("y", "sum"), Reduction("y", "mean"),
+    Reduction("x", "mean"), Reduction("x", "rms"), Reduction("y", "max"), Reduction("x", "min"),
+    Reduction("y", "sum"), Reduction("y", "mean"),
 )  # fmt: skip
 
 
@@ -44,8 +44,8 @@ def total() -> Program:
     """A formula of summaries of every kind, and of dimensions."""
     t = Trace()
     p = t.parameter
-    spread = p("x.rms") * p("y.sum") / p("valid.count") + p("x.last")
-    found = p("y.mean") * p("x.rms") + p("y.max") * p("e") - p("x.at_min.y") * p("y.first")
+    spread = p("x.rms") * p("y.sum") / p("valid.count") + p("x.max")
+    found = p("y.mean") * p("x.rms") + p("y.max") * p("e") - p("x.min") * p("y.min")
     return Program.of(t, {"total": found + spread * p("r") + p("x.mean")})
 
 
@@ -54,8 +54,8 @@ def total_by_hand(r: float, rod: float, e: float) -> float:
     x = r * np.cos(INPUT["q"]) + np.sqrt(rod * rod - (r * np.sin(INPUT["q"]) - e) ** 2)
     y = np.where(x < rod, x * x, np.sin(x))
     rms = math.sqrt((x * x).mean())
-    spread = r * (rms * y.mean() + x[-1])
-    return float(y.mean() * rms + y.max() * e - x[y.argmin()] * y[0] + spread + x.mean())
+    spread = r * (rms * y.mean() + x.max())
+    return float(y.mean() * rms + y.max() * e - x.min() * y.min() + spread + x.mean())
 
 
 def designs(count: int) -> Floats:
