@@ -81,7 +81,7 @@ class CamDesign(Result):
 
     @cached_property
     def pressure_angle_rise(self) -> Extreme:
-        """The pressure angle (rad) of largest size while the follower rises, and its place (rad)."""
+        """The pressure angle (rad) of largest size while the follower rises."""
         return self._steepest(1.0)
 
     @cached_property
