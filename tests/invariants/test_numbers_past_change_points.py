@@ -5,7 +5,7 @@ A parallelogram copies its crank: no angular acceleration, no torque; its couple
 
 from __future__ import annotations
 
-from math import inf, pi
+from math import atan2, inf, pi, sqrt
 from pathlib import Path
 
 import pytest
@@ -81,3 +81,11 @@ def test_infinite_reactions_are_compared_drawn_and_reported(tmp_path: Path) -> N
     assert "nan" not in both.text() + both.evaluation()
     forces = lw.solve_forces(lw.solve_motion(lw.load(files[1])))
     assert "∞" in lw.plot(forces, "reactions").svg()
+
+
+def test_a_rocker_that_does_not_come_back_after_a_turn_swings_from_where_it_begins() -> None:
+    """Coupler and rocker are as long: it begins at (-1 + 1/√5, 1/2 + 2/√5) and turns back below its pivot."""
+    text = MODEL.replace("[A, B], length: 2 m", "[A, B], length: 1.5 m")
+    text = text.replace("[O2, B], length: 1 m", "[O2, B], length: 1.5 m")
+    (swing,) = numbers(text, 97)["swing_angle"]
+    assert swing.value == pytest.approx(1.5 * pi - atan2(0.5 + 2 / sqrt(5), -1 + 1 / sqrt(5)), rel=1e-12)

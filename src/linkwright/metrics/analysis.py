@@ -277,7 +277,9 @@ class Analysis:
         if isinstance(part, StrokeSummary):
             driven = self._meant(part.by)
             reversals = driven, self.limits(driven)
-        elif output and self.whole and part.kind in OF_LIMITS and self.limits(output):
+        elif (
+            output and part.kind in OF_LIMITS and self.resolver.closes and self.whole and self.limits(output)
+        ):
             return self._of_limits(output, part.kind)
         return self.find(part, self.signal(part.output), self._of, reversals)
 

@@ -69,6 +69,11 @@ class Resolver(Reach):
         """Whether the positions are those of the drivers' laws at their times, so that others lie between them."""
         return self._between is not None
 
+    @property
+    def closes(self) -> bool:
+        """Whether the last position is followed by the first, in the same assembly."""
+        return self._between is not None and self._between.closes
+
     def at(self, time: Floats, of: str = "motion", asked: tuple[str, ...] = ()) -> Any:
         """Motion, or Forces with ``of="forces"``, at some times, s; ``asked``: outputs beside the stored ones."""
         if of != "forces":
