@@ -28,16 +28,15 @@ class Backward:
     def __init__(self, solved: Solved) -> None:
         self.solved, self.cycle, self.pieces = solved, solved.cycle, solved.pieces
         self.back = ByColumns(solved)
+        self.blocks = [solved] if solved.whole is None else [solved.whole, solved]
+        for each in (*self.blocks, solved.loads):
+            each.forget()
+        for family in solved.stretches.families:
+            family.bar[:] = 0.0
 
     def gradient(self, bars: Mapping[str, Floats], more: Weights | None = None) -> dict[str, Floats]:
         """Derivatives by the columns of the designs, (designs,) each, of the sum of ``bars`` (designs,) times parts,
         and of what has ``more`` weights."""
-        solved, self.back = self.solved, ByColumns(self.solved)
-        blocks = [solved] if solved.whole is None else [solved.whole, solved]
-        for each in (*blocks, solved.loads):
-            each.forget()
-        for family in solved.stretches.families:
-            family.bar[:] = 0.0
         weights, by_width = dict(more[0]) if more else {}, np.zeros(len(self.pieces.stretch))
         if more:
             by_width = by_width + more[1]
@@ -56,7 +55,7 @@ class Backward:
             if len(roots):
                 self.solved.loads.pull_columns(corners.design[roots], corners.within[roots], by_columns)
         self.solved.loads.pull(self.back)
-        for block in blocks:
+        for block in self.blocks:
             block.pull(self.back)
         return self.back.found
 
