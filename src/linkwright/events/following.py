@@ -79,7 +79,7 @@ def chain_coordinates(motion: MotionTrace) -> tuple[ChainCoordinate, ...]:
     found, size = [], motion.mechanism.size
     for placed in motion.placed.values():
         for step in placed.coordinates:
-            name, group = state_name(placed.group, step), placed.group
+            name, group = state_name(step), placed.group
             kinds = (".s",) if step.slides else (".angle",) if geared(group) else (".x", ".y")
             states, scale = tuple(name + kind for kind in kinds), size if step.slides else 1.0
             rates = placed.rates[step], placed.seconds[step]

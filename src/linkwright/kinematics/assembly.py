@@ -152,7 +152,7 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
                 drawn=_to_draw(group),
             )
         for step in group.unknowns:
-            name = state_name(group, step)
+            name = state_name(step)
             joint = mechanism.joints[step.joint]
             if step.slides:
                 states[f"{name}.s"] = drawing.slide(joint) or 0.0  # type: ignore[arg-type]

@@ -79,7 +79,7 @@ class Follower:
         drawn, drawing, name = (
             self.assembly.states,
             self.assembly.drawing,
-            state_name(group, step),
+            state_name(step),
         )
         if f"{name}.x" in drawn:
             return math.atan2(drawn[f"{name}.y"], drawn[f"{name}.x"])

@@ -44,7 +44,7 @@ def state_places(
     steps', and what it is of it."""
     found: dict[str, tuple[int, str]] = {}
     for k, ((group, step), mine) in enumerate(zip(steps, solved, strict=True)):
-        name = state_name(group, step)
+        name = state_name(step)
         if mine and step.turns and not geared(group):
             found |= {f"{name}.x": (k, "cos"), f"{name}.y": (k, "sin")}
         elif mine:
@@ -109,7 +109,7 @@ class FollowedFormula:
             if step.slides:
                 outputs[f"at {k}"] = self.programs.outputs.slide(step.joint)[0]
             elif self.as_angle[k]:
-                outputs[f"at {k}"] = placed.next_states[f"{state_name(group, step)}.angle"]
+                outputs[f"at {k}"] = placed.next_states[f"{state_name(step)}.angle"]
             else:
                 direction = motion.poses[step.child].direction
                 outputs |= {f"at {k}": direction.x, f"sin {k}": direction.y}

@@ -204,13 +204,13 @@ class GroupTracer:
         placed.inverse, placed.determinant = inverse(matrix), determinant(matrix)
         placed.gap = [] if self.iterations else self._gap(placed)
         placed.coordinates = coordinates
-        placed.next_states = carried(group, coordinates)
+        placed.next_states = carried(coordinates)
         placed.residual = _relative_square(group, correction, self.dimensions)
         placed.valid = placed.reached = placed.residual < CONVERGED
         placed.facts = {"correction²": placed.residual}
 
     def _start(self, group: Group, step: TreeJoint) -> Coordinate:
-        trace, name = self.dimensions.trace, state_name(group, step)
+        trace, name = self.dimensions.trace, state_name(step)
         if step.slides:
             return trace.field_input(f"{name}.s")
         if geared(group):
@@ -222,11 +222,11 @@ class GroupTracer:
 CONVERGED = 1e-16
 
 
-def carried(group: Group, coordinates: Mapping[TreeJoint, Coordinate]) -> dict[str, Scalar]:
+def carried(coordinates: Mapping[TreeJoint, Coordinate]) -> dict[str, Scalar]:
     """Chain coordinates by the names of the states that carry them to the next position."""
     states: dict[str, Scalar] = {}
     for step, value in coordinates.items():
-        name = state_name(group, step)
+        name = state_name(step)
         if isinstance(value, Rotor):
             states |= {f"{name}.x": value.now.x, f"{name}.y": value.now.y}
         else:
@@ -235,7 +235,7 @@ def carried(group: Group, coordinates: Mapping[TreeJoint, Coordinate]) -> dict[s
     return states
 
 
-def state_name(group: Group, step: TreeJoint) -> str:
+def state_name(step: TreeJoint) -> str:
     """Name of the carried coordinate of a chain's joint."""
     return f"{step.joint}:{step.child}"
 

@@ -96,14 +96,6 @@ class Positions:
         return float(self.around[-1] - self.around[0]) * fastest / (2 * np.pi)
 
     @cached_property
-    def longest_turn(self) -> float:
-        """The farthest, rad, that a driver at its largest rate turns from one position to the next."""
-        longest = np.abs(np.diff(self.around)).max(initial=0.0)
-        return float(longest) * max(
-            (self.paces[name] for name, rotary in self.rotary.items() if rotary), default=0.0
-        )
-
-    @cached_property
     def key(self) -> Hashable:
         """What tells these positions from others."""
         rows = (self.time, *chain.from_iterable(self.coordinates.values()))
