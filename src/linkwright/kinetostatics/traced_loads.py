@@ -25,15 +25,13 @@ TURNING = 1.9 * np.pi
 class AlongInput:
     """Loads whose magnitudes are traced, and what these take.
 
-    ``outputs``: those whose limit positions they need; ``valued``: of which also the values there; ``angles``: of
-    which pairs of links (see ``Magnitude.angles``);
-    ``constants`` and ``tables`` by name: numbers of the loads that are no dimensions; ``fallible``: loads that may
-    have no value for some designs; ``rubbing``: friction of joints is traced as well.
+    ``outputs``: those whose limit positions they need; ``angles``: of which pairs of links (see
+    ``Magnitude.angles``); ``constants`` and ``tables`` by name: numbers of the loads that are no dimensions;
+    ``fallible``: loads that may have no value for some designs; ``rubbing``: friction of joints is traced as well.
     """
 
     names: frozenset[str]
     outputs: tuple[Output, ...] = ()
-    valued: tuple[Output, ...] = ()
     angles: Mapping[tuple[str, str], float | None] = field(default_factory=dict)
     constants: Mapping[str, float] = field(default_factory=dict)
     tables: Mapping[str, Table] = field(default_factory=dict)
@@ -64,7 +62,6 @@ def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
     return AlongInput(
         frozenset(given),
         tuple(dict.fromkeys(each.output for each in limits)),
-        tuple(dict.fromkeys(each.output for each in limits if each.in_part)),
         {pair: near for each in sizes for pair, near in each.angles(mechanism).items()},
         {
             constant_name(name, key): value
