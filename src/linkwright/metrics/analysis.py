@@ -32,7 +32,7 @@ from linkwright.loads.strokes import outermost
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.metrics.solved_again import Resolver, in_enough_positions
 from linkwright.metrics.solved_cuts import SolvedCuts
-from linkwright.metrics.summaries_again import Again, Reversals, of_positions
+from linkwright.metrics.solved_summaries import Reversals, SolvedSummary, of_positions
 from linkwright.metrics.ways import Signal, Ways
 
 Result: TypeAlias = "Motion | Forces | Analysis"
@@ -300,7 +300,7 @@ class Analysis:
         sample = of_positions(self.motion, values, part.kind)
         if ways is None or not np.isfinite(values).any() or (part.kind == "excess" and not ways.whole):
             return sample
-        found = Again(ways, part, signal, of, reversals)
+        found = SolvedSummary(ways, part, signal, of, reversals)
         if found.passed.all():
             return found.found()
         return sample if self.partial else replace(sample, value=nan)
@@ -310,7 +310,7 @@ class Analysis:
         if self.ways is None:
             return []
         signal = partial(self._of_course, output=output)
-        found = Again(self.ways, Summary("", "range"), signal, "motion")
+        found = SolvedSummary(self.ways, Summary("", "range"), signal, "motion")
         return [(float(way), not isnan(way)) for way in found.values[""]]
 
     def _known(self, of: str) -> Motion | Forces:

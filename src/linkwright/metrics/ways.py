@@ -127,7 +127,7 @@ class Ways:
             found.append(motion.ok)
             return np.asarray(motion.ok[None].astype(float))
 
-        OnWays(self, ok, "motion", Wanted())
+        SignalsOnWays(self, ok, "motion", Wanted())
         return all(each.all() for each in found)
 
     def curve(self, read: Read, of: str, pieces: int = PIECES) -> tuple[Floats, Floats]:
@@ -135,7 +135,7 @@ class Ways:
         pieces); ways behind each other."""
         begin = self.time(np.array([self.course.begin + 0.5 * self.course.duration]), np.intp(0))
         count = len(read(self.at(begin, of)))
-        found = OnWays(self, read, of, Wanted(even=tuple(range(count))), first=pieces).pieces
+        found = SignalsOnWays(self, read, of, Wanted(even=tuple(range(count))), first=pieces).pieces
         values = np.stack([found.values(k) for k in range(count)])
         return np.append(found.columns[LOW], found.columns[HIGH][-1]), values
 
@@ -151,7 +151,7 @@ class End:
     beside: Floats
 
 
-class OnWays:
+class SignalsOnWays:
     """Signals on ``pieces`` of ways, ``paced`` ones by the time; ``ends``: what they do at change points and ends."""
 
     def __init__(

@@ -17,7 +17,7 @@ from linkwright.cycle.summary import StrokeSummary, Summary, SummaryValue
 from linkwright.kinematics.motion import Motion
 from linkwright.loads.signals import Limit
 from linkwright.metrics.one_sided_limits import SLOWED
-from linkwright.metrics.ways import SIDE, OnWays, Signal, Ways
+from linkwright.metrics.ways import SIDE, Signal, SignalsOnWays, Ways
 
 #: An output with its limit positions.
 Reversals = tuple[Output, Sequence[Limit]]
@@ -25,7 +25,7 @@ Reversals = tuple[Output, Sequence[Limit]]
 PASSED = 1e-8
 
 
-class Again(Summaries):
+class SolvedSummary(Summaries):
     """One summary of a signal of the motion, or of the forces, on ways; ``reversals``: of the output on whose strokes
     it is asked for."""
 
@@ -42,9 +42,9 @@ class Again(Summaries):
             values = np.asarray(signal(solved), dtype=float)
             return np.atleast_2d(values * values if squared else values)
 
-        def found(nearer: float) -> OnWays:
+        def found(nearer: float) -> SignalsOnWays:
             more = np.array([each.time for each in self._reversals])
-            return OnWays(ways, read, of, self.asked.wanted(), more, nearer, paced=self.asked.even)
+            return SignalsOnWays(ways, read, of, self.asked.wanted(), more, nearer, paced=self.asked.even)
 
         solved = found(1.0)
         if not ways.whole and any(np.isnan(each.limit) for each in solved.ends):
