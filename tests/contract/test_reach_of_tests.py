@@ -26,9 +26,9 @@ def public() -> frozenset[tuple[str, str]]:
     """Module and name: offered by `linkwright`, in the ``__all__`` of one of its packages, or imported by an example
     of the documentation (what packages of others build on)."""
     offered = {(module, name) for module, names in lw.PUBLIC.items() for name in names}
-    packages = [path.parent.name for path in Path(lw.__file__).parent.glob("*/__init__.py")]
-    for package in packages:
-        module = import_module(f"linkwright.{package}")
+    home = Path(lw.__file__).parent
+    for path in home.glob("*/**/__init__.py"):
+        module = import_module(".".join(("linkwright", *path.parent.relative_to(home).parts)))
         offered |= {(module.__name__, name) for name in getattr(module, "__all__", ())}
     for page in (TESTS.parent / "README.md", *sorted(DOCS.rglob("*.md"))):
         for block in re.findall(

@@ -13,8 +13,7 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.cycle.summary import Summary
-from linkwright.metrics import METRICS, Analysis, coupler_curve, metrics
+from linkwright.metrics import METRICS, Analysis, Summary, coupler_curve, metrics
 from linkwright.metrics.base import Metric, Number
 
 DENSE = 7200

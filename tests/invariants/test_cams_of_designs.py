@@ -14,8 +14,7 @@ from tests.refusals import findings
 from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.cycle.summary import Summary
-from linkwright.metrics import METRICS, Analysis
+from linkwright.metrics import METRICS, Analysis, Summary
 
 Floats = NDArray[np.float64]
 

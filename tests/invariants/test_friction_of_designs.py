@@ -11,8 +11,7 @@ from tests.reference.random_mechanisms import random_mechanism
 from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.cycle.summary import Summary
-from linkwright.metrics import Analysis
+from linkwright.metrics import Analysis, Summary
 
 STEPS = 48
 

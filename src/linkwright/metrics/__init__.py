@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from linkwright.lazy import offer
 
 if TYPE_CHECKING:
+    from linkwright.cycle.summary import Summary as Summary
     from linkwright.metrics.analysis import Analysis as Analysis
     from linkwright.metrics.base import METRICS as METRICS
     from linkwright.metrics.base import Metric as Metric

@@ -17,6 +17,15 @@ from linkwright.designs.sweep_run import SweepRun
 from linkwright.formula.summaries import Backend
 
 Floats = NDArray[np.float64]
+#: A crank that lifts a weight.
+LIFTED = """
+format: 1
+name: press
+frame: {points: {O: [0 m, 0 m]}}
+links: {crank: {points: [O, A], length: 0.2 m}}
+driver: {turn: crank, about: O, speed: 60 rpm}
+loads: {press: {kind: force, on: crank, at: A, direction: -90 deg, magnitude: 500 N}}
+"""
 
 
 @pytest.mark.parametrize(
@@ -100,3 +109,29 @@ def test_curves_and_summaries_through_change_points(backend: Backend) -> None:
         assert curves["rocker.angular_velocity"][k] == pytest.approx(np.full(steps, 5.0), rel=1e-9)
     found = sweep(linkage, {"coupler.mass": masses}, outputs="B.x max", steps=steps, backend=backend)
     assert found["B.x max"] == pytest.approx([(2.0 + np.cos(turn)).max()] * 2)
+
+
+def test_speeds_move_what_goes_by_the_time() -> None:
+    """A press that swells in time, at positions that a crank reaches sooner or later, or the other way round."""
+    machine = lw.loads(LIFTED.replace("500 N", '"500 N*sin(t*3 rad/s)"'))
+    rates = np.array([1.0, 0.5, -2.0]) * 2.0 * np.pi
+    asked = {"outputs": ["load press max", "driver.effort rms"], "steps": 36}
+    found = lw.sweep(machine, {"driver.speed": rates}, **asked)
+    ((_, curves),) = sweep_curves(machine, {"driver.speed": rates}, outputs=["driver.effort"], steps=36)
+    turn = 2.0 * np.pi * np.arange(36) / 36
+    for k, rate in enumerate(rates):
+        time = (turn / rate) % (2.0 * np.pi / abs(rate))
+        sizes = 500.0 * np.sin(3.0 * time)
+        efforts = 0.2 * sizes * np.cos(turn)
+        assert found["load press max"][k] == pytest.approx(np.abs(sizes).max(), rel=1e-12)
+        assert found["driver.effort rms"][k] == pytest.approx(np.sqrt(np.mean(efforts**2)), rel=1e-12)
+        assert curves["driver.effort"][k] == pytest.approx(efforts, abs=1e-10)
+
+
+def test_designs_without_a_load_have_no_curves() -> None:
+    """A root that has no value while the crank of the second design is long."""
+    machine = lw.loads(LIFTED.replace("500 N", '"9 N*sqrt((0.25 m - A.y)/(1 m))"'))
+    varied = {"crank.length": np.array([0.2, 0.3])}
+    ((_, curves),) = sweep_curves(machine, varied, outputs=["driver.effort"], steps=36)
+    assert np.isfinite(curves["driver.effort"][0]).all() and np.isnan(curves["driver.effort"][1]).all()
+    assert lw.sweep(machine, varied, outputs=["driver.effort rms"], steps=36).ok.tolist() == [True, False]
