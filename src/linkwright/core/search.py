@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from linkwright.core.arrays import EQUAL, Flags, Floats, Indices
+from linkwright.core.arrays import EQUAL, Flags, Floats
 
 #: Share of a bracket's width to which zeros and ends are met.
 ACCURACY = 1e-14
@@ -120,15 +120,3 @@ def lowest(function: Callable[[Floats], Floats], low: Floats, high: Floats) -> t
     values = function(vertex[:, None])[:, 0]
     better(vertex, np.where(np.isnan(values), np.inf, values))
     return place, least
-
-
-def peaks(values: Floats, closed: bool) -> Indices:
-    """Samples not below their neighbours that may hold the largest value, the highest first."""
-    filled = np.where(np.isfinite(values), values, -np.inf)
-    before, after = np.roll(filled, 1), np.roll(filled, -1)
-    if not closed:
-        before[0] = after[-1] = -np.inf
-    local = np.flatnonzero((filled >= before) & (filled >= after) & np.isfinite(filled))
-    order = local[np.argsort(-filled[local], kind="stable")]
-    spread = float(np.nanmax(values) - np.nanmin(values))
-    return np.asarray(order[filled[order] >= filled[order[0]] - 0.05 * spread])

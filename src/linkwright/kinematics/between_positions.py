@@ -136,14 +136,6 @@ class Between:
         direction = 1.0 if known[-1] >= known[0] else -1.0
         return np.asarray(np.interp(direction * time, direction * known, np.arange(float(len(known)))))
 
-    def touch(self, low: float, high: float) -> float | None:
-        """The time of a change point between two times, if there is one."""
-        ends = self.place(np.array([low, high]))
-        for p in self.passing:
-            if ends[0] - 1e-3 <= p.place <= ends[1] + 1e-3:
-                return low + (high - low) * float((p.place - ends[0]) / (ends[1] - ends[0] or 1.0))
-        return None
-
     def _states(self, positions: Positions, before: Indices) -> dict[str, Floats]:
         if not self.motion.states:
             return {}
