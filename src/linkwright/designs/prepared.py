@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import Literal
+from functools import cached_property
+from typing import Literal, cast
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.given import one_of, require
+from linkwright.core.outputs import Output
+from linkwright.cycle.load_limits import LoadLimits
+from linkwright.cycle.near_limits import NearLimits
 from linkwright.designs.loaded_cycle import LoadedCycle, loaded_cycle
 from linkwright.designs.traced_outputs import Traced
 from linkwright.designs.varied_dimensions import checked_addresses
@@ -17,22 +21,27 @@ from linkwright.formula.llvm_backend import compile_program
 from linkwright.formula.numpy_backend import numpy_program
 from linkwright.formula.program import Program
 from linkwright.formula.summaries import BACKENDS, Backend
-from linkwright.formula.trace import select
+from linkwright.formula.trace import Mask, absolute, minimum, select, sign
 from linkwright.kinematics.change_points import nearness, parts
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
+from linkwright.kinematics.names import program_names
 from linkwright.kinematics.passing_proof import NEAR
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.load_site import LAP, limit_name
 from linkwright.kinetostatics.run import forces_of_run
 from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.loads.strokes import turned
 from linkwright.mechanism.mechanism import Mechanism
 
 #: The row of how near a group is to a change point or a gap; 0 where it cannot be assembled, where a load has no
-#: value, and where friction is not certain.
+#: value, where limit positions do not agree with the rates, and where friction is not certain.
 NEAREST = "nearest change point"
+#: The step of the input between two positions, rad; how near to a limit, rad, a position counts as on it.
+STEP, AT = "step of the input", 1e-9
 
 
 def prepare(
@@ -79,7 +88,9 @@ class Prepared:
         self._index = {name: i for i, name in enumerate(self._names)}
         self.program = self._trace()
         self._evaluate = self._evaluator(backend)
-        known = {**self.solver.nominal.parameters, **self._loaded.constants}
+        constants, count = self._loaded.constants, positions.count
+        step = {STEP: constants.get(LAP, 0.0) / count if count else 0.0}
+        known = {**self.solver.nominal.parameters, **constants, **step}
         self._base = np.array([known.get(name, np.nan) for name in self.program.parameters])
         self._places = {name: i for i, name in enumerate(self.program.parameters)}
         plain = not self.program.fields
@@ -106,6 +117,8 @@ class Prepared:
             for name in others
         } | self._sizes
         solved = trace.logic("and", traced.solver.motion.valid, self._loaded.sound)
+        if self._near is not None:
+            solved = trace.logic("and", solved, agree(traced, self._loaded.loads.outputs))
         values[NEAREST] = select(solved, nearness(self.solver), 0.0)
         values["outcome"] = values.pop("outcome")
         return Program.of(trace, values)
@@ -154,17 +167,39 @@ class Prepared:
                 numbers[self._places[address]] = value
             elif address not in self.vary:
                 self._refuse_fixed(address)
-        free = self.solver.manner.free
         if self._loaded.limits is not None:
-            if not free.issuperset(changes):
+            limits = self._limits(self._loaded.limits, {**self._nominal, **changes})
+            if limits is None:
                 return None
-            known = {name: changes.get(name, self.mechanism.dimension(name)) for name in free}
-            found = self._loaded.limits.solve({name: np.array([value]) for name, value in known.items()})
-            if not found.certain.all():
-                return None
-            for name in found.numbers.keys() & self._places.keys():
-                numbers[self._places[name]] = found.numbers[name].item()
+            for name in limits.keys() & self._places.keys():
+                numbers[self._places[name]] = limits[name]
         return self._evaluate(numbers)
+
+    def _limits(self, sought: LoadLimits, values: Mapping[str, float]) -> Mapping[str, float] | None:
+        """The limits between which loads act in a design; None where they are not certain.
+
+        By steps from those of the machine as it is, where the positions show that they are all.
+        """
+        if len(values) > len(self._nominal):
+            return None
+        if self._near is not None:
+            return self._near.numbers(values)
+        found = sought.solve({name: np.array([value]) for name, value in values.items()})
+        return {name: each.item() for name, each in found.numbers.items()} if found.certain.all() else None
+
+    @cached_property
+    def _nominal(self) -> dict[str, float]:
+        """The dimensions that vary, of the machine as it is."""
+        return {name: self.mechanism.dimension(name) for name in self.solver.manner.free}
+
+    @cached_property
+    def _near(self) -> NearLimits | None:
+        """What finds limits from those of the machine as it is; None where they are not certain, or its drivers'
+        dimensions vary."""
+        drivers = self.mechanism.drivers
+        fixed = not any(name.rpartition(".")[0] in drivers for name in self._nominal)
+        sought = self._loaded.limits
+        return NearLimits.of(sought, self._nominal) if sought and fixed and self.backend != "numpy" else None
 
     def _refuse_fixed(self, address: str) -> None:
         """Refuses a dimension that the programs hold as a known zero, or do not know."""
@@ -186,3 +221,22 @@ def is_near(row: Floats) -> bool:
         return False
     steps = row[1:] - row[:-1]
     return bool(least - NEAR < max(steps[steps.argmax()], -steps[steps.argmin()]))
+
+
+def agree(traced: Traced, outputs: Iterable[Output]) -> Mask:
+    """Whether every output falls at a position just where this lies between the limits ``max`` and ``min``, with
+    positions on both ways; on a limit its rate may have either sign."""
+    motion, logic = traced.solver.motion, traced.solver.motion.trace.logic
+    (driver,) = traced.mechanism.drivers
+    sense, found = sign(motion.trace.parameter(f"{driver}.speed")), cast("Mask", True)
+    step, lap = motion.trace.parameter(STEP), motion.trace.parameter(LAP)
+    for output in outputs:
+        highest, lowest = (motion.trace.parameter(limit_name(output, kind)) for kind in ("max", "min"))
+        way = turned(sense * (motion.trace.position("input") - highest), lap)
+        length = turned(sense * (lowest - highest), lap)
+        gone = way - length
+        rate = traced.solver.outputs.value(program_names(traced.mechanism, output)[1][0])
+        beside = minimum(minimum(way, lap - way), absolute(gone)) <= AT
+        apart = minimum(length, lap - length) > step
+        found = logic("and", found, logic("and", apart, logic("or", rate * gone >= 0.0, beside)))
+    return found
