@@ -21,6 +21,7 @@ from linkwright.cycle.summary import StrokeSummary, Summary
 from linkwright.events.formula import Formula
 from linkwright.formula.trace import Scalar, absolute
 from linkwright.kinetostatics.friction import FrictionTerm
+from linkwright.kinetostatics.load_site import acts_name
 from linkwright.loads.phases import MovingPhase, SwingPhase
 
 
@@ -117,6 +118,7 @@ class Cycle(Asked):
         """The dimensions that vary on which anything depends."""
         machine = self.machine
         formulas = [self.formula, *self.swings.formulas, *(machine.bends() or ())]
-        ends = {input_end(name, which) for name in machine.phases for which in (0, 1)}
-        taken = machine.taken([*formulas, *([self.signed] if self.signed else [])])
-        return taken | (ends & frozenset(machine.varied))
+        formulas += [self.signed] if self.signed else []
+        acting = {name for name in machine.phases for each in formulas if acts_name(name) in each.columns}
+        ends = {input_end(name, which) for name in acting for which in (0, 1)}
+        return machine.taken(formulas) | (ends & frozenset(machine.varied))

@@ -19,7 +19,7 @@ from linkwright.events.formula import Formula, Known
 from linkwright.events.limits import Limits
 from linkwright.events.stretches import Span
 from linkwright.events.strokes import Ends, Strokes
-from linkwright.kinetostatics.load_site import ACTS
+from linkwright.kinetostatics.load_site import acts_name
 from linkwright.loads.base import Load
 from linkwright.loads.phases import SwingPhase
 from linkwright.loads.strokes import NEAR, TURN
@@ -51,7 +51,7 @@ class Acting(ABC):
         """From derivatives by these columns those by the events and limits that they follow from."""
 
     def _named(self, acts: Flags, since: Floats, length: Floats) -> Columns:
-        found = {f"{ACTS}:{self.name}": acts.astype(np.float64)}
+        found = {acts_name(self.name): acts.astype(np.float64)}
         if self.ramp:
             found |= {since_name(self.name): since, length_name(self.name): length}
         return found
@@ -169,7 +169,7 @@ class WithinInput(Acting):
         return self._named(acts, start + laps, np.where(length == 0.0, 1.0, length))
 
     def pull(self, design: Indices, middle: Floats, by_columns: Mapping[str, Floats]) -> None:
-        acts = self.columns(design, middle)[f"{ACTS}:{self.name}"] > 0.5
+        acts = self.columns(design, middle)[acts_name(self.name)] > 0.5
         bars = self._bars(acts, by_columns)
         if bars is not None:
             self.pull_reach(0, design, bars[0] - bars[1])
@@ -224,7 +224,7 @@ class InPart(Acting):
         return self._named(acts, self.begin[design], self.length[design])
 
     def pull(self, design: Indices, middle: Floats, by_columns: Mapping[str, Floats]) -> None:
-        acts = self.columns(design, middle)[f"{ACTS}:{self.name}"] > 0.5
+        acts = self.columns(design, middle)[acts_name(self.name)] > 0.5
         bars = self._bars(acts, by_columns)
         if bars is not None:
             by_length = bars[1] * (self.shares[1] - self.shares[0])

@@ -36,7 +36,14 @@ from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.friction import FrictionTerm, moving_rate
 from linkwright.kinetostatics.friction_stage import can_be_traced
-from linkwright.kinetostatics.load_site import ACTS, angle_between, guide_state, middle_name, output_value
+from linkwright.kinetostatics.load_site import (
+    ACTS,
+    acts_name,
+    angle_between,
+    guide_state,
+    middle_name,
+    output_value,
+)
 from linkwright.kinetostatics.named_outputs import Named, Quantity
 from linkwright.kinetostatics.programs import ForcePrograms, force_programs
 from linkwright.kinetostatics.signals import MotionSignals
@@ -242,7 +249,7 @@ class Machine:
         manner = Manner(frozenset(self.varied), iterations=ITERATIONS if iterated(nominal.structure) else 1)
         solver = MotionSolver(mechanism, manner, nominal.solver.assembly)
         rubbing = any(joint.friction_arm for joint in mechanism.joints.values())
-        names = frozenset(f"{ACTS}:{name}" if self._phased(name) else name for name in self.loads.names)
+        names = frozenset(acts_name(name) if self._phased(name) else name for name in self.loads.names)
         programs = force_programs(solver.programs, inertia=not static, along_input=names, rubbing=rubbing)
         if rubbing:
             terms = programs._terms

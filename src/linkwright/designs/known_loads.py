@@ -20,7 +20,7 @@ from linkwright.designs.traced_outputs import Traced
 from linkwright.errors import LinkwrightError
 from linkwright.formula.table import Tables
 from linkwright.kinetostatics.friction_stage import MOST, can_be_traced
-from linkwright.kinetostatics.load_site import ACTS, middle_name
+from linkwright.kinetostatics.load_site import acts_name, middle_name
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
@@ -74,7 +74,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     if moving is None:
         for load in loads:
             if not isinstance(load.magnitude.phase, Always):
-                names = names - {load.name} | {f"{ACTS}:{load.name}"}
+                names = names - {load.name} | {acts_name(load.name)}
                 known |= _phase(load, signals)
         moving = {}, {}
     numbers = {**along.constants, **moving[0]}
@@ -114,4 +114,4 @@ def _phase(load: Load, signals: MotionSignals) -> dict[str, Floats]:
     if load.magnitude.size.ramp and load.magnitude.limits is not None:
         raise LinkwrightError("study.ramp_slope", name=load.name)
     active = activity(load, signals)
-    return {f"{ACTS}:{load.name}": active.where.astype(float), f"share:{load.name}": active.share}
+    return {acts_name(load.name): active.where.astype(float), f"share:{load.name}": active.share}

@@ -36,6 +36,11 @@ LAP, DRIFT = "lap of the input", "drift of the input"
 ACTS = "acts"
 
 
+def acts_name(load: str) -> str:
+    """Name of such a load, and of the input that tells whether it acts."""
+    return f"{ACTS}:{load}"
+
+
 def constant_name(load: str, field: str) -> str:
     """Name of the parameter that holds a number of a load that is no dimension."""
     return f"constant:{load}:{field}"
@@ -132,7 +137,7 @@ class TracedSite:
         if not (self.along_input or own.constant):
             return field(row_name("magnitude", self.load.name))
         if self.phase_known:
-            acts, share = (field(f"{kind}:{self.load.name}") for kind in (ACTS, "share"))
+            acts, share = field(acts_name(self.load.name)), field(f"share:{self.load.name}")
             return select(acts > 0.5, own.size.at(self, share), 0.0)
         return own.at(self)
 

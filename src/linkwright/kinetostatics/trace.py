@@ -22,7 +22,7 @@ from linkwright.kinematics.closure import pair_of
 from linkwright.kinematics.equation import Equation
 from linkwright.kinematics.groups import Placed
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.kinetostatics.load_site import ACTS, TracedSite
+from linkwright.kinetostatics.load_site import TracedSite, acts_name
 from linkwright.loads.site import Wrench
 
 #: The size of the force between the teeth of a pair, from that force.
@@ -129,7 +129,7 @@ def trace_forces(
     """
     forces = ForceTrace(motion)
     for name, load in motion.mechanism.loads.items():
-        partly = f"{ACTS}:{name}" in along_input
+        partly = acts_name(name) in along_input
         site = TracedSite(motion, load, along_input=partly or name in along_input, phase_known=partly)
         forces.wrenches[name] = list(load.wrenches(site))
     forces.wrenches |= extra or {}

@@ -12,7 +12,7 @@ from linkwright.core.json_data import Plain
 from linkwright.core.outputs import Output
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import program_names
-from linkwright.kinetostatics.load_site import ACTS, middle_name
+from linkwright.kinetostatics.load_site import acts_name, middle_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.base import Load
 from linkwright.loads.phases import Always, InputPhase, MovingPhase, SwingPhase
@@ -30,7 +30,7 @@ def found_again(load: Load, motion: Motion) -> bool:
 
 def traced_name(load: Load) -> str:
     """The load as the trace of forces takes it: wholly, or but for its phase."""
-    return load.name if isinstance(load.magnitude.phase, Always) else f"{ACTS}:{load.name}"
+    return load.name if isinstance(load.magnitude.phase, Always) else acts_name(load.name)
 
 
 def phases(loads: Iterable[Load], motion: Motion) -> list[Plain]:
