@@ -1,5 +1,4 @@
-"""What the formulas of a machine's cycle are made of: its traced motion and forces, and the numbers that these
-take."""
+"""What the formulas of a machine's cycle are made of: its traced motion and forces, and the numbers they take."""
 
 from __future__ import annotations
 

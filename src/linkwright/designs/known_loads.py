@@ -1,6 +1,6 @@
-"""What the loads of one machine take while they are differentiated: limit positions with their derivatives, the rest
-known per position.
+"""What the loads of one machine take while they are differentiated.
 
+Limit positions are numbers with derivatives, the rest is known per position.
 A limit position moves with the dimensions by the implicit function theorem; at a fixed position a load that acts goes
 on acting.
 """

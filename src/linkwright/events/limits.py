@@ -1,5 +1,4 @@
-"""Limit positions of an output in the cycles of many designs: where its rate changes its sign, and its value
-there."""
+"""Limit positions of an output in the cycles of many designs, and its values there."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Stretches of the cycles of many designs between neighbouring cuts, and the pieces that lie in them to begin
-with."""
+"""Stretches of the cycles of many designs between neighbouring cuts, and the first pieces that lie in them."""
 
 from __future__ import annotations
 

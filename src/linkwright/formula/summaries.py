@@ -1,5 +1,4 @@
-"""Summaries of a program's outputs over the positions, for many designs at once, on the back end that is asked
-for."""
+"""Summaries of a program's outputs over the positions, for many designs at once, on the back end asked for."""
 
 from __future__ import annotations
 

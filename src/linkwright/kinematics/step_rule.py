@@ -1,6 +1,6 @@
-"""What a step must fulfil so that a group without closed form keeps its assembly: one rule for one machine, for many
-and for pages.
+"""What a step must fulfil so that a group without closed form keeps its assembly.
 
+One rule serves one machine, many designs, and pages.
 A step is predicted with the exact rates of two orders and corrected by Newton's method. It counts if the determinants
 keep their signs, the correction, of third order small, is small against the step, and both ends' exact rates fit one
 quintic. Where a step can be halved, doubt halves it.
