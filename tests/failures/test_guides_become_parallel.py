@@ -74,3 +74,17 @@ def test_guides_whose_crossing_stands_still_do_not_go_to_infinity(body: str) -> 
     )
     assert motion.ok.all() and not motion.notes
     assert math.isclose(float(np.abs(motion.point("A").position).max()), 0.0, abs_tol=1e-12)
+
+
+@pytest.mark.parametrize("body", [RPP, PRP], ids=["RPP", "PRP"])
+def test_the_room_of_what_goes_to_infinity_has_no_bounds(body: str) -> None:
+    """Before, it is the triangle of both pins on the frame and the farthest place, 0.2 m / tan 5° away."""
+
+    def room(end: str) -> lw.metrics.MetricValue:
+        machine = model(body, TURN, f"from: -40 deg, to: {end} deg")
+        (found,) = lw.metrics(lw.solve_motion(machine, steps=12, failures="mark"), ["swept_area"]).rows
+        return found
+
+    assert room("-5").value == pytest.approx(0.5 * 0.2 * 0.2 / math.tan(math.radians(5.0)), rel=1e-12)
+    unbounded = room("41")
+    assert unbounded.value == math.inf and unbounded.exact and "∞" in unbounded.sentence

@@ -171,7 +171,8 @@ def equivalent(forces: Forces) -> Equivalent:
         inertia, slope = _inertia_and_slope(solved.motion)
         return np.stack([inertia, direction * _torque(solved, inertia, slope)])
 
-    edges, (inertia, torque) = cycle.curve(reduced, "forces")
+    found = cycle.curve(reduced, "forces")
+    edges, (inertia, torque) = found.edges, found.values
     edges = abs(rate) * (edges - cycle.course.begin)
     return Equivalent(
         forces=forces,

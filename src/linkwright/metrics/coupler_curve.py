@@ -210,7 +210,9 @@ def _speeds(analysis: Analysis, point: str, motion: Motion) -> tuple[Floats, Flo
     in order, with a point's speeds there."""
     time = motion.time
     if analysis.cycle is not None:
-        inner = nodes(analysis.cycle.curve(lambda each: each.point(point).velocity.T, "motion")[0]).T.ravel()
+        inner = nodes(
+            analysis.cycle.curve(lambda each: each.point(point).velocity.T, "motion").edges
+        ).T.ravel()
         time = increasing(np.append(time, inner[(inner > time.min()) & (inner < time.max())]))
     speed = _speed(analysis, point, time)
     return time, np.where(speed <= AT_REST * speed.max(), 0.0, speed)

@@ -16,7 +16,6 @@ from linkwright.cycle.summaries import Signal as Named
 from linkwright.cycle.summary import StrokeSummary, Summary, SummaryValue
 from linkwright.kinematics.motion import Motion
 from linkwright.loads.signals import Limit
-from linkwright.metrics.one_sided_limits import SLOWED
 from linkwright.metrics.ways import SIDE, Signal, SignalsOnWays, Ways
 
 #: An output with its limit positions.
@@ -42,14 +41,9 @@ class SolvedSummary(Summaries):
             values = np.asarray(signal(solved), dtype=float)
             return np.atleast_2d(values * values if squared else values)
 
-        def found(nearer: float) -> SignalsOnWays:
-            more = np.array([each.time for each in self._reversals])
-            return SignalsOnWays(ways, read, of, self.asked.wanted(), more, nearer, paced=self.asked.even)
-
-        solved = found(1.0)
-        if not ways.whole and any(np.isnan(each.limit) for each in solved.ends):
-            solved = found(SLOWED[1] / SLOWED[0])
-        self._signals, self.span = solved, solved.stretches.span
+        more = np.array([each.time for each in self._reversals])
+        self._signals = SignalsOnWays.told(ways, read, of, self.asked.wanted(), more, paced=self.asked.even)
+        self.span = self._signals.stretches.span
 
     @property
     def pieces(self) -> Pieces:

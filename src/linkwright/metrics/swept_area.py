@@ -23,7 +23,7 @@ from linkwright.metrics.outputs import output_link
 from linkwright.metrics.quantities import shown
 from linkwright.metrics.range_of_motion import turns
 from linkwright.metrics.swept_hull import Curves, SweptHull
-from linkwright.metrics.ways import Ways
+from linkwright.metrics.ways import SolvedCurves, Ways
 
 #: Ends of ways nearer to each other than this share of the way are the same.
 SAME = 1e-9
@@ -43,21 +43,26 @@ class HullArea(Metric):
         motion = analysis.motion
         if not motion.ok.any():
             return
-        (curves, met), keys = _curves(analysis), points(motion.mechanism)
+        found, keys = _curves(analysis), points(motion.mechanism)
         for subject, own in self.swept(motion.mechanism).items():
-            if curves is None:
+            chosen = [keys.index(key) for key in own]
+            exact = found is not None and not found[1].untold.reshape(-1, 2)[chosen].any()
+            far = found[1].unbounded.reshape(-1, 2)[chosen].any(axis=0) if found else np.zeros(2, dtype=bool)
+            if found is None or not exact or far.any():
                 places = np.concatenate([motion.vector("position", key)[motion.ok] for key in own])
                 corners = convex_hull(places.view(np.complex128)[:, 0])
                 size, sides = area(corners), np.ptp(corners.view(float).reshape(-1, 2), axis=0)
             else:
-                hull = SweptHull(curves, [keys.index(key) for key in own])
+                hull = SweptHull(found[0], chosen)
                 size, sides = hull.area, hull.box
+            if far.any():
+                size, sides, exact = np.inf, np.where(far, np.inf, sides), True
             box = {
                 name: shown(side, "length")
                 for name, side in zip(("width", "height"), sides.tolist(), strict=True)
             }
             remarks = (Remark("swept_area.box", {**box}),)
-            yield self.value(analysis, subject, size, exact=met, remarks=remarks)
+            yield self.value(analysis, subject, size, exact=exact, remarks=remarks)
 
 
 @METRICS.register("swept_area")
@@ -100,22 +105,22 @@ def points_of_links(mechanism: Mechanism) -> Mapping[str, tuple[str, ...]]:
 _points: Recent[object, Mapping[str, tuple[str, ...]]] = Recent(64)
 
 
-def _curves(analysis: Analysis) -> tuple[Curves | None, bool]:
-    """The curves of all points, and whether polynomials meet them; None where nothing lies between the positions."""
+def _curves(analysis: Analysis) -> tuple[Curves, SolvedCurves] | None:
+    """The curves of all points; None where nothing lies between the positions."""
     cycle, mechanism = analysis.cycle, analysis.motion.mechanism
     keys = points(mechanism)
     if cycle is not None:
-        edges, rows = cycle.curve(lambda motion: _rows(motion, keys), "motion", HULL_PIECES)
-        values = np.moveaxis(rows, 1, 2).reshape(len(keys), 2, -1, POINTS)
+        found = cycle.curve(lambda motion: _rows(motion, keys), "motion", HULL_PIECES)
+        edges, values = found.edges, np.moveaxis(found.values, 1, 2).reshape(len(keys), 2, -1, POINTS)
         spans = _spans(analysis, cycle, edges, values)
-        return Curves(values, *turned(mechanism, edges, analysis.closed), spans), True
+        return Curves(values, *turned(mechanism, edges, analysis.closed), spans), found
     if analysis.ways is None:
-        return None, False
-    edges, rows = analysis.ways.curve(lambda motion: _rows(motion, keys), "motion", HULL_PIECES)
-    values = np.moveaxis(rows, 1, 2).reshape(len(keys), 2, -1, POINTS)
+        return None
+    found = analysis.ways.curve(lambda motion: _rows(motion, keys), "motion", HULL_PIECES)
+    edges, values = found.edges, np.moveaxis(found.values, 1, 2).reshape(len(keys), 2, -1, POINTS)
     begins = edges[:-1] == edges[0]
     whole = np.tile([0, len(begins) * POINTS], (len(keys), 1))
-    return Curves(values, begins, np.roll(begins, -1), whole), True
+    return Curves(values, begins, np.roll(begins, -1), whole), found
 
 
 def turned(mechanism: Mechanism, edges: Floats, closed: bool) -> tuple[Flags, Flags]:

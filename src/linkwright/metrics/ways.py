@@ -8,7 +8,7 @@ are elsewhere. Beside a change point, or an end of range, pieces are polynomials
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -130,25 +130,42 @@ class Ways:
         SignalsOnWays(self, ok, "motion", Wanted())
         return all(each.all() for each in found)
 
-    def curve(self, read: Read, of: str, pieces: int = PIECES) -> tuple[Floats, Floats]:
-        """Edges of pieces, so many of a lap to begin with, and signals on them that these meet everywhere, (k, nodes,
-        pieces); ways behind each other."""
+    def curve(self, read: Read, of: str, pieces: int = PIECES) -> SolvedCurves:
+        """Signals on pieces, so many of a lap to begin with, that meet them everywhere."""
         begin = self.time(np.array([self.course.begin + 0.5 * self.course.duration]), np.intp(0))
         count = len(read(self.at(begin, of)))
-        found = SignalsOnWays(self, read, of, Wanted(even=tuple(range(count))), first=pieces).pieces
+        signals = SignalsOnWays.told(self, read, of, Wanted(even=tuple(range(count))), first=pieces)
+        found, limits = signals.pieces, np.array([end.limits for end in signals.ends]).reshape(-1, count)
         values = np.stack([found.values(k) for k in range(count)])
-        return np.append(found.columns[LOW], found.columns[HIGH][-1]), values
+        edges = np.append(found.columns[LOW], found.columns[HIGH][-1])
+        untold = np.isnan(limits).any(axis=0) & (not self.whole)
+        return SolvedCurves(edges, values, np.isinf(limits).any(axis=0), untold)
+
+
+class SolvedCurves(NamedTuple):
+    """Signals ``values`` (k, nodes, pieces) on pieces between ``edges``, ways behind each other; those that grow
+    without bound at a change point or an end, and those of which nothing tells the limit at an end, (k,)."""
+
+    edges: Floats
+    values: Floats
+    unbounded: Flags
+    untold: Flags
 
 
 @dataclass(frozen=True)
 class End:
-    """A change point, or an end, of a ``way``, at a ``time``, s: the ``limit`` of the first signal there, and its
-    values ``beside`` it, nearest first."""
+    """A change point, or an end, of a ``way``, at a ``time``, s: the ``limits`` of the signals there, and the values
+    of the first ``beside`` it, nearest first."""
 
     way: int
     time: float
-    limit: float
+    limits: Floats
     beside: Floats
+
+    @property
+    def limit(self) -> float:
+        """That of the first signal."""
+        return float(self.limits[0])
 
 
 class SignalsOnWays:
@@ -181,6 +198,23 @@ class SignalsOnWays:
         layout = Layout(stretches.design, stretches.span.count, self._columns)
         self.pieces = Pieces(self._values, layout, stretch[own], low[own], high[own], wanted)
 
+    @classmethod
+    def told(
+        cls,
+        ways: Ways,
+        read: Read,
+        of: str,
+        wanted: Wanted,
+        more: Floats = _NONE,
+        first: int = PIECES,
+        paced: tuple[int, ...] = (),
+    ) -> SignalsOnWays:
+        """With pieces beside ends short enough that limits there are told, if they can be."""
+        found = cls(ways, read, of, wanted, more, 1.0, first, paced)
+        if ways.whole or not any(np.isnan(each.limits).any() for each in found.ends):
+            return found
+        return cls(ways, read, of, wanted, more, SLOWED[1] / SLOWED[0], first, paced)
+
     def _columns(self, stretch: Indices, first: Floats, last: Floats) -> dict[str, Floats]:
         low, high = self.stretches.ends(stretch, first, last)
         return {
@@ -208,8 +242,8 @@ class SignalsOnWays:
         times = ways.time(ends, way[near])
         for k, time in zip(near, times, strict=True):
             values = found[:count, :, k]
-            limits = [limit(row, 2 if ways.whole else STEEPEST) for row in values.T]
-            self.ends.append(End(int(way[k]), float(time), limits[0], values[:, 0].copy()))
+            limits = np.array([limit(row, 2 if ways.whole else STEEPEST) for row in values.T])
+            self.ends.append(End(int(way[k]), float(time), limits, values[:, 0].copy()))
             between = weights(AWAY, nodes if side[k] > 0.0 else 1.0 - nodes) @ values
             steep = np.isinf(limits) | (np.isnan(limits) & (not ways.whole))
             found[:, :, k] = np.where(steep, values[-1], between)
