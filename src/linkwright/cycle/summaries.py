@@ -193,7 +193,10 @@ class Summaries(ABC):
         sides: list[Floats] = [self.extremes.value[side] for side in self.asked.sides_of[text]]
         if kind == "range":
             return np.asarray(sides[0] - sides[1])
-        return np.maximum(np.abs(sides[0]), np.abs(sides[-1])) if kind == "peak" else sides[0]
+        if kind != "peak":
+            return sides[0]
+        sizes = np.abs(sides)
+        return np.where(np.isinf(sizes).any(axis=0), np.inf, sizes.max(axis=0))
 
     def time_of(self, text: str) -> Floats:
         """When a part is there, (designs,) s; NaN of what belongs to no time."""
@@ -204,7 +207,8 @@ class Summaries(ABC):
             return np.full(self.span.count, np.nan)
         if limits is not None:
             return limits.time(kind.removeprefix("arg"))
-        times, sizes = self.extremes.time[[*sides]], np.abs(self.extremes.value[[*sides]])
+        times, values = self.extremes.time[[*sides]], self.extremes.value[[*sides]]
+        sizes = np.where(np.isnan(values), -1.0, np.abs(values))
         if len(sides) < 2:
             return np.asarray(times[0])
         alike = sizes.min(axis=0) >= (1.0 - EQUAL) * sizes.max(axis=0)
