@@ -47,6 +47,8 @@ NUMBERS, DIMENSIONS = 5, 4
 LEFT_OUT = ("cusp", "double_point", "dead_point", "range_of_motion", "instant_centre", "grashof")
 #: Derivatives smaller than this share of their number, by relative dimension, are judged beside it.
 SMALL = 1e-6
+#: Numbers, SI, that are rounding of zero, as the efficiency of a machine whose work all goes into friction.
+NOTHING = 1e-12
 #: Places of one point, and of four, at which a number is evaluated, with the weights of its derivative.
 PLACES, WEIGHTS = np.array([-2.0, -1.0, 1.0, 2.0]), np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
 
@@ -154,9 +156,9 @@ def _judged(
         return
     beside = np.vstack([start, start * (1 + 2e-3 * rng.standard_normal((2, len(start))))])
     values, gradients = goal.many(beside)
-    size = max(float(np.abs(gradient * scales).max()), SMALL * abs(value), 1e-300)
+    size = max(float(np.abs(gradient * scales).max()), SMALL * abs(value), NOTHING)
     singles = [goal(each) for each in beside]
-    apart = [abs(v - w) / max(abs(v), 1e-300) for v, (w, _) in zip(values, singles, strict=True)]
+    apart = [abs(v - w) / max(abs(v), NOTHING) for v, (w, _) in zip(values, singles, strict=True)]
     pairs = list(zip(gradients, singles, strict=True))[
         1:
     ]  # at the machine itself two extremes may be as large
