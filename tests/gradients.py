@@ -48,7 +48,7 @@ LEFT_OUT = ("cusp", "double_point", "dead_point", "range_of_motion", "instant_ce
 #: Derivatives smaller than this share of their number, by relative dimension, are judged beside it.
 SMALL = 1e-6
 #: Numbers, SI, that are rounding of zero, as the efficiency of a machine whose work all goes into friction.
-NOTHING = 1e-12
+NOTHING = 1e-9
 #: Places of one point, and of four, at which a number is evaluated, with the weights of its derivative.
 PLACES, WEIGHTS = np.array([-2.0, -1.0, 1.0, 2.0]), np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
 
