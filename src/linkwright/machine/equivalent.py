@@ -171,7 +171,7 @@ def equivalent(forces: Forces) -> Equivalent:
         inertia, slope = _inertia_and_slope(solved.motion)
         return np.stack([inertia, direction * _torque(solved, inertia, slope)])
 
-    found = cycle.curve(reduced, "forces")
+    found = cycle.curve(reduced, "forces", 2)
     edges, (inertia, torque) = found.edges, found.values
     edges = abs(rate) * (edges - cycle.course.begin)
     return Equivalent(

@@ -340,6 +340,8 @@ class Analysis:
                 stretches = (known or [Solved(Cycle(self._machine, ()), {})])[0].stretches
                 course = Course.of(self.motion.mechanism, self.motion.positions, seam=True)
                 found = Ways.of_cycle(resolver, course, stretches.begin)
+                if self._solved and self._solved[0].passed[0]:
+                    return found
             return found if found is not None and found.solved else None
         except LinkwrightError:
             return None

@@ -211,7 +211,7 @@ def _speeds(analysis: Analysis, point: str, motion: Motion) -> tuple[Floats, Flo
     time = motion.time
     if analysis.cycle is not None:
         inner = nodes(
-            analysis.cycle.curve(lambda each: each.point(point).velocity.T, "motion").edges
+            analysis.cycle.curve(lambda each: each.point(point).velocity.T, "motion", 2).edges
         ).T.ravel()
         time = increasing(np.append(time, inner[(inner > time.min()) & (inner < time.max())]))
     speed = _speed(analysis, point, time)

@@ -110,13 +110,13 @@ def _curves(analysis: Analysis) -> tuple[Curves, SolvedCurves] | None:
     cycle, mechanism = analysis.cycle, analysis.motion.mechanism
     keys = points(mechanism)
     if cycle is not None:
-        found = cycle.curve(lambda motion: _rows(motion, keys), "motion", HULL_PIECES)
+        found = cycle.curve(lambda motion: _rows(motion, keys), "motion", 2 * len(keys), HULL_PIECES)
         edges, values = found.edges, np.moveaxis(found.values, 1, 2).reshape(len(keys), 2, -1, POINTS)
         spans = _spans(analysis, cycle, edges, values)
         return Curves(values, *turned(mechanism, edges, analysis.closed), spans), found
     if analysis.ways is None:
         return None
-    found = analysis.ways.curve(lambda motion: _rows(motion, keys), "motion", HULL_PIECES)
+    found = analysis.ways.curve(lambda motion: _rows(motion, keys), "motion", 2 * len(keys), HULL_PIECES)
     edges, values = found.edges, np.moveaxis(found.values, 1, 2).reshape(len(keys), 2, -1, POINTS)
     begins = edges[:-1] == edges[0]
     whole = np.tile([0, len(begins) * POINTS], (len(keys), 1))

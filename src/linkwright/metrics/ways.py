@@ -130,10 +130,8 @@ class Ways:
         SignalsOnWays(self, ok, "motion", Wanted())
         return all(each.all() for each in found)
 
-    def curve(self, read: Read, of: str, pieces: int = PIECES) -> SolvedCurves:
-        """Signals on pieces, so many of a lap to begin with, that meet them everywhere."""
-        begin = self.time(np.array([self.course.begin + 0.5 * self.course.duration]), np.intp(0))
-        count = len(read(self.at(begin, of)))
+    def curve(self, read: Read, of: str, count: int, pieces: int = PIECES) -> SolvedCurves:
+        """``count`` signals on pieces, so many of a lap to begin with, that meet them everywhere."""
         signals = SignalsOnWays.told(self, read, of, Wanted(even=tuple(range(count))), first=pieces)
         found, limits = signals.pieces, np.array([end.limits for end in signals.ends]).reshape(-1, count)
         values = np.stack([found.values(k) for k in range(count)])

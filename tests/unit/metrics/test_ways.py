@@ -19,7 +19,7 @@ def test_polynomials_meet_the_motion_between_their_points(frame: float) -> None:
     motion = lw.solve_motion(machine)
     cycle = Analysis.of(motion).cycle
     assert cycle is not None
-    found = cycle.curve(lambda each: each.link("rocker").angular_velocity, "motion")
+    found = cycle.curve(lambda each: each.link("rocker").angular_velocity, "motion", 1)
     edges, values = found.edges, found.values
     curve = Curve(edges, values[0])
     assert edges[[0, -1]] == pytest.approx([0.0, motion.time[-1] * 360 / 359], rel=1e-12)
@@ -37,5 +37,5 @@ def test_a_cycle_is_cut_where_it_bends_and_nothing_is_halved(text: str, most: in
         [analysis.part(Summary.of(part)).value for part in ("driver.effort rms", "power mean")]
     ).all()
     assert analysis.cycle is not None
-    edges = analysis.cycle.curve(lambda forces: forces.input_torque, "forces").edges
+    edges = analysis.cycle.curve(lambda forces: forces.input_torque, "forces", 1).edges
     assert len(edges) < most
