@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.curves.pieces import HIGH, LOW
 from linkwright.cycle.load_limits import LoadLimits
+from linkwright.events.formula import NODE
 from linkwright.formula.llvm_backend import CompiledProgram, compile_program
 from linkwright.formula.table import Tables
 from linkwright.kinetostatics.load_site import limit_input_name, limit_name, value_name
@@ -24,20 +25,20 @@ class NearLimits:
     Whether a design has no others is for its caller to see, from the signs of the rates at its positions.
     """
 
-    def __init__(self, sought: LoadLimits, code: CompiledProgram, inputs: Mapping[str, float]) -> None:
+    def __init__(
+        self, sought: LoadLimits, place: Mapping[str, int], code: CompiledProgram, inputs: Mapping[str, float]
+    ) -> None:
         machine, order = sought.machine, [(each, kind) for each in sought.outputs for kind in ("max", "min")]
-        law, names = machine.course.first.law, code.program.output_names
+        law = machine.course.first.law
         self._speed, self._begin = float(law.constant_speed or 0.0), law.at(0.0)
         lanes = -(-len(order) // code.width) * code.width
         self._names = [name(*each) for name in (limit_name, limit_input_name, value_name) for each in order]
         times = [(inputs[limit_name(*each)] - self._begin) / self._speed for each in order]
         self._count, self._times, self._lane = len(order), np.resize(times, lanes), np.arange(lanes)
-        outputs = np.resize(np.repeat(np.arange(len(sought.outputs)), 2), lanes)
-        self._rate, self._slope, self._value = (
-            np.array([names.index(form.format(k)) for k in range(len(sought.outputs))])[outputs]
-            for form in ("{}", "{}|node", "value {}")
-        )
-        numbers = {**machine.known.numbers, "node": 0.0}
+        output = [sought.outputs.index(each) for each, _ in order]
+        self._rate = np.resize([place[f"rate {k}"] for k in output], lanes)
+        self._value = np.resize([place[f"value {k}"] for k in output], lanes)
+        numbers = {**machine.known.numbers, NODE: 0.0}
         self._numbers = np.array([numbers[name] for name in code.program.parameters])
         self._own = _Lanes(code, code.program.positions, lanes, machine.known.tables)
 
@@ -49,15 +50,17 @@ class NearLimits:
         if not (sought.steady and start.certain.all()):
             return None
         traces = machine.traces
-        rates = {str(k): traces.rates(each) for k, each in enumerate(outputs)}
         both = machine.formula(
             ("rates and values", outputs),
-            lambda: rates | {f"value {k}": traces.value(each) for k, each in enumerate(outputs)},
-        )
-        code = compile_program(both.with_slope.program)
+            lambda: (
+                {f"rate {k}": traces.rates(each) for k, each in enumerate(outputs)}
+                | {f"value {k}": traces.value(each) for k, each in enumerate(outputs)}
+            ),
+        ).with_slope
+        code = compile_program(both.program)
         if code is None:
             return None
-        return cls(sought, code, {name: float(each[0]) for name, each in start.numbers.items()})
+        return cls(sought, both.place, code, {name: float(each[0]) for name, each in start.numbers.items()})
 
     def numbers(self, values: Mapping[str, float]) -> dict[str, float] | None:
         """Their numbers of the design with these values of the dimensions that vary; None where Newton's steps do not
@@ -69,7 +72,7 @@ class NearLimits:
             columns[LOW][:] = time
             np.add(time, 1.0, out=columns[HIGH])
             found = run(self._numbers)
-            step = found[self._rate, lane] / found[self._slope, lane]
+            step = found[self._rate, lane] / found[self._rate + 1, lane]
             time = time - step
             if float(np.abs(step).max()) * abs(self._speed) <= CONVERGED:
                 at, value = self._begin + self._speed * time, found[self._value, lane]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
-from typing import Literal, cast
+from typing import Literal
 
 import numpy as np
 
@@ -32,7 +32,7 @@ from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.load_site import LAP, limit_name
-from linkwright.kinetostatics.run import forces_of_run
+from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.strokes import turned
 from linkwright.mechanism.mechanism import Mechanism
@@ -156,7 +156,7 @@ class Prepared:
 
     def _check(self, design: Design) -> None:
         """Raises SelfCheckError where the forces of the design by itself, whose formulas were compiled, say so."""
-        forces_of_run(MotionRun(self.solver.for_design(design), self.positions), False, "mark")
+        run_forces(MotionRun(self.solver.for_design(design), self.positions).solve("mark"), False)
         self._checked = True
 
     def _values(self, changes: Mapping[str, float]) -> Floats | None:
@@ -168,6 +168,8 @@ class Prepared:
             elif address not in self.vary:
                 self._refuse_fixed(address)
         if self._loaded.limits is not None:
+            if not self._nominal.keys() >= changes.keys():
+                return None
             limits = self._limits(self._loaded.limits, {**self._nominal, **changes})
             if limits is None:
                 return None
@@ -180,8 +182,6 @@ class Prepared:
 
         By steps from those of the machine as it is, where the positions show that they are all.
         """
-        if len(values) > len(self._nominal):
-            return None
         if self._near is not None:
             return self._near.numbers(values)
         found = sought.solve({name: np.array([value]) for name, value in values.items()})
@@ -211,7 +211,7 @@ class Prepared:
         for address in set(design.changes) - set(self.vary):
             self._refuse_fixed(address)
         solver = self.solver.for_design(design)
-        return forces_of_run(MotionRun(solver, self.positions), False, failures)
+        return run_forces(MotionRun(solver, self.positions).solve(failures), False)
 
 
 def is_near(row: Floats) -> bool:
@@ -228,7 +228,8 @@ def agree(traced: Traced, outputs: Iterable[Output]) -> Mask:
     positions on both ways; on a limit its rate may have either sign."""
     motion, logic = traced.solver.motion, traced.solver.motion.trace.logic
     (driver,) = traced.mechanism.drivers
-    sense, found = sign(motion.trace.parameter(f"{driver}.speed")), cast("Mask", True)
+    found: Mask = True
+    sense = sign(motion.trace.parameter(f"{driver}.speed"))
     step, lap = motion.trace.parameter(STEP), motion.trace.parameter(LAP)
     for output in outputs:
         highest, lowest = (motion.trace.parameter(limit_name(output, kind)) for kind in ("max", "min"))

@@ -53,15 +53,7 @@ def solve_forces(source: Motion | Mechanism, *, static: bool = False, steps: int
     if isinstance(source, Motion):
         return run_forces(source, static)
     require(source, Motion, Mechanism)
-    return forces_of_run(MotionRun(MotionSolver(source), over_cycle(source, steps)), static)
-
-
-def forces_of_run(run: MotionRun, static: bool, failures: str = "raise") -> Forces:
-    """Motion and forces over the positions of a run.
-
-    Raises as :func:`run_forces` and :meth:`MotionRun.solve`.
-    """
-    return run_forces(run.solve(failures), static)
+    return run_forces(MotionRun(MotionSolver(source), over_cycle(source, steps)).solve("raise"), static)
 
 
 def run_forces(
