@@ -48,7 +48,7 @@ class HullArea(Metric):
             chosen = [keys.index(key) for key in own]
             exact = found is not None and not found[1].untold.reshape(-1, 2)[chosen].any()
             far = found[1].unbounded.reshape(-1, 2)[chosen].any(axis=0) if found else np.zeros(2, dtype=bool)
-            if found is None or not exact or far.any():
+            if found is None or far.any():
                 places = np.concatenate([motion.vector("position", key)[motion.ok] for key in own])
                 corners = convex_hull(places.view(np.complex128)[:, 0])
                 size, sides = area(corners), np.ptp(corners.view(float).reshape(-1, 2), axis=0)
