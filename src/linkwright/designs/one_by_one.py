@@ -21,9 +21,9 @@ from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.loads.strokes import TURN
 from linkwright.words.sentence import Sentence
 
-TURN = 2.0 * np.pi
 #: What a summary is of values at positions; extremes skip those that do not exist.
 OF_VALUES: Mapping[str, Callable[[Floats], Any]] = {
     "min": np.fmin.reduce,

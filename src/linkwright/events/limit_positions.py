@@ -298,10 +298,9 @@ class _Reversals:
         """The output from the rows that give its value, angles continuous from the positions ``before``."""
         if self.output.kind != "angle":
             return np.array(rows[0])
-        angle = self.motion.link(self.output.owner).angle
         if self.counted:
-            (turned,) = self.motion.rows.fetch(self.value_names, self.motion.evaluate)
-            return np.asarray(rows[0] + float(np.nanmax(angle - turned)))
+            return np.asarray(rows[0] - self.motion.link(self.output.owner).turns_before)
+        angle = self.motion.link(self.output.owner).angle
         near: Floats = np.asarray(angle[before])
         raw = np.arctan2(rows[1], rows[0])
         if not np.isfinite(near).all():

@@ -139,13 +139,18 @@ class LinkMotion:
         steady = all(driver.law.constant_speed is not None for driver in drivers)
         return angles.counts(self.name) if steady else angles.follows(self.name)
 
+    @property
+    def turns_before(self) -> float:
+        """Whole turns, rad, of a link whose turns are known, that ``angle`` leaves out so that its first one lies in
+        (-π, π]."""
+        turned = self._motion.row("turned_angle", self.name)
+        known = turned[np.isfinite(turned)]
+        return TURN * float(np.ceil(known[0] / TURN - 0.5)) if len(known) else 0.0
+
     def _angle(self) -> Floats:
         apart = not self._motion.positions.is_way
         if self.counted or (apart and self._motion.solver.motion.angles.follows(self.name)):
-            turned = self._motion.row("turned_angle", self.name)
-            known = turned[np.isfinite(turned)]
-            first = float(known[0]) if len(known) else 0.0
-            return locked(turned - 2.0 * np.pi * np.ceil(first / (2.0 * np.pi) - 0.5))
+            return locked(self._motion.row("turned_angle", self.name) - self.turns_before)
         raw = np.arctan2(self.direction[:, 1], self.direction[:, 0])
         order = self._motion.order
         good = np.flatnonzero(np.isfinite(raw)) if order is None else order[np.isfinite(raw[order])]

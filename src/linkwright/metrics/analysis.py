@@ -179,10 +179,9 @@ class Analysis:
         values, period = motion.read(output), known.positions.period
         if motion is known or output.kind != "angle":
             return values
-        angle, begin = known.read(output), float(known.time.min())
         if known.link(output.owner).counted:
-            turns = (angle - known.row("turned_angle", output.owner)) / TURN
-            return np.asarray(motion.row("turned_angle", output.owner) + TURN * np.round(np.nanmean(turns)))
+            return motion.row("turned_angle", output.owner) - known.link(output.owner).turns_before
+        angle, begin = known.read(output), float(known.time.min())
         order = np.argsort(known.time)
         order = order[np.isfinite(angle[order])]
         time = motion.time if period is None else begin + (motion.time - begin) % period

@@ -109,8 +109,6 @@ class HullsOfDesigns(MetricsOfDesigns):
 
         def work(first: int, end: int) -> None:
             solved = Solved(self.cycle, {name: column[first:end] for name, column in own.items()})
-            if not own:
-                solved = Solved(self.cycle, {})
             rows = [solved.pieces.values(self.cycle.number[Signal(each)]) for each in self._words]
             weights = np.zeros((len(factors), len(rows), *rows[0].shape))
             for k in np.flatnonzero(solved.passed & ~solved.pieces.unmet).tolist():
