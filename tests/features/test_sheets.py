@@ -110,7 +110,9 @@ def test_the_velocity_polygon_is_true_to_scale() -> None:
 
 
 def _poles(found: lw.Sheet) -> list[np.ndarray]:
-    return [each.points[0] for each in drawn(found, "Line") if each.pen == "thick" and len(each.points) == 2]
+    return [
+        each.points[0] for each in drawn(found, "Line") if each.style == "thick" and len(each.points) == 2
+    ]
 
 
 def test_the_force_polygon_is_true_to_scale() -> None:
@@ -128,7 +130,7 @@ def test_the_mechanism_is_to_a_standard_scale() -> None:
     """The crank of 110 mm at 1:2: its pin runs on a circle of 55 mm, a chain line."""
     found = sheet("shaper_quick_return", only=["mechanism"], panels={"mechanism": {"scale": 0.002}})
     assert found.scale == "1:2"
-    spans = [np.ptp(each.points, axis=0) for each in drawn(found, "Line") if each.pen == "chain"]
+    spans = [np.ptp(each.points, axis=0) for each in drawn(found, "Line") if each.style == "chain"]
     assert any(np.allclose(span, 110.0, atol=0.01) for span in spans)
 
 
@@ -149,7 +151,7 @@ def test_limit_positions_stand_in_double_dot_chain_lines() -> None:
     levers = [
         each.points[-1] - each.points[0]
         for each in drawn(found, "Line")
-        if each.pen == "double_chain" and abs(math.dist(each.points[0], each.points[-1]) - 270.0) < 0.05
+        if each.style == "double_chain" and abs(math.dist(each.points[0], each.points[-1]) - 270.0) < 0.05
     ]
     angles = sorted({round(math.degrees(math.atan2(*vector[::-1])), 2) for vector in levers})
     assert angles[-1] - angles[0] == pytest.approx(33.652898, abs=0.02)

@@ -22,7 +22,8 @@ from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
 from linkwright.mechanism.link import Link
 from linkwright.page.contacts import CamContact, RackWay, Wheel, Wheels, contact_shape
-from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, Vec
+from linkwright.pictures.picture import Vec
+from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape
 from linkwright.plot.drawing.guides import clear_shift, ground_side, is_cylinder, travel, welds
 from linkwright.plot.drawing.inputs import input_arrows
 from linkwright.plot.drawing.load_marks import Press, Turn, mark_of
@@ -264,9 +265,7 @@ def _tied(machine: Machine, part: Part, point: str | None = None) -> Plain:
 
 
 def _shifted(shape: Shape, at: Vec) -> Shape:
-    from linkwright.pictures.svg.element import group
-
-    return Shape((group(shape.elements, transform=f"translate({-at[0]:.2f} {-at[1]:.2f})"),))
+    return Shape(tuple(each.placed(-np.array(at)) for each in shape.elements))
 
 
 def _load(machine: Machine, load: Load) -> Iterator[Plain]:

@@ -11,6 +11,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.errors import RequestError
+from linkwright.pictures.picture import SvgNode
 from linkwright.pictures.style import CSS
 from linkwright.pictures.svg.element import Element, element, number
 from linkwright.pictures.svg.render import png, save_picture
@@ -88,7 +89,7 @@ def _paper(left: float, top: float, width: float, height: float) -> Element:
 
 
 def document(
-    content: Sequence[Element], box: Box, title: str, size: float | None, *, millimetre: float | None = None
+    content: Sequence[SvgNode], box: Box, title: str, size: float | None, *, millimetre: float | None = None
 ) -> str:
     """A whole SVG document over a box; ``size`` is its longer side in pixels, ``millimetre`` instead the printed
     width of a unit, mm."""
@@ -116,7 +117,7 @@ def document(
     return str(root)
 
 
-def captioned(content: Sequence[Element], box: Box, lines: Sequence[str], title: str) -> str:
+def captioned(content: Sequence[SvgNode], box: Box, lines: Sequence[str], title: str) -> str:
     """A whole SVG document with lines of text below its box."""
     texts = [
         text_element(box[0], box[3] + 24.0 + 20.0 * number, line, "lw-legend", SIZE)

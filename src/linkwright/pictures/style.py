@@ -42,6 +42,7 @@ CSS = "".join((
     _arrow("load", PURPLE, 2.4),
     f".lw-load-ring{{fill:#fff;stroke:{PURPLE};stroke-width:1.6}}",
     f".lw-load-thin{{fill:none;stroke:{PURPLE};stroke-width:1.6}}",
+    ".lw-load-dashed{stroke-dasharray:6 4}",
     _arrow("driver", TEAL, 2.4),
     _arrow("weight", GREEN),
     _arrow("inertia", BLUE),

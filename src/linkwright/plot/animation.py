@@ -21,7 +21,8 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.drawing import Box, bounds, document
-from linkwright.pictures.svg.element import Element, circle, group
+from linkwright.pictures.picture import Circle, SvgNode
+from linkwright.pictures.svg.element import group
 from linkwright.pictures.svg.render import png
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.drawing.draw import Names, all_arrows, solved
@@ -140,7 +141,7 @@ class Moving:
     ``box``."""
 
     track: Floats
-    elements: tuple[Element, ...]
+    elements: tuple[SvgNode, ...]
     box: Box
 
 
@@ -171,7 +172,7 @@ class Animation:
         content += moving_springs(scene, run, seconds)
         content += moving_links(scene, run, seconds)
         for name in self.paths:
-            content.append(shifted(self._track(name), seconds, [circle((0, 0), 3.2, "lw-dot")]))
+            content.append(shifted(self._track(name), seconds, [Circle((0, 0), 3.2, "lw-dot")]))
         for arrows, scale in self.arrows:
             for vectors in arrows.vectors:
                 content += moving_vectors(scene, vectors, scale, run, seconds)
@@ -194,7 +195,7 @@ class Animation:
         content += scene.at(index)
         for name in self.paths:
             x, y = scene.trace(name)[index]
-            content.append(circle((float(x), float(y)), 3.2, "lw-dot"))
+            content.append(Circle((float(x), float(y)), 3.2, "lw-dot"))
         for arrows, scale in self.arrows:
             content += arrows.shape(index, scene.machine.view, scale).elements
         for label in self._labels:
@@ -345,7 +346,7 @@ class Animation:
         return below
 
     @cached_property
-    def _still(self) -> list[Element]:
+    def _still(self) -> list[SvgNode]:
         return [*(self._panel.elements if self._panel is not None else ()), *self._legend.elements]
 
     @cached_property

@@ -12,7 +12,7 @@ from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Floats
 from linkwright.errors import require_language
 from linkwright.pictures.drawing import Drawing, bounds, captioned
-from linkwright.pictures.svg.element import Element, circle, path
+from linkwright.pictures.picture import Circle, Line, SvgNode
 from linkwright.pictures.symbols.base import SYMBOLS, Shape, joined, vec, way
 from linkwright.words import say
 
@@ -41,14 +41,14 @@ def draw_cam(design: CamDesign, angle: float = 0.0, language: str = "en") -> Dra
     def paper(places: Floats) -> Floats:
         return np.asarray(places) * (scale, -scale)
 
-    content: list[Element] = []
+    content: list[SvgNode] = []
     for k, wall in enumerate(walls):
         filled = not barrel and k == 0 and cam.closure != "groove"
-        content.append(path(paper(wall), "lw-gear" if filled else "lw-ground", closed=not barrel))
+        content.append(Line(paper(wall), "lw-gear" if filled else "lw-ground", closed=not barrel))
     if len(pitch):
-        content.append(path(paper(pitch), "lw-pitch", closed=not barrel))
+        content.append(Line(paper(pitch), "lw-pitch", closed=not barrel))
     if not barrel:
-        content.append(circle((0.0, 0.0), scale * (cam.base_radius or 0.0), "lw-hatch"))
+        content.append(Circle((0.0, 0.0), scale * (cam.base_radius or 0.0), "lw-hatch"))
     frame = _frame(follower, paper, turns=not barrel)
     content += frame.elements
     content += _drawn(follower, paper, scale * cam.follower.roller_radius, cam.follower.kind)
@@ -121,22 +121,22 @@ def _round(at: Floats, radius: float) -> Floats:
 
 def _drawn(
     parts: dict[str, Floats], paper: Callable[[Floats], Floats], roller: float, kind: str
-) -> list[Element]:
+) -> list[SvgNode]:
     """Stem, face and roller."""
-    found: list[Element] = []
+    found: list[SvgNode] = []
     if "stem" in parts:
-        found.append(path(paper(parts["stem"]), "lw-bar"))
+        found.append(Line(paper(parts["stem"]), "lw-bar"))
     if "face" in parts:
-        found.append(path(paper(parts["face"]), "lw-bar"))
+        found.append(Line(paper(parts["face"]), "lw-bar"))
     if "roller" in parts and kind == "roller":
         x, y = paper(parts["roller"][1]).tolist()
-        found += [circle((x, y), roller, "lw-pin"), circle((x, y), 2.0, "lw-point")]
+        found += [Circle((x, y), roller, "lw-pin"), Circle((x, y), 2.0, "lw-point")]
     return found
 
 
 def _second(
     design: CamDesign, angle: float, paper: Callable[[Floats], Floats], scale: float
-) -> list[Element]:
+) -> list[SvgNode]:
     """The second roller of a pair, rigid with the first."""
     wall = design.cam.walls[1]
     assert isinstance(wall, RollerCurve)
@@ -145,10 +145,11 @@ def _second(
         at = -at
     place = np.array([at[0].real, at[0].imag])
     x, y = paper(place).tolist()
-    parts = [circle((x, y), scale * wall.follower.roller_radius, "lw-pin"), circle((x, y), 2.0, "lw-point")]
+    at_pin, roller = (x, y), scale * wall.follower.roller_radius
+    parts: list[SvgNode] = [Circle(at_pin, roller, "lw-pin"), Circle(at_pin, 2.0, "lw-point")]
     pivot = design.cam.follower.pivot_distance
     if design.cam.follower.oscillating and pivot is not None:
-        parts.insert(0, path(paper(np.array([(pivot, 0.0), place])), "lw-bar"))
+        parts.insert(0, Line(paper(np.array([(pivot, 0.0), place])), "lw-bar"))
     return parts
 
 

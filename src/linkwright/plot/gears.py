@@ -12,7 +12,8 @@ from linkwright.gears.gear import Gear
 from linkwright.gears.pair import GearPair
 from linkwright.gears.rack import Rack
 from linkwright.pictures.drawing import Box, Drawing, bounds, captioned
-from linkwright.pictures.svg.element import Element, circle, element, path, path_data
+from linkwright.pictures.picture import Circle, Line, SvgNode
+from linkwright.pictures.svg.element import element, path_data
 from linkwright.pictures.symbols.base import points, ring, vec
 from linkwright.words import say
 from linkwright.words.sentence import Sentence
@@ -33,13 +34,13 @@ def draw_pair(pair: GearPair, pinion_angle: float = 0.0, language: str = "en") -
     def paper(places: Floats) -> Floats:
         return np.asarray(places) * (scale, -scale)
 
-    content: list[Element] = []
+    content: list[SvgNode] = []
     gears = ((pair.wheel, outlines[1], centres[1]), (pair.pinion, outlines[0], centres[0]))
     for gear, outline, at in gears:
         content.append(_body(gear, paper(outline), paper(at), scale))
     for gear, _, at in gears:
         content += _circles(pair, gear, vec(paper(at)), scale)
-    content.append(path(paper(contact_line(pair)), "lw-input-line"))
+    content.append(Line(paper(contact_line(pair)), "lw-input-line"))
     box = bounds([paper(each) for each in extent])
     title = say("gears.title", language, first=pair.pinion.teeth, second=pair.wheel.teeth)
     return Drawing(captioned(content, box, _lines(pair, language), title), tuple(map(str, pair.findings)))
@@ -61,7 +62,7 @@ def draw_rack(rack: Rack, language: str = "en") -> Drawing:
         pitch=f"{1e3 * rack.pitch:.7g}",
         angle=f"{math.degrees(rack.pressure_angle):.6g}",
     )
-    content = [path(paper, "lw-gear", closed=True), path(datum, "lw-pitch")]
+    content = [Line(paper, "lw-gear", closed=True), Line(datum, "lw-pitch")]
     wider: Box = (box[0] - 12.0, box[1], box[2] + 12.0, box[3])
     return Drawing(captioned(content, wider, [line], say("gears.rack_title", language, teeth=rack.teeth)))
 
@@ -74,22 +75,22 @@ def contact_line(pair: GearPair) -> Floats:
     return np.array([foot + length * along for length in pair.path_of_contact])
 
 
-def _body(gear: Gear, outline: Floats, at: Floats, scale: float) -> Element:
+def _body(gear: Gear, outline: Floats, at: Floats, scale: float) -> SvgNode:
     if not gear.internal:
-        return path(outline, "lw-gear", closed=True)
+        return Line(outline, "lw-gear", closed=True)
     rim = ring(vec(at), scale * _outer_radius(gear), 180)
     data = path_data(outline, closed=True) + path_data(rim, closed=True)
     return element("path", {"class": "lw-gear", "fill-rule": "evenodd", "d": data})
 
 
-def _circles(pair: GearPair, gear: Gear, at: tuple[float, float], scale: float) -> list[Element]:
+def _circles(pair: GearPair, gear: Gear, at: tuple[float, float], scale: float) -> list[SvgNode]:
     rolling = 0.5 * gear.base_diameter / math.cos(pair.working_pressure_angle)
     arm = 6.0
     return [
-        circle(at, scale * rolling, "lw-pitch"),
-        circle(at, 0.5 * scale * gear.base_diameter, "lw-hatch"),
-        path(points([(at[0] - arm, at[1]), (at[0] + arm, at[1])]), "lw-hatch"),
-        path(points([(at[0], at[1] - arm), (at[0], at[1] + arm)]), "lw-hatch"),
+        Circle(at, scale * rolling, "lw-pitch"),
+        Circle(at, 0.5 * scale * gear.base_diameter, "lw-hatch"),
+        Line(points([(at[0] - arm, at[1]), (at[0] + arm, at[1])]), "lw-hatch"),
+        Line(points([(at[0], at[1] - arm), (at[0], at[1] + arm)]), "lw-hatch"),
     ]
 
 

@@ -9,10 +9,10 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.pictures.picture import LEAST, Pen, Picture, Runs, Words, as_runs, indexed, joined
 from linkwright.plot.diagrams.axes import significant
 from linkwright.sheets.labels import Name, put
 from linkwright.sheets.panel import Drawn, Panel, preferred
-from linkwright.sheets.picture import LEAST, Pen, Picture, Runs, Words, as_runs, indexed, joined
 from linkwright.units import si_unit
 
 #: Height of a diagram in widths; room for numbers at the left, below, and for the arrows of the axes, mm.

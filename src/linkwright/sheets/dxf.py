@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.export.dxf.sheet import STYLE, content_of, new_document
+from linkwright.export.dxf.sheet import STYLE, add, content_of, new_document
+from linkwright.pictures.picture import CAPITAL, Circle, Item, Line, Text
 from linkwright.pictures.svg.fonts import needs_chinese
 from linkwright.sheets.paper import Paper
-from linkwright.sheets.picture import CAPITAL, Circle, Item, Line, Text
 from linkwright.sheets.svg import width_of
 from linkwright.words.characters import one_line
 
@@ -67,47 +67,23 @@ def _limits(document: Any, paper: Paper) -> None:
 
 
 def _shape(space: Any, item: Line | Circle, covers: list[Line | Circle]) -> None:
-    attributes = {"layer": item.pen}
-    low, high = item.cloud.min(axis=0), item.cloud.max(axis=0)
-    near = [each for each in covers if _touches(each, low, high)]
-    if isinstance(item, Circle):
-        if near:
-            angle = np.linspace(0.0, 2 * np.pi, 49)
-            outline = item.at + item.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-            _pieces(space, outline, near, attributes)
-        else:
-            space.add_circle(tuple(item.at), item.radius, dxfattribs=attributes)
-        if item.fill == "ink":
-            hatch = space.add_hatch(color=7, dxfattribs=attributes)
-            hatch.paths.add_edge_path().add_arc(
-                tuple(item.at), radius=item.radius, start_angle=0, end_angle=360
-            )
-        return
+    attributes = {"layer": item.style}
     if item.fill == "ink":
         hatch = space.add_hatch(color=7, dxfattribs=attributes)
-        hatch.paths.add_polyline_path(item.points.tolist(), is_closed=True)
-        return
-    if near:
-        outline = np.vstack([item.points, item.points[:1]]) if item.closed else item.points
-        _pieces(space, outline, near, attributes)
-    elif len(item.points) == 2 and not item.closed:
-        space.add_line(*item.points.tolist(), dxfattribs=attributes)
-    else:
-        space.add_lwpolyline(item.points.tolist(), close=item.closed, dxfattribs=attributes)
+        if isinstance(item, Line):
+            hatch.paths.add_polyline_path(item.points.tolist(), is_closed=True)
+            return
+        hatch.paths.add_edge_path().add_arc(tuple(item.at), radius=item.radius, start_angle=0, end_angle=360)
+    low, high = item.cloud.min(axis=0), item.cloud.max(axis=0)
+    near = [each for each in covers if _touches(each, low, high)]
+    seen = map(Line, visible(item.outline, near)) if near else (item,)
+    for each in seen:
+        add(space, each, attributes)
 
 
 def _touches(cover: Line | Circle, low: Floats, high: Floats) -> bool:
     cloud = cover.cloud
     return bool((cloud.min(axis=0) <= high).all() and (cloud.max(axis=0) >= low).all())
-
-
-def _pieces(space: Any, outline: Floats, covers: list[Line | Circle], attributes: Mapping[str, str]) -> None:
-    """What is seen of a polyline below filled outlines."""
-    for piece in visible(outline, covers):
-        if len(piece) == 2:
-            space.add_line(*piece.tolist(), dxfattribs=attributes)
-        else:
-            space.add_lwpolyline(piece.tolist(), dxfattribs=attributes)
 
 
 def visible(outline: Floats, covers: Iterable[Line | Circle]) -> Iterator[Floats]:

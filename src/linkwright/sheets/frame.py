@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from linkwright.sheets.paper import Box, Paper
-from linkwright.sheets.picture import LEAST, TEXT, Picture
+from linkwright.pictures.picture import LEAST, TEXT, Box, Picture
+from linkwright.sheets.paper import Paper
 from linkwright.words import Say
 
 #: How far centring marks reach into the frame; aim for the length of a zone; depth of the zones' border, mm.

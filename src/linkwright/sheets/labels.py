@@ -8,10 +8,10 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.pictures.picture import CAPITAL, TEXT, Picture, Runs, as_runs
 from linkwright.pictures.svg.text import split_index
 from linkwright.pictures.symbols.base import vec
 from linkwright.plot.drawing.labels import Label, Obstacles, place
-from linkwright.sheets.picture import CAPITAL, TEXT, Circle, Line, Picture, Runs, as_runs
 
 #: Millimetres of the sheet per unit in which symbols and labels are laid out: a pin of 10 units is 3 mm wide.
 UNIT = 0.3
@@ -46,7 +46,7 @@ def put(picture: Picture, names: Iterable[Name], *, more: Iterable[Floats] = ())
     """Writes names on a picture, clear of its lines, its texts and ``more`` polylines (k, 2), mm."""
     wanted = list(names)
     labels = [_label(each) for each in wanted]
-    ink = [line * TO_UNITS for line in (*_ink(picture), *more)]
+    ink = [line * TO_UNITS for line in (*(item.outline for item in picture.items), *more)]
     for name, label, chosen in zip(wanted, labels, place(labels, Obstacles.of(ink)), strict=True):
         left, top, _, bottom = chosen.box
         middle = 0.5 * (top + bottom)
@@ -69,18 +69,3 @@ def _label(name: Name) -> Label:
     places = tuple(vec(np.asarray(at) * TO_UNITS) for at in name.places)
     size = name.height / CAPITAL / UNIT
     return Label(stem, places, size=size, clearance=name.clear / UNIT, index=index)
-
-
-def _ink(picture: Picture) -> list[Floats]:
-    """The polylines of a picture; circles and texts as their outlines."""
-    found: list[Floats] = []
-    for item in picture.items:
-        if isinstance(item, Line):
-            found.append(np.vstack([item.points, item.points[:1]]) if item.closed else item.points)
-        elif isinstance(item, Circle):
-            angle = np.linspace(0.0, 2 * np.pi, 25)
-            found.append(item.at + item.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1))
-        else:
-            corners = item.cloud
-            found.append(np.vstack([corners, corners[:1], corners[2:3], corners[1:2], corners[3:]]))
-    return found

@@ -12,8 +12,8 @@ from dataclasses import field, replace
 from functools import cached_property
 
 from linkwright.core.dataclass import dataclass
+from linkwright.pictures.picture import Box
 from linkwright.sheets.panel import Block
-from linkwright.sheets.paper import Box
 
 #: Least space between panels, and between them and the frame, mm; most that a gap is spread to.
 GAP, WIDEST_GAP = 8.0, 60.0

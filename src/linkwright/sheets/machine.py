@@ -12,13 +12,13 @@ from linkwright.core.arrays import Floats
 from linkwright.drivers.base import Driver
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.force_names import link_numbers
+from linkwright.pictures.picture import LEAST, Picture, as_runs, indexed, joined
 from linkwright.plot.drawing.labels import Label, link_labels, point_labels
 from linkwright.plot.drawing.loads import load_labels, load_marks
 from linkwright.plot.drawing.scene import Scene, laid_out
 from linkwright.plot.drawing.view import View
 from linkwright.sheets.labels import TO_UNITS, UNIT, Name, name_of, put
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
-from linkwright.sheets.picture import LEAST, Picture, as_runs, indexed, joined
 from linkwright.sheets.positions import Positions
 from linkwright.sheets.scene import draw_elements, draw_machine, outline_machine
 

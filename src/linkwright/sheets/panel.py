@@ -20,8 +20,7 @@ import math
 from abc import ABC, abstractmethod
 
 from linkwright.core.dataclass import dataclass
-from linkwright.sheets.paper import Box
-from linkwright.sheets.picture import CAPTION, LEAST, TEXT, Picture, Runs, runs_width
+from linkwright.pictures.picture import CAPTION, LEAST, TEXT, Box, Picture, Runs, runs_width
 
 #: Between a picture and its caption, and from one line of text to the next in heights of letters.
 UNDER, LEADING = 3.0, 1.75

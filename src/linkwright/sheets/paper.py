@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Literal
 
 from linkwright.core.dataclass import dataclass
+from linkwright.pictures.picture import Box
 
 Standard = Literal["gb", "iso"]
 #: Short and long side of the basic sizes.
@@ -17,44 +18,6 @@ SIZES = {"A0": (841, 1189), "A1": (594, 841), "A2": (420, 594), "A3": (297, 420)
 _GB = {"A0": (10, 20), "A1": (10, 20), "A2": (10, 10), "A3": (5, 10), "A4": (5, 10)}
 #: Margins of ISO 5457, and of the bound side of GB/T 14689.
 _ISO, _ISO_LEFT, _BINDING = 10, 20, 25
-
-
-@dataclass(frozen=True)
-class Box:
-    """A rectangle of the paper, mm from its lower left corner."""
-
-    left: float
-    bottom: float
-    right: float
-    top: float
-
-    @property
-    def width(self) -> float:
-        """Its width."""
-        return self.right - self.left
-
-    @property
-    def height(self) -> float:
-        """Its height."""
-        return self.top - self.bottom
-
-    def inset(self, by: float) -> Box:
-        """The rectangle that lies inside by so much on every side."""
-        return Box(self.left + by, self.bottom + by, self.right - by, self.top - by)
-
-    def moved(self, dx: float, dy: float) -> Box:
-        """The same rectangle elsewhere."""
-        return Box(self.left + dx, self.bottom + dy, self.right + dx, self.top + dy)
-
-    def meets(self, other: Box, hair: float = 1e-6) -> bool:
-        """Whether both have area in common."""
-        across = self.left < other.right - hair and other.left < self.right - hair
-        return across and self.bottom < other.top - hair and other.bottom < self.top - hair
-
-    def holds(self, other: Box, hair: float = 1e-6) -> bool:
-        """Whether another one lies in it."""
-        across = self.left <= other.left + hair and other.right <= self.right + hair
-        return across and self.bottom <= other.bottom + hair and other.top <= self.top + hair
 
 
 @dataclass(frozen=True)

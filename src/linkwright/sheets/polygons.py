@@ -13,6 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import link_numbers
+from linkwright.pictures.picture import LEAST, Picture, as_runs, indexed, joined
 from linkwright.plot.diagrams.force_polygon import LinkForce, corners, link_forces, ordered
 from linkwright.plot.diagrams.motion_polygons import gathered
 from linkwright.plot.diagrams.motion_vectors import (
@@ -23,7 +24,6 @@ from linkwright.plot.diagrams.motion_vectors import (
 from linkwright.plot.diagrams.scaled_page import LOW, side_by_side
 from linkwright.sheets.labels import Name, put
 from linkwright.sheets.panel import Drawn, Panel, preferred
-from linkwright.sheets.picture import LEAST, Picture, as_runs, indexed, joined
 from linkwright.sheets.positions import Positions, Shown
 
 #: Vectors that are shorter on the sheet have no name of their own, mm.

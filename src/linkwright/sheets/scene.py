@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
-from linkwright.pictures.svg.element import Element
-from linkwright.pictures.svg.strokes import strokes
+import numpy as np
+
+from linkwright.pictures.picture import Circle, Fill, Line, Pen, Picture
+from linkwright.pictures.symbols.base import vec
 from linkwright.plot.drawing.scene import Scene
 from linkwright.sheets.labels import TO_UNITS
-from linkwright.sheets.picture import Circle, Fill, Line, Pen, Picture
 
 #: Line and filling of the classes of drawings; those that are not named are thin and not filled.
 _STYLES: dict[str, tuple[Pen, Fill]] = {
@@ -22,31 +24,27 @@ _STYLES: dict[str, tuple[Pen, Fill]] = {
 _OUTLINED = ("bodies", "blocks")
 
 
-def draw_elements(picture: Picture, elements: Iterable[Element], pen: Pen | None = None) -> None:
-    """Elements in units of symbols as lines in mm; with a ``pen`` all lines in it and nothing filled."""
-    for stroke in strokes(elements):
-        own, fill = _STYLES.get(stroke.style, ("thin", "ink" if stroke.style.endswith("-head") else ""))
-        if pen is not None:
-            own, fill = pen, ""
-        points = stroke.points / TO_UNITS
-        if stroke.radius is not None:
-            picture.items.append(Circle(points[0], stroke.radius * abs(1.0 / TO_UNITS[0]), own, fill))
-        else:
-            picture.items.append(Line(points, own, stroke.closed, fill))
+def draw_elements(picture: Picture, elements: Iterable[Line | Circle], style: str = "") -> None:
+    """Lines and circles in units of symbols as those of the sheet; with a ``style`` all in it and nothing filled."""
+    for each in elements:
+        own, fill = _STYLES.get(each.style, ("thin", "ink" if each.style.endswith("-head") else ""))
+        picture.items.append(
+            replace(
+                each.placed(np.zeros(2), scale=vec(1.0 / TO_UNITS)),
+                style=style or own,
+                fill="" if style else fill,
+            )
+        )
 
 
 def draw_machine(picture: Picture, scene: Scene, index: int) -> None:
     """The machine at one position in full."""
-    draw_elements(picture, scene.at(index))
+    draw_elements(picture, (item for _, item in scene.items(index)))
 
 
-def outline_machine(picture: Picture, scene: Scene, index: int, pen: Pen) -> None:
+def outline_machine(picture: Picture, scene: Scene, index: int, style: str) -> None:
     """The moving links at another position, by their lines alone."""
-    for layer, link, parts in scene.layered():
-        if link == "frame" or layer not in _OUTLINED:
-            continue
-        transform = scene.machine.view.transform(scene.machine.placed[link], index)
-        x, y, turn = transform
-        shapes = [element for part in parts for element in part.shape.elements]
-        moved = Element("g", (("transform", f"translate({x} {y}) rotate({turn})"),), tuple(shapes))
-        draw_elements(picture, [moved], pen)
+    outlines = (
+        item for part, item in scene.items(index) if part.carrier != "frame" and part.layer in _OUTLINED
+    )
+    draw_elements(picture, outlines, style)

@@ -14,13 +14,13 @@ from linkwright.errors import LinkwrightError, RequestError, require_language, s
 from linkwright.files.model_file import load
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
+from linkwright.pictures.picture import CAPTION, LEAST, TEXT, Box, Picture, Text
 from linkwright.registry import listed
 from linkwright.sheets.frame import BAR, BAR_HEIGHT, control_bar, frame
 from linkwright.sheets.kind import SHEETS, Content, Subject
 from linkwright.sheets.layout import GAP, Room, laid_out
 from linkwright.sheets.panel import Block, Panel, block_of
-from linkwright.sheets.paper import SIZES, Box, Paper
-from linkwright.sheets.picture import CAPTION, LEAST, TEXT, Picture, Text
+from linkwright.sheets.paper import SIZES, Paper
 from linkwright.sheets.settings import Placed, Settings, settings
 from linkwright.sheets.svg import svg
 from linkwright.sheets.title_block import TitleBlock, gb_block, iso_block, school_block

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from linkwright.pictures.svg.element import Element, element, number, path
+import numpy as np
+
+from linkwright.pictures.picture import Item
+from linkwright.pictures.svg.element import element, number
 from linkwright.pictures.svg.text import FAMILY_LIST
 from linkwright.sheets.paper import Paper
-from linkwright.sheets.picture import INDEX, Circle, Item, Line, Text
 
 #: Dashes and gaps of the kinds of lines in widths of a thin line (GB/T 17450, shortened for small pictures).
 DASHES = {
@@ -36,7 +38,7 @@ def svg(items: Iterable[Item], paper: Paper, title: str) -> str:
         element("title", None, title),
         element("style", None, _style(paper)),
         element("rect", {"fill": "#fff", "x": 0, "y": 0, "width": paper.width, "height": paper.height}),
-        *(_element(item, paper.height) for item in items),
+        *(item.placed(np.array([0.0, paper.height]), scale=(1.0, -1.0)) for item in items),
     )
     return str(root)
 
@@ -58,43 +60,3 @@ def _dash(pen: str, paper: Paper) -> str:
         return ""
     unit = 0.25 if paper.thick < 0.6 else 0.3
     return ";stroke-dasharray:" + " ".join(number(max(each * unit, 0.3)) for each in DASHES[pen])
-
-
-def _element(item: Item, height: float) -> Element:
-    if isinstance(item, Line):
-        return path(item.points * (1.0, -1.0) + (0.0, height), _class(item), closed=item.closed)
-    if isinstance(item, Circle):
-        return element(
-            "circle", {"class": _class(item), "cx": item.at[0], "cy": height - item.at[1], "r": item.radius}
-        )
-    return _text(item, height)
-
-
-def _class(item: Line | Circle) -> str:
-    return f"{item.pen} {item.fill}".strip()
-
-
-def _text(item: Text, height: float) -> Element:
-    x, y = float(item.at[0]), height - float(item.at[1])
-    turn = f"rotate({number(-item.turn)} {number(x)} {number(y)})" if item.turn else None
-    if item.squeeze < 1.0:
-        turn = f"translate({number(x)} {number(y)}) scale({item.squeeze:.3f} 1)"
-        x = y = 0.0
-    anchor = None if item.anchor == "start" else item.anchor
-    style = "italic" if item.symbol else None
-    root = element(
-        "text",
-        {"x": x, "y": y, "font-size": item.size, "text-anchor": anchor, "font-style": style,
-         "transform": turn, "xml:space": "preserve"},
-    )  # fmt: skip
-    parts: list[Element | str] = []
-    raised = 0.0
-    for text, level in item.runs:
-        wanted = {0: 0.0, -1: 0.25, 1: -0.38}[level] * item.size
-        if level == 0 and raised == 0.0:
-            parts.append(text)
-            continue
-        size = INDEX * item.size if level else item.size
-        parts.append(element("tspan", {"dy": wanted - raised, "font-size": size}, text))
-        raised = wanted
-    return root.holding(*parts)

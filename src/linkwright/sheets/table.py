@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from linkwright.pictures.picture import Box, Picture, Words, as_runs, runs_width
 from linkwright.sheets.panel import Drawn, Panel
-from linkwright.sheets.paper import Box
-from linkwright.sheets.picture import Picture, Words, as_runs, runs_width
 
 #: Height of a row in heights of its letters, and space beside a text, mm.
 ROW, BESIDE = 1.9, 1.6

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.core.dataclass import dataclass
+from linkwright.pictures.picture import LEAST, TEXT, Box, Picture, as_runs, runs_width
 from linkwright.pictures.svg.fonts import needs_chinese
-from linkwright.sheets.paper import Box
-from linkwright.sheets.picture import LEAST, TEXT, Picture, as_runs, runs_width
 from linkwright.words import Say
 
 #: Least width of letters as a share of their own.

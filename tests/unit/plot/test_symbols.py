@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
+from linkwright.pictures.picture import Circle
 from linkwright.pictures.style import CSS
 from linkwright.pictures.svg.element import element, group, number
 from linkwright.pictures.symbols.base import SYMBOLS, hatching, placed
@@ -80,9 +81,10 @@ def test_numbers_are_short() -> None:
 
 def test_a_ring_is_filled_between_its_teeth_and_its_rim_alone() -> None:
     shape = SYMBOLS["gear"](radius=100.0, inside=True, teeth=40)
-    rim, teeth, pitch = (dict(each.attributes) for each in shape.elements)
-    assert float(rim["r"]) > 100.0 == float(pitch["r"])
-    assert (rim["class"], teeth["class"]) == ("lw-gear", "lw-rim")
+    rim, teeth, pitch = shape.elements
+    assert isinstance(rim, Circle) and isinstance(pitch, Circle)
+    assert rim.radius > 100.0 == pitch.radius
+    assert (rim.style, teeth.style) == ("lw-gear", "lw-rim")
 
 
 def test_a_plate_lets_what_lies_beneath_it_be_seen() -> None:

@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 from linkwright.errors import speaker
+from linkwright.pictures.picture import Box, Circle, Line, Picture
 from linkwright.sheets.dxf import visible
 from linkwright.sheets.frame import zone_count
 from linkwright.sheets.layout import GAP, Room, packed
 from linkwright.sheets.panel import Block, drawing_scale, preferred, scale_text
-from linkwright.sheets.paper import Box
-from linkwright.sheets.picture import Circle, Line, Picture
 from linkwright.sheets.settings import settings
 from linkwright.sheets.title_block import Fields, gb_block, iso_block, school_block
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -14,13 +14,11 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.export.base import package
 from linkwright.export.results import Results
-from linkwright.pictures.svg.strokes import Stroke, strokes
-from linkwright.pictures.symbols.base import PIN, Vec, points
+from linkwright.pictures.picture import Circle, Line, Vec
+from linkwright.pictures.symbols.base import PIN, points
 from linkwright.plot.drawing.dimensions import Dimensioned, dimension_lines
 from linkwright.plot.drawing.labels import Candidate, Label, Obstacles, link_labels, place, point_labels
-from linkwright.plot.drawing.machine import Part
 from linkwright.plot.drawing.scene import laid_out
-from linkwright.plot.drawing.view import moved
 from linkwright.words.characters import one_line
 
 #: Layers with their colours (numbers of the AutoCAD colour index), each with a contrast of 3 or more on a white, a
@@ -48,9 +46,14 @@ class Sheet:
     def machine(self) -> None:
         """Supports, links, blocks and pins."""
         for part in self.scene.parts:
-            if part.layer in _OF_PART:
-                for stroke in _strokes(part):
-                    self._stroke(stroke, part.carrier, _OF_PART[part.layer])
+            if part.layer == "bodies":  # exact lines
+                items: Iterable[Line | Circle] = map(Line, part.shape.ink)
+            elif part.layer in _OF_PART:
+                items = part.shape.elements
+            else:
+                continue
+            for item in items:
+                self._item(item, part.carrier, _OF_PART[part.layer])
         self._pins()
 
     def paths(self, names: Sequence[str] | None, *, spline: bool) -> None:
@@ -145,15 +148,13 @@ class Sheet:
         scaled: Floats = paper * (self.unit, -self.unit)
         return scaled
 
-    def _stroke(self, stroke: Stroke, carrier: str, layer: str) -> None:
+    def _item(self, item: Line | Circle, carrier: str, layer: str) -> None:
         machine = self.scene.machine
-        at = self._units(moved(stroke.points, machine.view.transform(machine.placed[carrier], self.index)))
-        if stroke.radius is not None:
-            self.space.add_circle(at[0], stroke.radius * self.unit, dxfattribs={"layer": layer})
-        elif len(at) == 2 and not stroke.closed:
-            self.space.add_line(at[0], at[1], dxfattribs={"layer": layer})
-        elif len(at) > 1:
-            self.space.add_lwpolyline(at.tolist(), close=stroke.closed, dxfattribs={"layer": layer})
+        x, y, turn = machine.view.transform(machine.placed[carrier], self.index)
+        at = item.placed(np.array([x, y]), math.radians(turn)).placed(
+            np.zeros(2), scale=(self.unit, -self.unit)
+        )
+        add(self.space, at, {"layer": layer})
 
     def _pins(self) -> None:
         """Circles at pins, of the pin's radius where it is given; small ones at other points."""
@@ -185,11 +186,14 @@ class Sheet:
             self.space.add_lwpolyline(track.tolist(), close=closed, dxfattribs=attributes)
 
 
-def _strokes(part: Part) -> list[Stroke]:
-    """Bars and plates from their exact lines, symbols from what they draw."""
-    if part.layer == "bodies":
-        return [Stroke(line) for line in part.shape.ink]
-    return [*strokes(part.shape.elements)]
+def add(space: Any, item: Line | Circle, attributes: Mapping[str, str]) -> None:
+    """A line, a polyline or a circle."""
+    if isinstance(item, Circle):
+        space.add_circle(tuple(item.at), item.radius, dxfattribs=attributes)
+    elif len(item.points) == 2 and not item.closed:
+        space.add_line(*item.points.tolist(), dxfattribs=attributes)
+    elif len(item.points) > 1:
+        space.add_lwpolyline(item.points.tolist(), close=item.closed, dxfattribs=attributes)
 
 
 def check_unit(unit: str) -> tuple[float, int]:

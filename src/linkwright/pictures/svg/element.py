@@ -25,11 +25,11 @@ def escape(text: str) -> str:
 
 @dataclass(frozen=True)
 class Element:
-    """One element: tag, attributes in order, and content (elements or text)."""
+    """One element: tag, attributes in order, and content: text, and what writes itself as SVG."""
 
     tag: str
     attributes: tuple[tuple[str, str], ...]
-    content: tuple[Element | str, ...] = ()
+    content: tuple[object, ...] = ()
 
     def __str__(self) -> str:
         head = "".join(f' {name}="{escape(value)}"' for name, value in self.attributes)
@@ -38,14 +38,12 @@ class Element:
         inner = "".join(escape(each) if isinstance(each, str) else str(each) for each in self.content)
         return f"<{self.tag}{head}>{inner}</{self.tag}>"
 
-    def holding(self, *content: Element | str) -> Element:
+    def holding(self, *content: object) -> Element:
         """The same element with more content."""
         return Element(self.tag, self.attributes, (*self.content, *content))
 
 
-def element(
-    tag: str, attributes: Mapping[str, Attribute | None] | None = None, *content: Element | str
-) -> Element:
+def element(tag: str, attributes: Mapping[str, Attribute | None] | None = None, *content: object) -> Element:
     """An element; attributes that are None are left out, numbers are rounded."""
     pairs = tuple(
         (name, value if isinstance(value, str) else number(value))
@@ -55,7 +53,7 @@ def element(
     return Element(tag, pairs, content)
 
 
-def group(content: Iterable[Element], style: str | None = None, **attributes: Attribute | None) -> Element:
+def group(content: Iterable[object], style: str | None = None, **attributes: Attribute | None) -> Element:
     """A ``g`` element of the class ``style``."""
     return element("g", {"class": style, **attributes}, *content)
 
@@ -76,13 +74,3 @@ def path_data(points: Floats, *, closed: bool = False) -> str:
         parts.append(f"{'L' if pen_down else 'M'}{number(x)} {number(y)}")
         pen_down = True
     return "".join(parts) + ("Z" if closed and parts else "")
-
-
-def path(points: Floats, style: str, *, closed: bool = False) -> Element:
-    """A polyline or polygon of the class ``style``."""
-    return element("path", {"class": style, "d": path_data(points, closed=closed)})
-
-
-def circle(at: tuple[float, float], radius: float, style: str) -> Element:
-    """A circle of the class ``style``."""
-    return element("circle", {"class": style, "cx": at[0], "cy": at[1], "r": radius})

@@ -7,17 +7,17 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.pictures.svg.element import Element, path
-from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, Vec, around, placed, points, vec, way
+from linkwright.pictures.picture import Line, Vec
+from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, around, placed, points, vec, way
 
 HEAD = 9.0
 #: Lengths up to which dimensions have their heads outside, and how far their lines go on behind them there.
 NARROW, BEHIND = 24.0, 16.0
 
 
-def head(tip: Vec, along: Vec, size: float, style: str) -> Element:
+def head(tip: Vec, along: Vec, size: float, style: str) -> Line:
     """A filled arrowhead with its point at ``tip``."""
-    return path(placed([(0, 0), (-size, -0.38 * size), (-size, 0.38 * size)], tip, along), style, closed=True)
+    return Line(placed([(0, 0), (-size, -0.38 * size), (-size, 0.38 * size)], tip, along), style, closed=True)
 
 
 @SYMBOLS.register("crank_arrow")
@@ -40,7 +40,7 @@ def crank_arrow(
     arc = around(at, radius, angle)
     size = HEAD
     back = max(1, round(size * (len(arc) - 1) / (abs(sweep) * radius)))
-    elements: list[Element] = [path(_shortened(arc, size, both=turning == 0), f"{style}-line")]
+    elements: list[Line] = [Line(_shortened(arc, size, both=turning == 0), f"{style}-line")]
     elements.append(head(vec(arc[-1]), way(arc[-1 - back], arc[-1])[1], size, f"{style}-head"))
     if turning == 0:
         elements.append(head(vec(arc[0]), way(arc[back], arc[0])[1], size, f"{style}-head"))
@@ -60,7 +60,7 @@ def slide_arrow(
     a = length / 2
     line = placed([(-a, 0), (a, 0)], at, along)
     stroke = placed([(-a + (5 if both else 0), 0), (a - 5, 0)], at, along)
-    elements = [path(stroke, f"{style}-line"), head(vec(line[1]), along, 9.0, f"{style}-head")]
+    elements = [Line(stroke, f"{style}-line"), head(vec(line[1]), along, 9.0, f"{style}-head")]
     if both:
         elements.append(head(vec(line[0]), (-along[0], -along[1]), 9.0, f"{style}-head"))
     return Shape(tuple(elements), (line,))
@@ -88,7 +88,7 @@ def arrow(*, start: Vec = (0.0, 0.0), end: Vec = (50.0, -20.0), style: str = "lw
     if math.dist(start, end) < 0.8:
         return EMPTY
     shaft, tip = arrow_points(start, end)
-    elements = (path(shaft, f"{style}-line"), path(tip, f"{style}-head", closed=True))
+    elements = (Line(shaft, f"{style}-line"), Line(tip, f"{style}-head", closed=True))
     return Shape(elements, (points([start, end]), tip))
 
 
@@ -112,10 +112,10 @@ def pressure(
     for y in (-0.4 * height, 0.0, 0.4 * height):
         (x0, y0), (x1, y1) = placed([(-length, y), (0.0, y)], at, along).tolist()
         shaft, tip = arrow_points((x0, y0), (x1, y1))
-        elements += [path(shaft, f"{style}-thin"), path(tip, f"{style}-head", closed=True)]
+        elements += [Line(shaft, f"{style}-thin"), Line(tip, f"{style}-head", closed=True)]
         ink += [shaft, tip]
     back = placed([(-length, -0.5 * height), (-length, 0.5 * height)], at, along)
-    return Shape((*elements, path(back, f"{style}-thin")), (*ink, back))
+    return Shape((*elements, Line(back, f"{style}-thin")), (*ink, back))
 
 
 @SYMBOLS.register("dimension_line")
@@ -145,8 +145,8 @@ def dimension_line(
         for x, rise in zip((0.0, length), rises, strict=True)
     )
     elements = (
-        path(stroke, "lw-dimension"),
-        *(path(line, "lw-dimension") for line in extensions),
+        Line(stroke, "lw-dimension"),
+        *(Line(line, "lw-dimension") for line in extensions),
         head(first, back if inside else along, 8.0, "lw-dimension-head"),
         head(last, along if inside else back, 8.0, "lw-dimension-head"),
     )
@@ -164,9 +164,9 @@ def dimension_arc(
         placed([(0.3 * radius, 0.0), (radius + 5.0, 0.0)], at, (math.cos(each), math.sin(each)))
         for each in (first, first + sweep)
     )
-    heads: tuple[Element, ...] = ()
+    heads: tuple[Line, ...] = ()
     if abs(sweep) * radius > 24.0:
         chords = [(arc[4], arc[0]), (arc[-5], arc[-1])]
         heads = tuple(head(vec(tip), way(back, tip)[1], 8.0, "lw-dimension-head") for back, tip in chords)
     lines = (arc, *sides)
-    return Shape((*(path(line, "lw-dimension") for line in lines), *heads), lines)
+    return Shape((*(Line(line, "lw-dimension") for line in lines), *heads), lines)

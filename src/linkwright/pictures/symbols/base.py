@@ -14,10 +14,9 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.pictures.svg.element import Element
+from linkwright.pictures.picture import Circle, Line, Vec
 from linkwright.registry import Registry
 
-Vec = tuple[float, float]
 PIN = 5.0
 LINE = 2.6
 #: Distance and depth of the strokes of a hatching.
@@ -26,9 +25,9 @@ HATCH = (6.0, 7.0)
 
 @dataclass(frozen=True)
 class Shape:
-    """Elements of a symbol and, for keeping labels clear of it, the polylines (k, 2) along which it has ink."""
+    """Lines and circles of a symbol; the polylines (k, 2) along which it has ink, for keeping labels clear of it."""
 
-    elements: tuple[Element, ...]
+    elements: tuple[Line | Circle, ...]
     ink: tuple[Floats, ...] = ()
 
     def __add__(self, other: Shape) -> Shape:

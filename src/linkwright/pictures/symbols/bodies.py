@@ -9,15 +9,15 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.plane import convex_hull
-from linkwright.pictures.svg.element import circle, path
-from linkwright.pictures.symbols.base import SYMBOLS, Shape, Vec, around, placed, points, ring
+from linkwright.pictures.picture import Circle, Line, Vec
+from linkwright.pictures.symbols.base import SYMBOLS, Shape, around, placed, points, ring
 
 
 @SYMBOLS.register("bar")
 def bar(*, through: ArrayLike = ((0.0, 0.0), (60.0, 0.0))) -> Shape:
     """A thick line through points."""
     line = points(through)
-    return Shape((path(line, "lw-bar"),), (line,))
+    return Shape((Line(line, "lw-bar"),), (line,))
 
 
 @SYMBOLS.register("plate")
@@ -25,7 +25,7 @@ def plate(*, corners: ArrayLike = ((0.0, 0.0), (60.0, 0.0), (30.0, -40.0))) -> S
     """A ternary or higher link: the filled hull of its points."""
     places = np.asarray(points(corners) @ (1.0, 1j), dtype=np.complex128)
     hull = convex_hull(places).view(float).reshape(-1, 2)
-    return Shape((path(hull, "lw-plate", closed=True),), (np.vstack([hull, hull[:1]]),))
+    return Shape((Line(hull, "lw-plate", closed=True),), (np.vstack([hull, hull[:1]]),))
 
 
 PITCH, TALL, DEEP = 11.0, 3.2, 3.6
@@ -56,22 +56,22 @@ def gear(
     height = small * np.tile(np.where(_TOOTH[:, 1] > 0, TALL, -DEEP), count) * (-1.0 if inside else 1.0)
     r = radius + height
     outline = around(at, r, angle)
-    rim = (circle(at, radius + 4 * DEEP, "lw-gear"),) if inside else ()
-    wheel = path(outline, "lw-rim" if inside else "lw-gear", closed=True)
-    return Shape((*rim, wheel, circle(at, radius, "lw-pitch")), (ring(at, radius + TALL, 36),))
+    rim = (Circle(at, radius + 4 * DEEP, "lw-gear"),) if inside else ()
+    wheel = Line(outline, "lw-rim" if inside else "lw-gear", closed=True)
+    return Shape((*rim, wheel, Circle(at, radius, "lw-pitch")), (ring(at, radius + TALL, 36),))
 
 
 @SYMBOLS.register("disc")
 def disc(*, at: Vec = (0.0, 0.0), radius: float = 40.0) -> Shape:
     """A wheel without teeth: a pulley, a sprocket, a rolling wheel."""
-    return Shape((circle(at, radius, "lw-gear"),), (ring(at, radius, 36),))
+    return Shape((Circle(at, radius, "lw-gear"),), (ring(at, radius, 36),))
 
 
 @SYMBOLS.register("strand")
 def strand(*, start: Vec = (0.0, 0.0), end: Vec = (60.0, 0.0)) -> Shape:
     """A free strand of a belt or chain."""
     line = points([start, end])
-    return Shape((path(line, "lw-strand"),), (line,))
+    return Shape((Line(line, "lw-strand"),), (line,))
 
 
 @SYMBOLS.register("rack")
@@ -84,7 +84,7 @@ def rack(*, at: Vec = (0.0, 0.0), along: Vec = (1.0, 0.0), start: float = -50.0,
     back = [(end, DEEP), (end, 3 * DEEP), (start, 3 * DEEP)]
     outline = placed(np.vstack([np.stack([x, y], axis=1), back]), at, along)
     line = placed([(start, 0), (end, 0)], at, along)
-    return Shape((path(outline, "lw-gear", closed=True), path(line, "lw-pitch")), (outline, line))
+    return Shape((Line(outline, "lw-gear", closed=True), Line(line, "lw-pitch")), (outline, line))
 
 
 @SYMBOLS.register("cam")
@@ -96,9 +96,9 @@ def cam(
 ) -> Shape:
     """A cam: its closed profile, filled, and its pitch curve, a chain line; ``outer``: a groove's other wall."""
     inner, curve, wall = points(profile), points(pitch), points(outer)
-    body = path(inner, "lw-plate", closed=True)
-    groove = (path(wall, "lw-rim", closed=True),) if len(wall) else ()
-    chain = (path(curve, "lw-pitch", closed=True),) if len(curve) else ()
+    body = Line(inner, "lw-plate", closed=True)
+    groove = (Line(wall, "lw-rim", closed=True),) if len(wall) else ()
+    chain = (Line(curve, "lw-pitch", closed=True),) if len(curve) else ()
     edges = (each for each in (inner, curve, wall) if len(each))
     return Shape((*groove, body, *chain), tuple(_thinned(each) for each in edges))
 
@@ -112,18 +112,18 @@ def _thinned(outline: Floats, most: int = 90) -> Floats:
 @SYMBOLS.register("roller")
 def roller(*, at: Vec = (0.0, 0.0), radius: float = 12.0) -> Shape:
     """The roller of a follower."""
-    return Shape((circle(at, radius, "lw-ground"),), (ring(at, radius, 24),))
+    return Shape((Circle(at, radius, "lw-ground"),), (ring(at, radius, 24),))
 
 
 @SYMBOLS.register("knife")
 def knife(*, at: Vec = (0.0, 0.0), along: Vec = (0.0, -1.0)) -> Shape:
     """The edge of a follower: the tip of a wedge that opens ``along``."""
     wedge = placed([(0.0, 0.0), (14.0, 4.5), (14.0, -4.5)], at, along)
-    return Shape((path(wedge, "lw-gear", closed=True),), (np.vstack([wedge, wedge[:1]]),))
+    return Shape((Line(wedge, "lw-gear", closed=True),), (np.vstack([wedge, wedge[:1]]),))
 
 
 @SYMBOLS.register("face")
 def face(*, start: Vec = (-30.0, 0.0), end: Vec = (30.0, 0.0)) -> Shape:
     """The flat face of a follower."""
     line = points([start, end])
-    return Shape((path(line, "lw-bar"),), (line,))
+    return Shape((Line(line, "lw-bar"),), (line,))

@@ -2,20 +2,32 @@
 
 from __future__ import annotations
 
-from linkwright.pictures.svg.element import circle, element, number, path
-from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, Vec, hatching, joined, placed, points, ring
+import numpy as np
+
+from linkwright.pictures.picture import Circle, Line, Vec
+from linkwright.pictures.symbols.base import (
+    PIN,
+    SYMBOLS,
+    Shape,
+    around,
+    hatching,
+    joined,
+    placed,
+    points,
+    ring,
+)
 
 
 @SYMBOLS.register("pin")
 def pin(*, at: Vec = (0.0, 0.0), radius: float = PIN) -> Shape:
     """A small open circle."""
-    return Shape((circle(at, radius, "lw-pin"),), (ring(at, radius),))
+    return Shape((Circle(at, radius, "lw-pin"),), (ring(at, radius),))
 
 
 @SYMBOLS.register("point")
 def point(*, at: Vec = (0.0, 0.0), radius: float = 0.55 * PIN) -> Shape:
     """A dot: a named point that is no joint."""
-    return Shape((circle(at, radius, "lw-point"),), (ring(at, radius, 8),))
+    return Shape((Circle(at, radius, "lw-point"),), (ring(at, radius, 8),))
 
 
 @SYMBOLS.register("fixed_pivot")
@@ -26,9 +38,9 @@ def fixed_pivot(*, at: Vec = (0.0, 0.0), toward: Vec = (0.0, 1.0), size: float =
     ground = placed([(size, base), (size, -base)], at, toward)
     first, last = ((float(x), float(y)) for x, y in ground)
     elements = (
-        path(triangle, "lw-support", closed=True),
-        path(ground, "lw-ground"),
-        *(path(stroke, "lw-hatch") for stroke in hatching(first, last, 1)),
+        Line(triangle, "lw-support", closed=True),
+        Line(ground, "lw-ground"),
+        *(Line(stroke, "lw-hatch") for stroke in hatching(first, last, 1)),
     )
     outline = placed([(0, 0), (size, -half), (size, -base), (size + 7, -base), (size + 7, base), (size, base),
                       (size, half), (0, 0)], at, toward)  # fmt: skip
@@ -47,7 +59,7 @@ def weld(
         corners = placed([(-a, -a), (a, -a), (a, a), (-a, a)], at, first)
     else:
         corners = points([at, *((at[0] + size * x, at[1] + size * y) for x, y in (first, second))])
-    return Shape((path(corners, "lw-weld", closed=True),), (corners,))
+    return Shape((Line(corners, "lw-weld", closed=True),), (corners,))
 
 
 @SYMBOLS.register("wall")
@@ -57,19 +69,15 @@ def wall(*, at: Vec = (0.0, 0.0), toward: Vec = (0.0, 1.0), size: float = 18.0) 
     a, b = ((float(x), float(y)) for x, y in line)
     strokes = hatching(a, b, 1)
     ink = placed([(0, size), (0, -size), (7, -size), (7, size)], at, toward)
-    return Shape((path(line, "lw-ground"), *(path(stroke, "lw-hatch") for stroke in strokes)), (ink,))
+    return Shape((Line(line, "lw-ground"), *(Line(stroke, "lw-hatch") for stroke in strokes)), (ink,))
 
 
 @SYMBOLS.register("mass_centre")
 def mass_centre(*, at: Vec = (0.0, 0.0), radius: float = 6.0) -> Shape:
     """The symbol for the centre of mass."""
-    x, y, r = at[0], at[1], radius
-
-    def quarter(dx: float, dy: float) -> str:
-        return f"M{number(x)} {number(y)}h{number(dx)}A{number(r)} {number(r)} 0 0 1 {number(x)} {number(y + dy)}Z"
-
-    filled = element("path", {"class": "lw-mass", "d": quarter(r, r) + quarter(-r, -r)})
-    return Shape((circle(at, r, "lw-mass-ring"), filled), (ring(at, r),))
+    quarters = [around(at, radius, np.linspace(first, first + 0.5 * np.pi, 13)) for first in (0.0, np.pi)]
+    filled = (Line(np.vstack([points([at]), arc]), "lw-mass", closed=True) for arc in quarters)
+    return Shape((Circle(at, radius, "lw-mass-ring"), *filled), (ring(at, radius),))
 
 
 LENGTH, HEIGHT = 30.0, 18.0
@@ -95,7 +103,7 @@ def ground_guide(
     strokes = hatching(first, last, side)
     under = placed([(start, y + 7 * side), (end, y + 7 * side)], at, along)
     middle = placed([(start, y + 3.5 * side), (end, y + 3.5 * side)], at, along)
-    elements = (path(rail, "lw-ground"), *(path(stroke, "lw-hatch") for stroke in strokes))
+    elements = (Line(rail, "lw-ground"), *(Line(stroke, "lw-hatch") for stroke in strokes))
     return Shape(elements, (rail, middle, under))
 
 
@@ -105,7 +113,7 @@ def moving_guide(
 ) -> Shape:
     """The rod of a moving link on which a block slides."""
     rod = placed([(start, 0), (end, 0)], at, along)
-    return Shape((path(rod, "lw-bar"),), (rod,))
+    return Shape((Line(rod, "lw-bar"),), (rod,))
 
 
 @SYMBOLS.register("slider")
@@ -116,7 +124,7 @@ def slider(
     a, b = length / 2, height / 2
     corners = placed([(-a, -b), (a, -b), (a, b), (-a, b)], at, along)
     outline = placed([(-a, -b), (a, -b), (a, b), (-a, b), (-a, -b)], at, along)
-    return Shape((path(corners, "lw-block", closed=True),), (outline,))
+    return Shape((Line(corners, "lw-block", closed=True),), (outline,))
 
 
 @SYMBOLS.register("barrel")
@@ -128,7 +136,7 @@ def barrel(
     box = placed([(a, -b), (length, -b), (length, b), (a, b)], at, along)
     stem = placed([(0, 0), (a, 0)], at, along)
     outline = placed([(a, -b), (length, -b), (length, b), (a, b), (a, -b)], at, along)
-    return Shape((path(stem, "lw-bar"), path(box, "lw-block", closed=True)), (stem, outline))
+    return Shape((Line(stem, "lw-bar"), Line(box, "lw-block", closed=True)), (stem, outline))
 
 
 @SYMBOLS.register("piston")
@@ -138,4 +146,4 @@ def piston(
     """Rod and piston; the rod ends at ``at`` and reaches back ``length`` against ``along``."""
     rod = placed([(-length, 0), (0, 0)], at, along)
     head = placed([(-length, -0.36 * height), (-length, 0.36 * height)], at, along)
-    return joined([Shape((path(rod, "lw-bar"),), (rod,)), Shape((path(head, "lw-bar"),))])
+    return joined([Shape((Line(rod, "lw-bar"),), (rod,)), Shape((Line(head, "lw-bar"),))])

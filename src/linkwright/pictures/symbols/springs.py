@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.pictures.svg.element import circle, element, path
-from linkwright.pictures.symbols.base import SYMBOLS, Shape, Vec, around, placed, points, ring, way
+from linkwright.pictures.picture import Circle, Line, Vec
+from linkwright.pictures.symbols.base import SYMBOLS, Shape, around, placed, points, ring, way
 
 #: Coils of a spring, and half of their width.
 COILS, HEIGHT = 6, 7.0
@@ -23,7 +23,7 @@ def spring(*, start: Vec = (0.0, 0.0), end: Vec = (60.0, 0.0)) -> Shape:
     y = np.where(np.arange(len(x)) % 2 == 0, HEIGHT, -HEIGHT)
     y[0] = y[-1] = 0.0
     line = placed(np.vstack([[(0.0, 0.0)], np.stack([x, y], axis=1), [(length, 0.0)]]), start, along)
-    return Shape((path(line, "lw-spring"),), (line,))
+    return Shape((Line(line, "lw-spring"),), (line,))
 
 
 @SYMBOLS.register("torsion_spring")
@@ -32,7 +32,7 @@ def torsion_spring(*, at: Vec = (0.0, 0.0), radius: float = 14.0) -> Shape:
     t = np.linspace(0.0, 1.0, 60)
     angle, r = 4.5 * math.pi * t, 6.0 + (radius - 6.0) * t
     line = around(at, r, angle)
-    return Shape((path(line, "lw-spring"),), (line,))
+    return Shape((Line(line, "lw-spring"),), (line,))
 
 
 @SYMBOLS.register("damper")
@@ -46,7 +46,7 @@ def damper(*, start: Vec = (0.0, 0.0), end: Vec = (60.0, 0.0), height: float = 8
         [(c, -0.7 * height), (c, 0.7 * height)], [(c, 0), (length, 0)],
     )  # fmt: skip
     strokes = [placed(line, start, along) for line in lines]
-    return Shape(tuple(path(stroke, "lw-spring") for stroke in strokes), tuple(strokes))
+    return Shape(tuple(Line(stroke, "lw-spring") for stroke in strokes), tuple(strokes))
 
 
 @SYMBOLS.register("torsion_damper")
@@ -67,7 +67,7 @@ def torsion_damper(*, at: Vec = (0.0, 0.0), radius: float = 16.0) -> Shape:
         np.concatenate([arc(radius, vane, end + 0.55), ray(end + 0.55, radius, 6.0)]),
         np.concatenate([arc(radius, start, start - 0.4), ray(start - 0.4, radius, 6.0)]),
     )
-    return Shape(tuple(path(stroke, "lw-spring") for stroke in strokes), strokes)
+    return Shape(tuple(Line(stroke, "lw-spring") for stroke in strokes), strokes)
 
 
 SIZE = 7.0
@@ -80,11 +80,9 @@ def general_load(*, at: Vec = (0.0, 0.0), ends: tuple[Vec, ...] = ()) -> Shape:
     middle = points([at])[0] if len(ends) < 2 else line.mean(axis=0)
     x, y = float(middle[0]), float(middle[1])
     a = SIZE / np.sqrt(2.0)
-    crossed = points([(x - a, y - a), (x + a, y + a), (np.nan, np.nan), (x - a, y + a), (x + a, y - a)])
-    shape = Shape(
-        (circle((x, y), SIZE, "lw-load-ring"), path(crossed, "lw-load-thin")), (ring((x, y), SIZE),)
-    )
+    crossed = ([(x - a, y - a), (x + a, y + a)], [(x - a, y + a), (x + a, y - a)])
+    strokes = (Line(points(each), "lw-load-thin") for each in crossed)
+    shape = Shape((Circle((x, y), SIZE, "lw-load-ring"), *strokes), (ring((x, y), SIZE),))
     if len(ends) < 2:
         return shape
-    dashes = element("g", {"stroke-dasharray": "6 4"}, path(line, "lw-load-thin"))
-    return Shape((dashes,), (line,)) + shape
+    return Shape((Line(line, "lw-load-thin lw-load-dashed"),), (line,)) + shape

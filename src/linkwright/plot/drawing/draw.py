@@ -15,7 +15,8 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.drawing import Drawing, bounds, document
-from linkwright.pictures.svg.element import Element, group
+from linkwright.pictures.picture import SvgNode
+from linkwright.pictures.svg.element import group
 from linkwright.pictures.symbols.base import points
 from linkwright.plot.drawing.dimensions import Dimension, dimension_lines
 from linkwright.plot.drawing.labels import Label, Obstacles, link_labels, place, point_labels, written
@@ -127,14 +128,14 @@ class Sheet:
 
     def __init__(self, scene: Scene, index: int, shown: int) -> None:
         self.scene, self.index, self.shown = scene, index, shown
-        self.elements: list[Element] = []
+        self.elements: list[SvgNode] = []
         self.ink: list[Floats] = []
         self.extent: list[Floats] = []
         self.notes: list[str] = []
         self.more_labels: list[Label] = []
         self.load_labels: list[Label] = []
 
-    def add(self, elements: Sequence[Element], ink: Sequence[Floats]) -> None:
+    def add(self, elements: Sequence[SvgNode], ink: Sequence[Floats]) -> None:
         """Put elements on top of what is there."""
         self.elements += elements
         self.ink += ink

@@ -8,7 +8,8 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
 from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.motion import Motion
-from linkwright.pictures.symbols.base import LINE, Vec
+from linkwright.pictures.picture import Vec
+from linkwright.pictures.symbols.base import LINE
 from linkwright.plot.drawing.machine import Machine
 
 

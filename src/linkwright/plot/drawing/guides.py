@@ -10,7 +10,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.placement import Placement
-from linkwright.pictures.symbols.base import SYMBOLS, Vec, points
+from linkwright.pictures.picture import Vec
+from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.pictures.symbols.joints import HEIGHT, LENGTH
 from linkwright.plot.drawing.machine import Machine, Part
 

@@ -14,10 +14,11 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.pictures.svg.element import Element, element, number
+from linkwright.pictures.picture import SvgNode, Vec
+from linkwright.pictures.svg.element import element, number
 from linkwright.pictures.svg.text import name_width, split_index, text_element
 from linkwright.pictures.symbols.arrows import BEHIND, NARROW
-from linkwright.pictures.symbols.base import Vec, points, vec, way
+from linkwright.pictures.symbols.base import points, vec, way
 from linkwright.plot.drawing.machine import Machine, flat
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.drawing.view import moved
@@ -255,7 +256,7 @@ def _overlap(boxes: Floats, others: Floats) -> Floats:
     return np.asarray(shared.sum(axis=1))
 
 
-def written(label: Label, chosen: Candidate) -> list[Element]:
+def written(label: Label, chosen: Candidate) -> list[SvgNode]:
     """The text at its place, with a leader where it stands far off."""
     left, top, right, bottom = chosen.box
     found = []

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from linkwright.core.arrays import Floats
 from linkwright.mechanism.force_names import Symbol, link_numbers
 from linkwright.pictures.drawing import Box
-from linkwright.pictures.svg.element import Element
+from linkwright.pictures.picture import SvgNode
 from linkwright.pictures.svg.text import name_width, text_element, width
 from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.plot.drawing.vectors import Arrows, Torques, Vectors, round_length, scale_of, with_unit
@@ -29,7 +29,7 @@ class Legend:
     """Rows below a drawing, each at the left edge of a box, no wider than the box."""
 
     def __init__(self, box: Box) -> None:
-        self.elements: list[Element] = []
+        self.elements: list[SvgNode] = []
         self.extent: list[Floats] = []
         self._left, self._y = box[0], box[3] + 12.0
         self._wide = max(box[2] - box[0], LEAST)

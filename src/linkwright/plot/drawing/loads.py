@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 from linkwright.joints.base import JointName
 from linkwright.loads.base import LinkPoint, Load
-from linkwright.pictures.svg.element import Element
-from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, Vec, joined
+from linkwright.pictures.picture import SvgNode, Vec
+from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, joined
 from linkwright.pictures.symbols.joints import HEIGHT, LENGTH
 from linkwright.plot.drawing.guides import clear_shift, is_cylinder
 from linkwright.plot.drawing.labels import LINK_SIZE, Label
@@ -138,9 +138,9 @@ def pressing(machine: Machine, press: Press, at: Vec, along: Vec) -> Shape:
     return SYMBOLS["pressure"](at=face, along=way, height=HEIGHT)
 
 
-def moving_springs(scene: Scene, run: Sequence[int], seconds: float) -> list[Element]:
+def moving_springs(scene: Scene, run: Sequence[int], seconds: float) -> list[SvgNode]:
     """Springs and dampers that follow their ends over the frames."""
-    found: list[Element] = []
+    found: list[SvgNode] = []
     for load in scene.machine.motion.mechanism.loads.values():
         if mark_of(load, scene.machine.motion, run[0]) is not None:
             continue

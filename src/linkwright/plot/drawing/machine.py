@@ -15,7 +15,8 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import Placement
 from linkwright.loads.base import Load
 from linkwright.mechanism.link import Link
-from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, Vec, points
+from linkwright.pictures.picture import Vec
+from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, points
 from linkwright.plot.drawing.load_marks import Mark, mark_of
 from linkwright.plot.drawing.view import View
 

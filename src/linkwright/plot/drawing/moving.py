@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.pictures.picture import SvgNode
 from linkwright.pictures.svg.element import Element, coordinates, element, group, number
 from linkwright.pictures.symbols.arrows import arrow_points
 from linkwright.pictures.symbols.base import SYMBOLS
@@ -19,7 +20,7 @@ def animate_element(attribute: str, values: Sequence[str], seconds: float) -> El
     return element("animate", {"attributeName": attribute, **_timing(values, seconds)})
 
 
-def shifted(shifts: Floats, seconds: float, content: Sequence[Element]) -> Element:
+def shifted(shifts: Floats, seconds: float, content: Sequence[SvgNode]) -> Element:
     """A group whose shift (n, 2) is animated; without animation it stands at the first."""
     if np.ptp(shifts, axis=0).max() < 0.005:
         return group(content, transform=shift_text(shifts[0]))
@@ -43,9 +44,9 @@ def _turning(degrees: Floats, seconds: float) -> Element:
     return element("animateTransform", {**kind, **_timing(values, seconds)})
 
 
-def moving_links(scene: Scene, frames: Sequence[int], seconds: float) -> list[Element]:
+def moving_links(scene: Scene, frames: Sequence[int], seconds: float) -> list[SvgNode]:
     """The machine with every link moving over the frames."""
-    found: list[Element] = []
+    found: list[SvgNode] = []
     for layer, link, parts in scene.layered():
         shapes = [each for part in parts for each in part.shape.elements]
         if link == "frame":
@@ -67,9 +68,9 @@ def moving_links(scene: Scene, frames: Sequence[int], seconds: float) -> list[El
 
 def moving_vectors(
     scene: Scene, family: Vectors, scale: float, frames: Sequence[int], seconds: float
-) -> list[Element]:
+) -> list[SvgNode]:
     """Arrows that follow their points and change with the motion."""
-    found: list[Element] = []
+    found: list[SvgNode] = []
     for name in family.values:
         ends = [family.ends(name, index, scene.machine.view, scale) for index in frames]
         shown = [(np.zeros(2),) * 2 if each is None else each for each in ends]
@@ -81,9 +82,9 @@ def moving_vectors(
     return found
 
 
-def moving_torques(scene: Scene, torques: Torques, frames: Sequence[int], seconds: float) -> list[Element]:
+def moving_torques(scene: Scene, torques: Torques, frames: Sequence[int], seconds: float) -> list[SvgNode]:
     """Arcs that follow their places; of the two senses the one that holds is seen."""
-    found: list[Element] = []
+    found: list[SvgNode] = []
     rows = list(frames)
     for name, values in torques.values.items():
         places = scene.machine.view.paper(torques.places[name][rows])

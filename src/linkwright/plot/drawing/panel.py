@@ -10,7 +10,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.pictures.drawing import Box
-from linkwright.pictures.svg.element import Element, element, path
+from linkwright.pictures.picture import Line, SvgNode
+from linkwright.pictures.svg.element import Element, element
 from linkwright.pictures.svg.text import text_element, width
 from linkwright.pictures.symbols.base import points
 from linkwright.plot.diagrams.axes import significant, unit_of
@@ -23,7 +24,7 @@ HEIGHT, GAP, SIZE = 78.0, 26.0, 12.0
 class Panel:
     """Curves in rows under a box: still elements, extent, and the cursor's places."""
 
-    elements: tuple[Element, ...]
+    elements: tuple[SvgNode, ...]
     extent: Floats
     left: float
     width: float
@@ -53,7 +54,7 @@ def panel(
     is one driver; ``ends``: smallest and largest value of a result."""
     left, span = box[0], max(box[2] - box[0], 260.0)
     y = box[3] + GAP
-    elements: list[Element] = []
+    elements: list[SvgNode] = []
     right = left + span
     for output, values in results.items():
         text = _caption(output, values, ends(output), language, alone=alone)
@@ -72,15 +73,15 @@ def _caption(output: Output, values: Floats, ends: tuple[float, float], language
     return say("drawing.curve", language, quantity=unit.label(said), low=low, high=high)
 
 
-def _row(text: str, values: Floats, left: float, span: float, top: float) -> list[Element]:
+def _row(text: str, values: Floats, left: float, span: float, top: float) -> list[SvgNode]:
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     reach = (high - low) or 1.0
     x = left + span * np.arange(len(values)) / max(len(values) - 1, 1)
     curve = np.stack([x, top + HEIGHT * (0.96 - 0.9 * (values - low) / reach)], axis=1)
     frame = points([(left, top), (left, top + HEIGHT), (left + span, top + HEIGHT)])
-    elements = [path(frame, "lw-axis"), path(curve, "lw-trace")]
+    elements: list[SvgNode] = [Line(frame, "lw-axis"), Line(curve, "lw-trace")]
     if low < 0 < high:
         zero = top + HEIGHT * (0.96 - 0.9 * (0.0 - low) / reach)
-        elements.append(path(points([(left, zero), (left + span, zero)]), "lw-leader"))
+        elements.append(Line(points([(left, zero), (left + span, zero)]), "lw-leader"))
     elements.append(text_element(left + 4.0, top - 4.0, text, "lw-value", SIZE))
     return elements

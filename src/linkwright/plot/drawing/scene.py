@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 
@@ -11,7 +12,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import followed, placements
-from linkwright.pictures.svg.element import Element, group, number, path
+from linkwright.pictures.picture import Circle, Line, SvgNode
+from linkwright.pictures.svg.element import group, number
 from linkwright.pictures.symbols.base import SYMBOLS
 from linkwright.plot.drawing.guides import guides, welds
 from linkwright.plot.drawing.inputs import input_arrows
@@ -36,7 +38,7 @@ class Scene:
                 if chosen is None or link in chosen:
                     yield layer, link, [p for p in self.parts if p.layer == layer and p.carrier == link]
 
-    def at(self, index: int, *, moving_only: bool = False) -> list[Element]:
+    def at(self, index: int, *, moving_only: bool = False) -> list[SvgNode]:
         """The elements of the machine at one position."""
         links = tuple(self.machine.motion.mechanism.links)
         return [
@@ -48,6 +50,14 @@ class Scene:
             for layer, link, parts in self.layered(links if moving_only else None)
             if not (moving_only and layer == "marks")
         ]
+
+    def items(self, index: int) -> Iterator[tuple[Part, Line | Circle]]:
+        """The lines and circles of the machine at one position, on the paper, with the parts to which they belong."""
+        for _, link, parts in self.layered():
+            x, y, turn = self.machine.view.transform(self.machine.placed[link], index)
+            for part in parts:
+                for each in part.shape.elements:
+                    yield part, each.placed(np.array([x, y]), math.radians(turn))
 
     def ink(self, index: int, *, moving_only: bool = False) -> list[Floats]:
         """The polylines of everything at one position, on the paper."""
@@ -75,9 +85,9 @@ class Scene:
         track = self.machine.view.paper(self.machine.motion.point(point).position)
         return np.vstack([track, track[:1]]) if self.closed and len(track) > 1 else track
 
-    def traces(self, names: Sequence[str]) -> list[Element]:
+    def traces(self, names: Sequence[str]) -> list[SvgNode]:
         """Paths of several points, each in its own colour."""
-        return [path(self.trace(name), f"lw-trace lw-trace-{k % 4}") for k, name in enumerate(names)]
+        return [Line(self.trace(name), f"lw-trace lw-trace-{k % 4}") for k, name in enumerate(names)]
 
 
 def laid_out(

@@ -11,7 +11,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import Placement
-from linkwright.pictures.symbols.base import Vec
+from linkwright.pictures.picture import Vec
 
 DIAGONAL = 620.0
 SHORTEST_BAR = 26.0

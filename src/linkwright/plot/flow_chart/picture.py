@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from linkwright.pictures.drawing import document
-from linkwright.pictures.svg.element import Element, circle, element, path
+from linkwright.pictures.picture import Circle, Line, SvgNode
+from linkwright.pictures.svg.element import Element, element
 from linkwright.pictures.svg.text import sentence_element
 from linkwright.pictures.symbols.arrows import head
 from linkwright.pictures.symbols.base import points, vec, way
@@ -46,15 +47,15 @@ def _document(sheet: Page, title: str, heading: str) -> str:
     return document(content, (left, top, wide, tall), title, None, millimetre=MILLIMETRE)
 
 
-def _lines(sheet: Page) -> Iterator[Element]:
+def _lines(sheet: Page) -> Iterator[SvgNode]:
     for line in sheet.lines:
-        yield path(line.corners, "lw-flow-line")
+        yield Line(line.corners, "lw-flow-line")
         if line.arrow:
             _, along = way(line.corners[-2], line.corners[-1])
             yield head(vec(line.corners[-1]), along, 9.0, "lw-flow-head")
 
 
-def _boxes(sheet: Page) -> Iterator[Element]:
+def _boxes(sheet: Page) -> Iterator[SvgNode]:
     for box in sheet.boxes:
         yield from _outline(box)
         first = box.y - LINE * len(box.lines) / 2 + 0.5 * (LINE + 0.7 * SIZE)
@@ -63,28 +64,28 @@ def _boxes(sheet: Page) -> Iterator[Element]:
             yield sentence_element(box.x, first + LINE * number, text, style, SIZE, "middle")
 
 
-def _outline(box: Box) -> Iterator[Element]:
+def _outline(box: Box) -> Iterator[SvgNode]:
     left, top, right, bottom = box.corners
     match box.shape:
         case "terminator":
             yield _rectangle(box, rx=box.half_height)
         case "data":
             lean = [(left + LEAN, top), (right, top), (right - LEAN, bottom), (left, bottom)]
-            yield path(points(lean), "lw-flow", closed=True)
+            yield Line(points(lean), "lw-flow", closed=True)
         case "preparation":
             tip = min(LEAN, box.half_height)
             hexagon = [(left - tip + LEAN / 2, box.y), (left + LEAN / 2, top), (right - LEAN / 2, top),
                        (right + tip - LEAN / 2, box.y), (right - LEAN / 2, bottom),
                        (left + LEAN / 2, bottom)]  # fmt: skip
-            yield path(points(hexagon), "lw-flow", closed=True)
+            yield Line(points(hexagon), "lw-flow", closed=True)
         case "decision":
-            yield path(points([(left, box.y), (box.x, top), (right, box.y), (box.x, bottom)]), "lw-flow",
+            yield Line(points([(left, box.y), (box.x, top), (right, box.y), (box.x, bottom)]), "lw-flow",
                        closed=True)  # fmt: skip
         case _:
             yield _rectangle(box)
             if box.shape == "call":
                 for x in (left + BARS, right - BARS):
-                    yield path(np.array([(x, top), (x, bottom)]), "lw-flow-line")
+                    yield Line(np.array([(x, top), (x, bottom)]), "lw-flow-line")
 
 
 def _rectangle(box: Box, rx: float | None = None) -> Element:
@@ -93,9 +94,9 @@ def _rectangle(box: Box, rx: float | None = None) -> Element:
     return element("rect", {"class": "lw-flow", **size, "rx": rx})
 
 
-def _marks(sheet: Page) -> Iterator[Element]:
+def _marks(sheet: Page) -> Iterator[SvgNode]:
     for word in sheet.words:
         yield sentence_element(word.x, word.y, word.text, "lw-legend", SIZE)
     for x, y, letter in sheet.circles:
-        yield circle((x, y), RADIUS, "lw-flow")
+        yield Circle((x, y), RADIUS, "lw-flow")
         yield sentence_element(x, y + 0.36 * SIZE, letter, "lw-legend", SIZE, "middle")

@@ -10,8 +10,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.pictures.svg.element import Element, group, path
-from linkwright.pictures.symbols.base import SYMBOLS, Shape, points, vec
+from linkwright.pictures.picture import Line, SvgNode
+from linkwright.pictures.svg.element import group
+from linkwright.pictures.symbols.base import SYMBOLS, points, vec
 from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.vectors import NAME_SIZE
 from linkwright.plot.drawing.view import View
@@ -43,7 +44,7 @@ class Arrow:
     to_scale: bool
 
     @property
-    def elements(self) -> tuple[Element, ...]:
+    def elements(self) -> tuple[SvgNode, ...]:
         """The arrow with its line of action up to its place, where it stands apart from that."""
         style = STYLES[self.action.role]
         shown = SYMBOLS["arrow"](start=vec(self.foot), end=vec(self.point), style=style).elements
@@ -51,7 +52,7 @@ class Arrow:
         near = min((self.foot, self.point), key=lambda end: math.dist(end, self.place))
         if math.dist(near, self.place) < 2 * GAP:
             return (arrow,)
-        return path(points([near, self.place]), "lw-leader"), arrow
+        return Line(points([near, self.place]), "lw-leader"), arrow
 
     @property
     def ink(self) -> Floats:
@@ -123,16 +124,17 @@ def _covered(arrow: Arrow, others: Floats, weight: float) -> float:
     return weight * float(np.mean(gaps.min(axis=1) < NEAR))
 
 
-def arcs(couples: Sequence[Action], view: View) -> tuple[list[Shape], list[Label]]:
-    """Arcs of couples about their places, wider where several have one place, and their symbols."""
-    shapes, labels, used = [], [], list[Floats]()
+def arcs(couples: Sequence[Action], view: View) -> tuple[list[SvgNode], list[Floats], list[Label]]:
+    """Arcs of couples about their places, wider where several have one place, their ink, and their symbols."""
+    found, ink, labels, used = list[SvgNode](), list[Floats](), [], list[Floats]()
     for each in couples:
         at = np.asarray(view.paper(each.place))
         radius = RADIUS + WIDER * sum(math.dist(at, other) < 4.0 for other in used)
         used.append(at)
         turning = 1 if each.torque > 0 else -1
         shape = SYMBOLS["moment"](at=vec(at), turning=turning, radius=radius, style=STYLES[each.role])
-        shapes.append(Shape((group(shape.elements, None, **{"data-action": each.symbol}),), shape.ink))
+        found.append(group(shape.elements, None, **{"data-action": each.symbol}))
+        ink += shape.ink
         sides = [(0.0, -1.0), (0.7, -0.7), (-0.7, -0.7), (1.0, 0.0), (-1.0, 0.0)]
         labels.append(_label(each, tuple((at[0] + radius * x, at[1] + radius * y) for x, y in sides), 6.0))
-    return shapes, labels
+    return found, ink, labels

@@ -11,7 +11,8 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.pictures.drawing import document
-from linkwright.pictures.svg.element import Element, group, number, path
+from linkwright.pictures.picture import Line, SvgNode
+from linkwright.pictures.svg.element import group, number
 from linkwright.pictures.svg.text import sentence_element, text_element
 from linkwright.pictures.symbols.base import points
 from linkwright.plot.drawing.vectors import with_unit
@@ -38,7 +39,7 @@ DIGITS, KILO = 5, 1e5
 class Cell:
     """A picture with its title and its table, its upper left corner at the origin."""
 
-    elements: tuple[Element, ...]
+    elements: tuple[SvgNode, ...]
     height: float
     body: FreeBody
     shortened: bool
@@ -76,7 +77,7 @@ def free_body_pages(
 def _cell(drawn: BodyPicture, say: Say, language: str) -> Cell:
     body = drawn.body
     named = say("free_bodies.title", number=body.number, link=link_said(body.link, language))
-    content: list[Element] = [sentence_element(0.0, TITLE, named, "lw-legend lw-flow-call", TITLE)]
+    content: list[SvgNode] = [sentence_element(0.0, TITLE, named, "lw-legend lw-flow-call", TITLE)]
     content.append(sentence_element(0.0, TITLE_LINE + SIZE + 2.0, _scales(drawn), "lw-legend", SIZE))
     left, top, right, bottom = drawn.box
     across = 0.5 * (ROOM[0] - (right - left)) - left
@@ -97,9 +98,9 @@ def _scales(drawn: BodyPicture) -> str:
 
 
 # numbers --------------------------------------------------------------------------------------
-def _table(body: FreeBody, say: Say, top: float) -> tuple[list[Element], float]:
+def _table(body: FreeBody, say: Say, top: float) -> tuple[list[SvgNode], float]:
     """Components, sizes and directions of forces, and couples, below a height; how tall the table is."""
-    found: list[Element] = []
+    found: list[SvgNode] = []
     y = top
     if body.forces:
         unit, factor = _force_unit(body.forces)
@@ -127,7 +128,7 @@ def _table(body: FreeBody, say: Say, top: float) -> tuple[list[Element], float]:
     return found, y - top
 
 
-def _moments(found: list[Element], y: float, body: FreeBody, say: Say) -> float:
+def _moments(found: list[SvgNode], y: float, body: FreeBody, say: Say) -> float:
     """The sum of all moments, about the mass centre; of forces through one point there is none."""
     moments = [each.moment(body.centre) for each in body.actions]
     arms = [each.size * math.dist(each.place, body.centre) for each in body.actions]
@@ -154,14 +155,14 @@ def _shown(value: float, place: int) -> str:
     return text.removeprefix("-") if not float(text) else text.replace("-", "−")
 
 
-def _head(found: list[Element], y: float, texts: Sequence[str]) -> float:
+def _head(found: list[SvgNode], y: float, texts: Sequence[str]) -> float:
     for share, text in zip(COLUMNS, texts, strict=False):
         found.append(sentence_element(share * ROOM[0], y + SIZE, text, "lw-legend", SIZE, "end"))
-    found.append(path(points([(0.0, y + LINE), (ROOM[0], y + LINE)]), "lw-rule"))
+    found.append(Line(points([(0.0, y + LINE), (ROOM[0], y + LINE)]), "lw-rule"))
     return y + LINE + 2.0
 
 
-def _row(found: list[Element], y: float, action: Action, cells: Sequence[str]) -> float:
+def _row(found: list[SvgNode], y: float, action: Action, cells: Sequence[str]) -> float:
     """The row of an action; a long name takes several lines."""
     style = f"{STYLES[action.role]}-name"
     names = fold(action.letter, COLUMNS[0] * ROOM[0] - 62.0, SIZE)
@@ -172,14 +173,14 @@ def _row(found: list[Element], y: float, action: Action, cells: Sequence[str]) -
     return y + LINE * len(names)
 
 
-def _line(found: list[Element], y: float, name: str, cells: Sequence[str]) -> float:
-    found.append(path(points([(0.0, y + 1.0), (ROOM[0], y + 1.0)]), "lw-rule"))
+def _line(found: list[SvgNode], y: float, name: str, cells: Sequence[str]) -> float:
+    found.append(Line(points([(0.0, y + 1.0), (ROOM[0], y + 1.0)]), "lw-rule"))
     found.append(sentence_element(0.0, y + SIZE + 3.0, name, "lw-legend", SIZE))
     _cells(found, y + 3.0, cells)
     return y + LINE + 6.0
 
 
-def _cells(found: list[Element], y: float, cells: Sequence[str]) -> None:
+def _cells(found: list[SvgNode], y: float, cells: Sequence[str]) -> None:
     for share, text in zip(COLUMNS, cells, strict=False):
         found.append(sentence_element(share * ROOM[0], y + SIZE, text, "lw-value", SIZE, "end"))
 
@@ -204,7 +205,7 @@ def _document(rows: Sequence[Sequence[Cell]], say: Say, heading: str) -> str:
     apart = APART / MILLIMETRE
     columns = max(map(len, rows))
     wide = columns * ROOM[0] + (columns - 1) * apart
-    content: list[Element] = []
+    content: list[SvgNode] = []
     y = 0.0
     for line in fold(heading, wide, 15.0) if heading else ():
         content.append(sentence_element(0.0, y + 15.0, line, "lw-legend", 15.0))

@@ -13,7 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
 from linkwright.pictures.drawing import Box, bounds
-from linkwright.pictures.svg.element import Element
+from linkwright.pictures.picture import SvgNode
 from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.plot.drawing.labels import Label, Obstacles, place, written
 from linkwright.plot.drawing.machine import Machine, Part
@@ -37,7 +37,7 @@ class BodyPicture:
     """A drawn link: elements over a ``box`` of the paper; metres and newtons per printed millimetre."""
 
     body: FreeBody
-    elements: tuple[Element, ...]
+    elements: tuple[SvgNode, ...]
     box: Box
     length_scale: float
     force_scale: float | None
@@ -133,14 +133,14 @@ class _Sketch:
         view, link = self.scene.machine.view, self.scene.ink(shapes.index)
         per_newton = 1.0 / (newtons * MILLIMETRE) if newtons else 0.0
         self.arrows = arranged(body.forces, view, per_newton, link)
-        self.turns, self.labels = arcs(body.couples, view)
-        self.ink = [*link, *(a.ink for a in self.arrows), *(line for t in self.turns for line in t.ink)]
+        self.turns, turned, self.labels = arcs(body.couples, view)
+        self.ink = [*link, *(a.ink for a in self.arrows), *turned]
 
     def finished(self) -> BodyPicture:
         """The picture with its names."""
         elements = self.scene.at(self.index)
         elements += [each for arrow in self.arrows for each in arrow.elements]
-        elements += [each for shape in self.turns for each in shape.elements]
+        elements += self.turns
         labels = [*(arrow.label for arrow in self.arrows), *self.labels]
         labels += _names(self.scene, self.body.link, self.index)
         texts, extent = _placed_labels(labels, self.ink)
@@ -160,7 +160,7 @@ def _names(scene: Scene, link: str, index: int) -> list[Label]:
     return found
 
 
-def _placed_labels(labels: Sequence[Label], ink: Sequence[Floats]) -> tuple[list[Element], list[Floats]]:
+def _placed_labels(labels: Sequence[Label], ink: Sequence[Floats]) -> tuple[list[SvgNode], list[Floats]]:
     """Labels clear of what is drawn and of each other, and their corners."""
     texts, extent = [], []
     for label, chosen in zip(labels, place(labels, Obstacles.of(ink)), strict=True):

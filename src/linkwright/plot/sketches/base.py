@@ -14,8 +14,9 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import require_language
 from linkwright.parts.base import Problem
 from linkwright.pictures.drawing import Drawing, bounds, document
-from linkwright.pictures.svg.element import Element, element, group, path
-from linkwright.pictures.symbols.base import SYMBOLS, Shape, Vec, placed, points, vec
+from linkwright.pictures.picture import Line, SvgNode, Vec
+from linkwright.pictures.svg.element import element, group
+from linkwright.pictures.symbols.base import SYMBOLS, Shape, placed, points, vec
 from linkwright.plot.drawing.labels import Label, Obstacles, place, written
 from linkwright.registry import Registry
 
@@ -48,7 +49,7 @@ class Paper:
     """Symbols and labels in the units of the paper, y down; labels are put where nothing is drawn."""
 
     def __init__(self) -> None:
-        self.content: list[Element] = []
+        self.content: list[SvgNode] = []
         self.ink: list[Floats] = []
         self.labels: list[Label] = []
 
@@ -64,7 +65,7 @@ class Paper:
     def line(self, places: ArrayLike, style: str = "lw-ground", *, closed: bool = False) -> None:
         """A polyline or a polygon."""
         rows = points(places)
-        self.content.append(path(rows, style, closed=closed))
+        self.content.append(Line(rows, style, closed=closed))
         self.ink.append(np.vstack([rows, rows[:1]]) if closed else rows)
 
     def circle(self, at: Vec, radius: float, style: str = "lw-ground") -> None:

@@ -10,7 +10,8 @@ from linkwright.parts.mechanism_field import OfMechanism
 from linkwright.parts.statics.body import RigidBody, Support
 from linkwright.parts.statics.forces import spatial
 from linkwright.pictures.drawing import Drawing
-from linkwright.pictures.symbols.base import Vec, vec
+from linkwright.pictures.picture import Vec
+from linkwright.pictures.symbols.base import vec
 from linkwright.plot.sketches.base import Paper, roller_support, scale_of, sketched
 from linkwright.plot.sketches.forces import AXIS, ISOMETRIC, LONGEST, SHORTEST, axes
 

@@ -9,7 +9,7 @@ from linkwright.parts.vibration.excitation import STRAIGHT, TURNING
 from linkwright.parts.vibration.follower import FollowerSpring
 from linkwright.parts.vibration.system import GROUND, Tie, VibratingSystem
 from linkwright.pictures.drawing import Drawing
-from linkwright.pictures.symbols.base import Vec
+from linkwright.pictures.picture import Vec
 from linkwright.plot.drawing.labels import Label
 from linkwright.plot.sketches.base import Paper, sketched
 

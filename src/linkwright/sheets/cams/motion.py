@@ -11,10 +11,10 @@ from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.laws.program import TURN
+from linkwright.pictures.picture import LEAST, TEXT, Picture, Runs, as_runs, indexed, joined, runs_width
 from linkwright.sheets.cams.division import Phase, divided, phases
 from linkwright.sheets.cams.scales import graphical, plain
 from linkwright.sheets.panel import Drawn, Panel, preferred
-from linkwright.sheets.picture import LEAST, TEXT, Picture, Runs, as_runs, indexed, joined, runs_width
 from linkwright.words import Say
 
 #: Shares of the height for lift, velocity and acceleration; space above and below each strip, mm.

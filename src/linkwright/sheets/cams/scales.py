@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.sheets.picture import Runs, indexed, joined
+from linkwright.pictures.picture import Runs, indexed, joined
 
 
 def plain(value: float, digits: int = 4) -> str:

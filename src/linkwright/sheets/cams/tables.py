@@ -10,11 +10,11 @@ import numpy as np
 
 from linkwright.cams.result import CamDesign
 from linkwright.laws.smoothest import FoundProgram
+from linkwright.pictures.picture import Runs, Words, as_runs, indexed, joined
 from linkwright.sheets.cams.division import Phase, divided, phases
 from linkwright.sheets.cams.geometry import pitch_of
 from linkwright.sheets.cams.scales import fixed, plain
 from linkwright.sheets.panel import Drawn
-from linkwright.sheets.picture import Runs, Words, as_runs, indexed, joined
 from linkwright.sheets.table import TablePanel
 from linkwright.words import Say, has
 

@@ -12,13 +12,13 @@ from linkwright.cams.result import CamDesign
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.cam import CamJoint
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.pictures.picture import LEAST, TEXT
 from linkwright.registry import listed
 from linkwright.sheets.cams.development import DevelopmentPanel
 from linkwright.sheets.cams.motion import MotionPanel
 from linkwright.sheets.cams.profile import ProfilePanel
 from linkwright.sheets.cams.tables import data_table, points_table
 from linkwright.sheets.kind import SHEETS, Content, Subject
-from linkwright.sheets.picture import LEAST, TEXT
 
 #: Share of the paper's shorter side that the diagrams of the motion take at most.
 _MOTION = 0.42

@@ -11,6 +11,7 @@ from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.pictures.picture import as_runs, indexed
 from linkwright.plot.diagrams.axes import InputAxis
 from linkwright.plot.diagrams.base import Request
 from linkwright.plot.diagrams.force_polygon import link_forces, polygon_links
@@ -24,7 +25,6 @@ from linkwright.sheets.kind import SHEETS, Content, Subject
 from linkwright.sheets.machine import MachinePanel
 from linkwright.sheets.machine_tables import data_table, force_table, motion_table
 from linkwright.sheets.panel import Panel
-from linkwright.sheets.picture import as_runs, indexed
 from linkwright.sheets.polygons import AccelerationPanel, ForcePanel, VelocityPanel
 from linkwright.sheets.positions import Positions
 

@@ -1,9 +1,13 @@
-"""What a sheet is drawn with: lines, circles and texts in millimetres of paper, x to the right, y up."""
+"""What drawings consist of: lines, circles and texts, which write themselves as SVG, and pictures made of them.
+
+Pictures of sheets and polygons are in millimetres of paper, y up; symbols and kinematic drawings in their units, y
+down, as SVG has it.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import field, replace
 from typing import Literal, TypeAlias
 
@@ -12,13 +16,14 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.pictures.svg.element import Attribute, Element, element, number, path_data
 from linkwright.pictures.svg.fonts import needs_chinese
 from linkwright.pictures.svg.text import width as text_width
-from linkwright.sheets.paper import Box
 
 #: Kinds of lines after GB/T 4457.4 and ISO 128-2: ``frame`` and ``thick`` are wide, the others have half their width;
 #: ``chain`` for paths, centre lines and pitch circles, ``double_chain`` for limit positions of moving parts.
 Pen = Literal["frame", "thick", "thin", "dashed", "chain", "double_chain"]
+Vec: TypeAlias = tuple[float, float]
 #: What a closed outline is filled with: nothing, the paper (hides what lies below), the colour of lines.
 Fill = Literal["", "paper", "ink"]
 Anchor = Literal["start", "middle", "end"]
@@ -36,87 +41,191 @@ HEAD = (3.2, 0.55)
 
 
 @dataclass(frozen=True)
+class Box:
+    """A rectangle, y up."""
+
+    left: float
+    bottom: float
+    right: float
+    top: float
+
+    @property
+    def width(self) -> float:
+        """Its width."""
+        return self.right - self.left
+
+    @property
+    def height(self) -> float:
+        """Its height."""
+        return self.top - self.bottom
+
+    def inset(self, by: float) -> Box:
+        """The rectangle that lies inside by so much on every side."""
+        return Box(self.left + by, self.bottom + by, self.right - by, self.top - by)
+
+    def moved(self, dx: float, dy: float) -> Box:
+        """The same rectangle elsewhere."""
+        return Box(self.left + dx, self.bottom + dy, self.right + dx, self.top + dy)
+
+    def meets(self, other: Box, hair: float = 1e-6) -> bool:
+        """Whether both have area in common."""
+        across = self.left < other.right - hair and other.left < self.right - hair
+        return across and self.bottom < other.top - hair and other.bottom < self.top - hair
+
+    def holds(self, other: Box, hair: float = 1e-6) -> bool:
+        """Whether another one lies in it."""
+        across = self.left <= other.left + hair and other.right <= self.right + hair
+        return across and self.bottom <= other.bottom + hair and other.top <= self.top + hair
+
+
+@dataclass(frozen=True)
 class Line:
-    """A polyline (k, 2); ``closed``: back to its start."""
+    """A polyline (k, 2), a row of NaN breaks it; ``closed``: back to its start; ``style``: its kind of line, or the
+    class of what it is part of."""
 
     points: Floats
-    pen: Pen = "thin"
+    style: str = "thin"
     closed: bool = False
     fill: Fill = ""
 
-    def moved(self, shift: Floats) -> Line:
-        """The same elsewhere."""
-        return replace(self, points=self.points + shift)
+    def placed(self, shift: Floats, turn: float = 0.0, scale: Vec = (1.0, 1.0)) -> Line:
+        """The same scaled, turned (rad, from x to y) and shifted."""
+        return replace(self, points=_placed(self.points, shift, turn, scale))
 
     @property
     def cloud(self) -> Floats:
         """Places between which it lies."""
         return self.points[np.isfinite(self.points).all(axis=1)]
 
+    @property
+    def outline(self) -> Floats:
+        """The line along which it has ink."""
+        return np.vstack([self.points, self.points[:1]]) if self.closed else self.points
+
+    def __str__(self) -> str:
+        return str(element("path", {"class": f"{self.style} {self.fill}".rstrip(),
+                                    "d": path_data(self.points, closed=self.closed)}))  # fmt: skip
+
 
 @dataclass(frozen=True)
 class Circle:
     """A circle."""
 
-    at: Floats
+    at: Floats | Vec
     radius: float
-    pen: Pen = "thin"
+    style: str = "thin"
     fill: Fill = ""
 
-    def moved(self, shift: Floats) -> Circle:
-        """The same elsewhere."""
-        return replace(self, at=self.at + shift)
+    def placed(self, shift: Floats, turn: float = 0.0, scale: Vec = (1.0, 1.0)) -> Circle:
+        """The same scaled, turned (rad, from x to y) and shifted."""
+        at = _placed(np.asarray(self.at), shift, turn, scale)
+        return replace(self, at=at, radius=self.radius * abs(scale[0]))
 
     @property
     def cloud(self) -> Floats:
         """Places between which it lies."""
-        return self.at + self.radius * np.array([(-1.0, -1.0), (1.0, 1.0)])
+        return np.asarray(self.at) + self.radius * np.array([(-1.0, -1.0), (1.0, 1.0)])
+
+    @property
+    def outline(self) -> Floats:
+        """The line along which it has ink."""
+        angle = np.linspace(0.0, 2 * np.pi, 49)
+        return np.asarray(self.at) + self.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+    def __str__(self) -> str:
+        x, y = map(float, self.at)
+        given: dict[str, Attribute | None] = {
+            "class": f"{self.style} {self.fill}".rstrip(),
+            "cx": x,
+            "cy": y,
+            "r": self.radius,
+        }
+        return str(element("circle", given))
 
 
 @dataclass(frozen=True)
 class Text:
-    """A line of text: its baseline begins, has its middle or ends at ``at``; ``height`` of a capital letter.
+    """A line of text: its baseline begins, has its middle or ends at ``at``; ``size`` of its font.
 
-    ``turn``: direction of the line, degrees counter-clockwise; ``symbol``: set in italics; ``squeeze``: width of its
-    letters as a share of their own. Of Chinese text the ``height`` is that of a character.
+    ``turn``: direction of the line, degrees from x to y; ``style``: its class; ``symbol``: set in italics;
+    ``squeeze``: width of its letters as a share of their own.
     """
 
     at: Floats
     runs: Runs
-    height: float = TEXT
+    size: float
     anchor: Anchor = "start"
+    style: str = ""
     turn: float = 0.0
     symbol: bool = False
     squeeze: float = 1.0
 
-    def moved(self, shift: Floats) -> Text:
-        """The same elsewhere."""
-        return replace(self, at=self.at + shift)
+    def placed(self, shift: Floats, scale: Vec = (1.0, 1.0)) -> Text:
+        """The same scaled and shifted."""
+        turn = self.turn if scale[0] * scale[1] > 0 else -self.turn
+        return replace(
+            self, at=_placed(self.at, shift, 0.0, scale), size=self.size * abs(scale[0]), turn=turn
+        )
 
     @property
-    def size(self) -> float:
-        """Size of its font, mm."""
-        return font_size(self.runs, self.height)
+    def height(self) -> float:
+        """Height of its capital letters, or of its Chinese characters."""
+        return round(self.size * (CHARACTER if _chinese(self.runs) else CAPITAL), 9)
 
     @property
     def width(self) -> float:
-        """Its width, mm, estimated a little too large."""
-        return self.squeeze * runs_width(self.runs, self.height)
+        """Its width, estimated a little too large."""
+        return self.squeeze * _wide(self.runs, self.size)
 
     @property
     def cloud(self) -> Floats:
-        """The corners of its box."""
+        """The corners of its box, y up."""
         start = -self.width * {"start": 0.0, "middle": 0.5, "end": 1.0}[self.anchor]
         low = -DESCENT * self.size - (0.25 * self.size if any(level < 0 for _, level in self.runs) else 0.0)
         high = self.height + (0.35 * self.size if any(level > 0 for _, level in self.runs) else 0.0)
         corners = np.array(
             [(start, low), (start + self.width, low), (start + self.width, high), (start, high)]
         )
-        c, s = math.cos(math.radians(self.turn)), math.sin(math.radians(self.turn))
-        return np.asarray(self.at + corners @ np.array([(c, s), (-s, c)]))
+        return _placed(corners, self.at, math.radians(self.turn))
+
+    @property
+    def outline(self) -> Floats:
+        """Lines that cover its box."""
+        return self.cloud[[0, 1, 2, 3, 0, 2, 1, 3]]
+
+    def __str__(self) -> str:
+        x, y = map(float, self.at)
+        turn = f"rotate({number(self.turn)} {number(x)} {number(y)})" if self.turn else None
+        if self.squeeze < 1.0:
+            turn = f"translate({number(x)} {number(y)}) scale({self.squeeze:.3f} 1)"
+            x = y = 0.0
+        given: dict[str, Attribute | None] = {
+            "class": self.style or None, "x": x, "y": y, "font-size": self.size,
+            "text-anchor": None if self.anchor == "start" else self.anchor,
+            "font-style": "italic" if self.symbol else None, "transform": turn, "xml:space": "preserve",
+        }  # fmt: skip
+        return str(element("text", given, *self._spans()))
+
+    def _spans(self) -> Iterator[Element | str]:
+        raised = 0.0
+        for text, level in self.runs:
+            wanted = {0: 0.0, -1: 0.25, 1: -0.38}[level] * self.size
+            if level == 0 and raised == 0.0:
+                yield text
+                continue
+            size = INDEX * self.size if level else self.size
+            yield element("tspan", {"dy": wanted - raised, "font-size": size}, text)
+            raised = wanted
+
+
+def _placed(points: Floats, shift: Floats, turn: float = 0.0, scale: Vec = (1.0, 1.0)) -> Floats:
+    c, s = math.cos(turn), math.sin(turn)
+    return np.asarray(shift + (points * scale) @ np.array([(c, s), (-s, c)]))
 
 
 Item: TypeAlias = Line | Circle | Text
+#: What an SVG document consists of.
+SvgNode: TypeAlias = Element | Item
 
 
 @dataclass
@@ -181,13 +290,15 @@ class Picture:
     ) -> None:
         """A line of text; Chinese characters are not set smaller than TEXT."""
         if runs := as_runs(words):
-            height = max(height, TEXT) if any(needs_chinese(text) for text, _ in runs) else height
-            self.items.append(Text(np.asarray(at, dtype=float), runs, height, anchor, turn, symbol, squeeze))
+            size = font_size(runs, height)
+            self.items.append(
+                Text(np.asarray(at, dtype=float), runs, size, anchor, "", turn, symbol, squeeze)
+            )
 
     def add(self, other: Picture, shift: ArrayLike = (0.0, 0.0)) -> None:
         """All of another picture, shifted."""
         by = np.asarray(shift, dtype=float)
-        self.items += [item.moved(by) for item in other.items]
+        self.items += [item.placed(by) for item in other.items]
 
     @property
     def bounds(self) -> Box:
@@ -226,16 +337,24 @@ def joined(*parts: Words) -> Runs:
     return tuple(run for part in parts for run in as_runs(part))
 
 
-def font_size(runs: Sequence[tuple[str, int]], height: float) -> float:
+def font_size(runs: Runs, height: float) -> float:
     """The size of the font with which capitals, or Chinese characters where there are some, have a height; that of
     Chinese characters is TEXT at least."""
-    chinese = any(needs_chinese(text) for text, _ in runs)
-    return max(height, TEXT) / CHARACTER if chinese else height / CAPITAL
+    return max(height, TEXT) / CHARACTER if _chinese(runs) else height / CAPITAL
 
 
-def runs_width(runs: Sequence[tuple[str, int]], height: float) -> float:
-    """The width of a line of text, mm; an index above stands over the one below."""
-    size, wide, above = font_size(runs, height), 0.0, 0.0
+def _chinese(runs: Runs) -> bool:
+    return any(needs_chinese(text) for text, _ in runs)
+
+
+def runs_width(runs: Runs, height: float) -> float:
+    """The width of a line of text whose capitals have a height."""
+    return _wide(runs, font_size(runs, height))
+
+
+def _wide(runs: Runs, size: float) -> float:
+    """The width of a line of text at a size of its font; an index above stands over the one below."""
+    wide = above = 0.0
     for text, level in runs:
         part = text_width(text, size * (INDEX if level else 1.0))
         if level > 0:
