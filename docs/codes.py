@@ -184,7 +184,7 @@ def nodes() -> tuple[tuple[str, ast.AST], ...]:
 @cache
 def catalogued() -> frozenset[str]:
     """All keys of the catalogue."""
-    return frozenset(f"{area}.{name}" for area in areas("en") for name in catalogue(area, "en"))
+    return frozenset(f"{area}.{name}" for area in areas() for name in catalogue(area))
 
 
 def called(node: ast.Call) -> str:

@@ -14,12 +14,14 @@ ROOT = str(Path(__file__).resolve().parents[1])
 if ROOT not in sys.path:
     sys.path.insert(0, ROOT)
 
+from hatch_build import compile_translations  # noqa: E402
 from tests import share  # noqa: E402
 
 pytest_plugins = ["tests.ui.tabs"] if find_spec("playwright") else []
 
 os.environ.setdefault("LINKWRIGHT_CACHE", str(Path(tempfile.gettempdir()) / "linkwright-tests-cache"))
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # workers share the cores; threads that wait spin
+compile_translations(Path(ROOT) / "src")
 gc.set_threshold(50_000)  # with Python's own 700 the collector takes a seventh of the tests' time
 
 

@@ -72,7 +72,7 @@ class LinkwrightError(Exception):
 
     @property
     def sentence(self) -> str:
-        """The message, a ``Sentence`` where it can be said in other languages."""
+        """The message, a ``Message`` where it can be said in other languages."""
         return self.args[0] if self.args and isinstance(self.args[0], str) else super().__str__()
 
     @property

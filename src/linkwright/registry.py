@@ -9,6 +9,7 @@ from typing import Generic, TypeVar, cast
 
 from linkwright.core.entry_points import loaded, modules_within, offered_by_packages
 from linkwright.errors import LinkwrightError, UnknownName
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 from linkwright.words.synonyms import nearest_in_meaning
 
@@ -109,9 +110,7 @@ def _home(element: object) -> tuple[str, str]:
     return getattr(element, "__module__", ""), getattr(element, "__qualname__", repr(element))
 
 
-def offered(
-    name: str, known: Iterable[str], key: str = "names.there_is", most: int | None = None
-) -> Sentence:
+def offered(name: str, known: Iterable[str], key: str = "names.there_is", most: int | None = None) -> Message:
     """What was probably meant by a name that does not exist, else all that exist, at ``most`` so many.
 
     ``key``: the sentence that lists them as ``names``.
@@ -123,7 +122,7 @@ def offered(
     return Sentence(key, names=_shown(names[:most])) if names else Sentence("names.there_is_none")
 
 
-def listed(name: str, known: Iterable[str], word: str = "there_is") -> Sentence:
+def listed(name: str, known: Iterable[str], word: str = "there_is") -> Message:
     """What was probably meant, and all that exist; ``word``: ``there_is``, ``known`` or ``one_of``."""
     names = tuple(dict.fromkeys(known))
     offer = nearest(name[:100], names)
@@ -137,7 +136,7 @@ def _shown(names: tuple[str, ...]) -> tuple[str, ...]:
     return names if len(names) <= MOST_SHOWN else (*names[:MOST_SHOWN], "…")
 
 
-def no_such(noun: str, name: str, known: Iterable[str]) -> Sentence:
+def no_such(noun: str, name: str, known: Iterable[str]) -> Message:
     """The sentence for a name that does not exist, or is none; ``noun`` is a key of the catalogue's ``nouns``."""
     return Sentence("names.no_such", noun=Sentence(f"nouns.{noun}"), name=name, hint=offered(name, known))
 

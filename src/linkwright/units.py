@@ -13,6 +13,7 @@ from functools import cache, lru_cache
 
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 Dimension = tuple[float, float, float, float]
@@ -405,7 +406,7 @@ def _unit_of(text: str, column: int, dimension: str) -> tuple[float, Dimension]:
         raise QuantityError(error.message, remedy, column=column + error.column, code=error.code) from None
 
 
-def _fitting_remedy(text: str, dimension: str) -> Sentence:
+def _fitting_remedy(text: str, dimension: str) -> Message:
     """What was probably meant by an unknown unit where a quantity of this dimension is needed."""
     if dimension in TURNING and SENSE.search(text):
         return Sentence("units.sense")
@@ -461,7 +462,7 @@ def require(kind: Dimension, dimension: str, text: str, *, bare: bool = False) -
     raise QuantityError(said, remedy, code="wrong-dimension")
 
 
-def _of_weight(kind: Dimension, dimension: str, text: str) -> Sentence | None:
+def _of_weight(kind: Dimension, dimension: str, text: str) -> Message | None:
     """What to write where a mass stands in the place of its weight, alone or in a product, or a weight for a mass."""
     acceleration, wanted = DIMENSIONS["acceleration"], DIMENSIONS[dimension]
     if dimension == "mass" and kind == UNITS["N"][1]:
@@ -473,7 +474,7 @@ def _of_weight(kind: Dimension, dimension: str, text: str) -> Sentence | None:
     return Sentence("units.mass", text=text) if kind[1] else None
 
 
-def name_of(kind: Dimension) -> Sentence:
+def name_of(kind: Dimension) -> Message:
     """A dimension in words: ``a length``, or by its SI units where it has no name."""
     for name, dimension in DIMENSIONS.items():
         if dimension == kind:

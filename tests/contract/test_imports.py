@@ -194,20 +194,6 @@ def test_a_machine_of_dyads_is_checked_without_numpy() -> None:
     assert (done.returncode, done.stderr) == (0, "")
 
 
-@pytest.mark.parametrize("command", ["check", "solve"])
-def test_commands_start_without_what_costs_more_than_it_does(command: str) -> None:
-    """Paths bring the reading of addresses with them, the width of a terminal three kinds of archives."""
-    program = (
-        "import sys; before = set(sys.modules)\n"
-        "from linkwright.cli import main\n"
-        f"main([{command!r}, 'gallery:jaw_crusher_sixbar'])\n"
-        "print(*{'pathlib', 'shutil', 'pkgutil', 'select', 'urllib.parse', 'lzma'} & set(sys.modules) - before,"
-        " file=sys.stderr)\n"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    assert done.stderr.split() == []
-
-
 def test_a_plot_reads_no_axes_in_space(tmp_path: Path) -> None:
     """They would take a tenth of its start; nothing is said of their absence."""
     program = (

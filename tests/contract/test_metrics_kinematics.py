@@ -213,7 +213,7 @@ def test_forces_of_a_way_that_is_left_grow_without_bound_and_have_no_mean(steps:
     peaks = {row.subject: row.value for row in table if row.metric == "peak_reaction"}
     assert peaks == dict.fromkeys(["A", "B", "floor", "wall"], inf)
     assert not {"rms_reaction", "rms_input_torque"} & set(table.names)
-    ((code, reached),) = ((note.key, note.values["reached"]) for note in table.notes)
+    ((code, reached),) = ((note.code, note.values["reached"]) for note in table.notes)
     assert (code, reached) == ("metrics.part_of_way_reached", steps * 2 // 3)
 
 

@@ -108,7 +108,7 @@ def test_a_cycle_that_the_file_gives(first: str, cycle: str, span: tuple[float, 
 )
 def test_a_cycle_of_other_than_one_turn_is_said(second: str, key: str | None, numbers: list[str]) -> None:
     notes = lw.solve_motion(machine(second=second), steps=4).notes
-    assert [note.key for note in notes] == ([] if key is None else [key])
+    assert [note.code for note in notes] == ([] if key is None else [key])
     for note in notes:
         assert set(numbers) <= set(re.findall(r"\d+(?:\.\d+)?", note)) and "first" in note
 

@@ -161,7 +161,7 @@ UNLIKE = {"compare.unlike_loads", "compare.unlike_speeds", "compare.unlike_outpu
 
 def keys(found: Comparison) -> set[str]:
     """Codes of the notes of a comparison."""
-    return {note.key for note in found.notes}
+    return {note.code for note in found.notes}
 
 
 def test_alternatives_that_differ_in_load_or_speed_are_said_to_be_unlike() -> None:
@@ -170,17 +170,17 @@ def test_alternatives_that_differ_in_load_or_speed_are_said_to_be_unlike() -> No
     heavier = crusher.with_dimensions({"loads.crushing.ramp.1": 90e3})
     faster = crusher.with_dimensions({"driver.speed": -2 * crusher.dimension("driver.speed")})
     (note,) = lw.compare([replace(crusher, name="a"), replace(heavier, name="b")], steps=72).notes
-    assert note.key == "compare.unlike_loads"
+    assert note.code == "compare.unlike_loads"
     assert {85000.0, 90000.0} <= set(numbers(note))
     (note,) = lw.compare([replace(crusher, name="a"), replace(faster, name="b")], steps=72).notes
-    assert note.key == "compare.unlike_speeds"
+    assert note.code == "compare.unlike_speeds"
     assert numbers(note) == numbers(note.say("zh")) == [17.8024, 35.6047]
     tables = [
         loads(PRESS.replace("NAME", label).replace("CRANK", "0.1 m").replace(MOVING, f"table: {{{rows}}}}}"))
         for label, rows in (("flat", TABLE), ("steep", TABLE.replace("5 N", "6 N")))
     ]
     (note,) = lw.compare(tables, metrics=["travel"], steps=72).notes
-    assert note.key == "compare.unlike_loads"
+    assert note.code == "compare.unlike_loads"
     assert numbers(note) == [0.1, 1.0, 5.0, 1.0, 0.1, 1.0, 6.0, 1.0]
     shaper = store.machine("shaper_quick_return")
     assert "compare.unlike_outputs" in keys(lw.compare([crusher, shaper], output=["jaw", "guide"], steps=72))

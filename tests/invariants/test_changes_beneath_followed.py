@@ -53,7 +53,7 @@ def test_note_motion_and_range_agree() -> None:
     mechanism = model(*FOLDED, 0.6, 1.0)
     motion = lw.solve_motion(mechanism, steps=361, failures="mark")
     (note,) = motion.notes
-    assert (note.key, note.values["links"]) == ("cycle.end", ("coupler", "rocker"))
+    assert (note.code, note.values["links"]) == ("cycle.end", ("coupler", "rocker"))
     reach = lw.input_range(mechanism)
     assert reach.low is not None and reach.low.value == pytest.approx(0.0, abs=1e-7)
     assert reach.low.how.key == "range.change" and reach.low.group.values["links"] == ("coupler", "rocker")

@@ -21,7 +21,7 @@ def test_parallelogram_stays_a_parallelogram(steps: int, start: float) -> None:
     assert np.nanmax(np.abs(motion.link("rocker").angular_velocity - 1.0)) < 1e-9
     assert np.nanmax(np.abs(motion.link("coupler").angular_velocity)) < 1e-9
     assert (~motion.ok).sum() <= 2
-    assert [note.key for note in motion.notes] == ["cycle.change"] * 2
+    assert [note.code for note in motion.notes] == ["cycle.change"] * 2
 
 
 @pytest.mark.parametrize("steps", [45, 359, 360])
@@ -47,7 +47,7 @@ def test_kite_keeps_its_symmetry(steps: int, a: float, d: float) -> None:
     along = line * ((-pin * line).sum(axis=1) / (line**2).sum(axis=1))[:, None]
     mirrored = 2 * (pin + along)
     assert np.abs(b - mirrored).max() < 1e-8
-    assert [note.key for note in motion.notes] == ["cycle.change"] * 2
+    assert [note.code for note in motion.notes] == ["cycle.change"] * 2
 
 
 @pytest.mark.parametrize("steps", [37, 100, 359, 360])
@@ -61,7 +61,7 @@ def test_one_change_point_a_turn(steps: int) -> None:
     h = np.diff(time)
     hermite = 0.5 * h * (rate[1:] + rate[:-1]) + h**2 / 12 * (second[:-1] - second[1:])
     assert np.abs(np.diff(angle) - hermite).max() < 60 * h.max() ** 3
-    assert [note.key for note in motion.notes] == ["cycle.change", "cycle.two_cycles"]
+    assert [note.code for note in motion.notes] == ["cycle.change", "cycle.two_cycles"]
 
 
 @pytest.mark.parametrize(
@@ -93,7 +93,7 @@ def test_all_links_equal() -> None:
         turn = motion.link("rocker").angle - motion.link("crank").angle
         assert np.nanmax(np.abs(turn)) < 1e-9
         assert np.nanmax(np.abs(motion.link("rocker").angular_velocity - 1.0)) < 1e-8
-        assert [note.key for note in motion.notes] == ["cycle.change", "cycle.meeting"]
+        assert [note.code for note in motion.notes] == ["cycle.change", "cycle.meeting"]
 
 
 @pytest.mark.parametrize("start", [0.0, 25.0, 340.0])
@@ -108,7 +108,7 @@ def test_kite_whose_pins_meet_within_its_range(start: float) -> None:
     rate = motion.link("rocker").angular_velocity[motion.ok][order]
     middle = slice(20, -20)
     assert np.abs(np.gradient(rocker, crank[order]) - rate)[middle].max() < 1e-2
-    assert "cycle.two_cycles" not in [note.key for note in every(motion.notes)]
+    assert "cycle.two_cycles" not in [note.code for note in every(motion.notes)]
 
 
 def test_two_parallelograms_in_a_row() -> None:

@@ -356,7 +356,7 @@ def test_positions_out_of_reach_are_counted_as_they_were_asked_for() -> None:
     short = stored("crank_rocker").with_dimensions({"coupler.length": 1.5})
     table = lw.metrics(lw.solve_motion(short, steps=8, failures="mark"))
     (note,) = table.notes
-    assert (note.key, note.values["reached"], note.values["count"]) == ("metrics.part_reached", 3, 8)
+    assert (note.code, note.values["reached"], note.values["count"]) == ("metrics.part_reached", 3, 8)
 
 
 @pytest.mark.rotating

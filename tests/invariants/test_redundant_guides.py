@@ -9,7 +9,7 @@ from tests.store import forces as loaded
 def test_the_indeterminate_couple_is_named() -> None:
     forces = loaded("wedge")
     (note,) = forces.notes
-    assert (note.key, note.values) == ("forces.indeterminate", {"name": "column"})
+    assert (note.code, note.values) == ("forces.indeterminate", {"name": "column"})
     assert np.abs(forces.couple("column")).max() == 0.0
     assert forces.balance_residual.max() < 1e-12 * np.abs(forces.reaction("column")).max()
 

@@ -39,7 +39,7 @@ def test_a_sweep_says_how_far_its_peaks_are_from_those_between_positions() -> No
     assert found["peak_input_torque"][1] == pytest.approx(-torque(170.0), rel=1e-9)
     (note,) = found.notes
     share = (torque(42.0) - torque(50.0)) / max(abs(torque(each)) for each in range(50, 171, 10))
-    assert (note.key, note.values["steps"]) == ("study.of_positions_off", 36)
+    assert (note.code, note.values["steps"]) == ("study.of_positions_off", 36)
     for number in (f"{torque(50.0):.6g} N·m", f"{torque(42.0):.6g} N·m", f"({100.0 * share:.2g} %"):
         assert number in note
 
@@ -52,7 +52,7 @@ def test_a_sweep_of_metrics_alone_has_nothing_to_say() -> None:
 def test_the_note_stands_at_the_place(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     machine = lw.loads(PRESS)
     study = lw.study(machine, {"crank.length": "0.1..0.2 m:2"}, metrics=["driver.effort max"], steps=36)
-    assert [note.key for note in study.notes] == ["study.of_positions_off"]
+    assert [note.code for note in study.notes] == ["study.of_positions_off"]
     crushers = ["gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"]
     compared = lw.compare(crushers, metrics=["driver.effort max"], steps=36)
     assert {note.values["cause"].key for note in compared.notes} == {"study.of_positions_off"}

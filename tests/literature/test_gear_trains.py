@@ -94,7 +94,7 @@ def test_cycle_is_as_many_turns_as_it_takes(name: str, turns: int) -> None:
     motion = lw.solve_motion(mechanism, steps=24, endpoint=True)
     law = next(iter(mechanism.drivers.values())).law
     assert motion.positions.period == pytest.approx(turns * law.natural_duration())
-    told = [note.values["turns"] for note in motion.notes if note.key == "cycle.turns"]
+    told = [note.values["turns"] for note in motion.notes if note.code == "cycle.turns"]
     assert told == ([turns] if turns > 1 else [])
     for link in mechanism.links:
         direction = motion.link(link).direction
@@ -166,7 +166,7 @@ joints: {{belt: {{kind: belt, links: [a, b], radii: [50 mm, 20 mm], run: {run}{g
 driver: {{turn: a, about: O, speed: 1 rad/s}}
 loads: {{work: {{kind: torque, on: b, magnitude: 8 N·m}}}}
 """)
-    notes = [(note.key, note.values["name"]) for note in lw.solve_forces(belt, steps=12).notes]
+    notes = [(note.code, note.values["name"]) for note in lw.solve_forces(belt, steps=12).notes]
     assert notes == [("forces.contact_lost_belt", "belt")] * loose
 
 
@@ -411,7 +411,7 @@ def test_a_braked_wheel_is_one_that_stands() -> None:
     assert motion.link("ring").angular_velocity == pytest.approx(float(ring) * 100 * RPM, rel=1e-12)
     assert motion.positions.period == pytest.approx(884 * 0.6, rel=1e-12)
     told = motion.notes[0].values
-    assert (motion.notes[0].key, told["turns"], told["driver"]) == ("cycle.turns", 884, "shaft")
+    assert (motion.notes[0].code, told["turns"], told["driver"]) == ("cycle.turns", 884, "shaft")
 
 
 @pytest.mark.rotating

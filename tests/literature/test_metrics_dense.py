@@ -256,7 +256,7 @@ def test_loads_of_a_way_that_is_left_have_no_end_and_no_mean() -> None:
     assert all(np.isinf(row.value) for row in table["peak_reaction"])
     assert table["mechanical_advantage"][0].value == 0.0
     assert not {"mean_power", "rms_input_torque", "rms_reaction"} & set(table.names)
-    assert [note.key for note in table.notes] == ["metrics.part_reached"]
+    assert [note.code for note in table.notes] == ["metrics.part_reached"]
 
 
 def test_of_inputs_on_both_sides_of_a_gap_each_stretch_has_its_swing() -> None:

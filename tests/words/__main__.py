@@ -15,20 +15,16 @@ def main() -> int:
     """Writes or compares both snapshots; 1 where one differs from what is held."""
     parser = argparse.ArgumentParser(prog="python -m tests.words", description=__doc__)
     parser.add_argument("--check", action="store_true", help="write nothing")
-    parser.add_argument("--areas", action="store_true", help="how many sentences of each area are said")
     given, changed = parser.parse_args(), False
     for language in LANGUAGES:
         path = HERE / f"{language}.txt"
         before = path.read_text("utf-8") if path.exists() else ""
-        after, shares = snapshot(language)
+        after, (said, count) = snapshot(language)
         changed |= after != before
         print(*unified_diff(before.splitlines(), after.splitlines(), lineterm="", n=0), sep="\n")
-        said, count = map(sum, zip(*shares.values(), strict=True))
         print(
             f"{path.name}: {len(after.splitlines())} lines; {said} of {count} sentences are said by the program"
         )
-        if given.areas:
-            print(*(f"  {area}: {found} of {of}" for area, (found, of) in shares.items()), sep="\n")
         if not given.check:
             path.write_text(after, "utf-8")
     return int(changed and given.check)

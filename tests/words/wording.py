@@ -37,29 +37,17 @@ def sources(folder: Path) -> Iterator[Source]:
     yield "report", _report
 
 
-def snapshot(language: str) -> tuple[str, dict[str, tuple[int, int]]]:
-    """The snapshot of a language, and how many sentences of every area of its catalogue were said, of how many."""
+def snapshot(language: str) -> tuple[str, tuple[int, int]]:
+    """The snapshot of a language, and how many of the translated texts were said, of how many."""
     seen: set[str] = set()
     parts: list[str] = []
     every = sentences(language)
     with TemporaryDirectory() as folder, recorded() as said:
         for heading, texts in sources(Path(folder)):
             parts += [f"\n## {heading}", *lines_once(texts(language), seen)]
-        rest = {key: text for key, text in every.items() if key not in said}
-    for area in dict.fromkeys(key.partition(".")[0] for key in every):
-        texts = [text for key, text in rest.items() if key.startswith(f"{area}.")]
-        if lines := list(lines_once(texts, seen)):
-            parts += [f"\n## the rest: {area}", *lines]
-    return "\n".join(parts).lstrip() + "\n", _shares(every, said)
-
-
-def _shares(every: dict[str, str], said: set[str]) -> dict[str, tuple[int, int]]:
-    shares: dict[str, tuple[int, int]] = {}
-    for key in every:
-        area = key.partition(".")[0]
-        found, count = shares.get(area, (0, 0))
-        shares[area] = found + (key in said), count + 1
-    return shares
+        rest = {key: text for key, text in every.items() if key.partition("|")[2] not in said}
+    parts += ["\n## the rest", *sorted(lines_once(rest.values(), seen))]
+    return "\n".join(parts).lstrip() + "\n", (len(every) - len(rest), len(every))
 
 
 def _printed(lines: list[str], folder: Path, language: str) -> Iterator[str]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from linkwright.cli.reading import read
 from linkwright.errors import with_remedy
-from linkwright.words import Say
+from linkwright.words import Message, Say
 from linkwright.words.sentence import Sentence
 
 
@@ -57,7 +57,7 @@ class CommandParser(argparse.ArgumentParser):
         return self.say("cli.usage") + text.removeprefix("usage: ")
 
 
-def did_you_mean(said: Sentence, word: str, known: Iterable[str], otherwise: str = "") -> str:
+def did_you_mean(said: Message, word: str, known: Iterable[str], otherwise: str = "") -> str:
     """A sentence about a mistyped word with the known one nearest to it, where one is near."""
     from linkwright.registry import nearest
 

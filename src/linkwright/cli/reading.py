@@ -16,6 +16,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import with_remedy
 from linkwright.registry import nearest
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 _NUMBER_WITH_MINUS = re.compile(r"-[\d.]")
@@ -168,7 +169,7 @@ def _place(
         raise UsageError(with_remedy(said, remedy)) if remedy else _slip(parser, said)
 
 
-def _with_option(word: str, parser: argparse.ArgumentParser) -> Sentence | None:
+def _with_option(word: str, parser: argparse.ArgumentParser) -> Message | None:
     """What to write for a word that lacks its option: a file to be written, a position, a number's name."""
     looks = {
         "--output": bool(os.path.splitext(word)[1]) and not _is_model(word),
@@ -198,5 +199,5 @@ def _unknown(parser: argparse.ArgumentParser, name: str) -> UsageError:
     return _slip(parser, said)
 
 
-def _slip(parser: argparse.ArgumentParser, said: Sentence) -> UsageError:
+def _slip(parser: argparse.ArgumentParser, said: Message) -> UsageError:
     return UsageError(with_remedy(said, Sentence("cli.see_help_of", command=parser.prog)))

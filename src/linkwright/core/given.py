@@ -110,8 +110,8 @@ def _hint(given: object, names: list[str]) -> str:
     own = next((each.lower() for each in names if hasattr(given, each.lower()) and each != "Mechanism"), None)
     code = f"{name}.{own}" if own else _made(given, names)
     if code:
-        return Sentence("given_instead.write", code=code)
-    return Sentence("given_instead.such_as", code=_EXAMPLES[names[0]])
+        return Sentence("given_instead.write", example=code)
+    return Sentence("given_instead.such_as", example=_EXAMPLES[names[0]])
 
 
 def _made(given: object, names: list[str]) -> str:

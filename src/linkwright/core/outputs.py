@@ -11,6 +11,7 @@ from functools import lru_cache
 
 from linkwright.core.dataclass import dataclass
 from linkwright.units import si_unit
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 
@@ -243,7 +244,7 @@ class Output:
         on = f"on {self.on}" if self.on and KINDS[self.kind].of == "joint" else self.on
         return " ".join(filter(None, (self.word, self.owner, on))) + axis
 
-    def sentence(self, *, alone: bool = False) -> Sentence:
+    def sentence(self, *, alone: bool = False) -> Message:
         """What it is, in words of any language: ``angular velocity of jaw``; ``alone``: the machine's one driver."""
         key = self.kind
         if key == "effort" and alone:

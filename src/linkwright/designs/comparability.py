@@ -6,6 +6,7 @@ from collections.abc import Callable, Hashable, Sequence
 
 from linkwright.designs.alternatives import Alternative
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 #: Keys of a load that say where it acts, not how large it is.
@@ -26,7 +27,7 @@ def unlike(alternatives: Sequence[Alternative]) -> tuple[str, ...]:
     )
 
 
-def _told(each: Alternative, facts: tuple[str, ...]) -> Sentence:
+def _told(each: Alternative, facts: tuple[str, ...]) -> Message:
     cause = facts or Sentence("compare.nothing")
     return Sentence("cli.about", name=each.label, cause=cause)
 

@@ -16,6 +16,7 @@ from linkwright.formula.reductions import Reduction
 from linkwright.formula.summaries import summaries
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 
@@ -39,7 +40,7 @@ class Failure:
         return len(self.designs)
 
     @property
-    def place(self) -> Sentence:
+    def place(self) -> Message:
         """Where they fail: at a group, between two positions, at wheels, or by what is asked of them."""
         if self.group is not None:
             return Sentence("study.at_group", group=tuple(self.group.split("+")))
@@ -74,11 +75,11 @@ def explained(
     return tuple(sorted(found, key=lambda failure: -failure.count))
 
 
-def _misfits(mechanism: Mechanism, columns: Mapping[str, Floats]) -> dict[int, Sentence]:
+def _misfits(mechanism: Mechanism, columns: Mapping[str, Floats]) -> dict[int, Message]:
     """What does not fit of pairs of wheels, by the number of the design."""
     if not mechanism.higher:
         return {}
-    found: dict[int, Sentence] = {}
+    found: dict[int, Message] = {}
     for design in range(len(next(iter(columns.values())))):
         changed = mechanism.with_dimensions(changes_of(columns, design))
         for joint in changed.joints.values():

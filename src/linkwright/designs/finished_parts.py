@@ -22,6 +22,7 @@ from linkwright.core import VERSION
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.errors import RequestError
 from linkwright.whole_files import refuse_target, write_new
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 T = TypeVar("T")
@@ -207,8 +208,9 @@ def _plain(value: Any) -> Any:
         return value
     if isinstance(value, np.number | np.bool_):
         return _plain(value.item())
-    if isinstance(value, Sentence):
-        return {"said": value.key, "with": _plain(value.values)}
+    if isinstance(value, Message):
+        (text, values), about = value.__getnewargs_ex__()
+        return {"message": text, "values": _plain(values), "about": about}
     if isinstance(value, np.ndarray) and not value.dtype.hasobject:
         data = base64.b64encode(np.ascontiguousarray(value).tobytes()).decode()
         return {"array": value.dtype.str, "shape": value.shape, "data": data}
@@ -223,8 +225,8 @@ def _made(plain: Any) -> Any:
     """The value that is meant."""
     if not isinstance(plain, dict):
         return plain
-    if "said" in plain:
-        return Sentence(plain["said"], **_made(plain["with"]))
+    if "message" in plain:
+        return Message(plain["message"], _made(plain["values"]), **plain["about"])
     if "array" in plain:
         data = np.frombuffer(base64.b64decode(plain["data"]), np.dtype(plain["array"]))
         return data.reshape(plain["shape"]).copy()

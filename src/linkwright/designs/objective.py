@@ -34,6 +34,7 @@ from linkwright.metrics.of_designs import (
     numbers_of_designs,
     refuse_obstacles,
 )
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 
@@ -197,7 +198,7 @@ def over_metrics(
     ]
 
 
-def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str], steps: int) -> Sentence:
+def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str], steps: int) -> Message:
     """Why metrics of a mechanism have no gradient."""
     if hulls := tuple(name for name in missing if swept(name, mechanism)):
         return Sentence("study.objective_swept", names=hulls, name=mechanism.name)

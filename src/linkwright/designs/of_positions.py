@@ -16,12 +16,13 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.quantities import shown
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 
 def note_of_positions(
     mechanism: Mechanism, steps: int, summaries: Iterable[Summary], dimensions: Iterable[str]
-) -> Sentence | None:
+) -> Message | None:
     """That summaries are those of the positions, with how far the worst one of the machine as it is is from the one
     between them; None where none is asked."""
     asked = [(each, kind) for each, kind in zip(summaries, dimensions, strict=True) if each.kind in OF_VALUES]

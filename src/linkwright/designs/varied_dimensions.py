@@ -18,7 +18,7 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.positions import Positions
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message
 
 #: The change of a dimension with which it is tried, as share of its value or of the mechanism's size.
 SMALL = 1e-4
@@ -117,7 +117,7 @@ def _check(mechanism: Mechanism, address: str, column: Floats) -> None:
         mechanism.with_dimensions({address: float(extreme)})
 
 
-def misfits(mechanism: Mechanism, address: str, change: float) -> list[Sentence]:
+def misfits(mechanism: Mechanism, address: str, change: float) -> list[Message]:
     """What no longer fits of pairs of wheels when a dimension changes alone, SI."""
     try:
         changed = mechanism.with_dimensions({address: mechanism.dimension(address) + change})

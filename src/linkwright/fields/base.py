@@ -20,7 +20,7 @@ from linkwright.core.expressions import Expression
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
-from linkwright.words import LANGUAGES
+from linkwright.words import LANGUAGES, Message
 from linkwright.words.sentence import Sentence, Worded
 
 Schema = dict[str, Any]
@@ -51,7 +51,7 @@ class Field(ABC):
         """JSON Schema of the value with its description."""
         return {**self.shape(), "description": self.doc} if self.doc else self.shape()
 
-    def limit(self, value: float) -> Sentence | None:
+    def limit(self, value: float) -> Message | None:
         """What numbers it takes, where this SI value is none of them."""
         return None
 
@@ -151,7 +151,7 @@ class Quantity(Field):
             "model.negative" if value < 0 and not (self.minimum or self.above) else "model.too_small"
         )
 
-    def limit(self, value: float) -> Sentence | None:
+    def limit(self, value: float) -> Message | None:
         above = self.above is None or value > max(self.above, units.SMALLEST)
         within = above and (self.minimum is None or value >= self.minimum)
         if within and (self.below is None or value < self.below) and not (self.nonzero and value == 0):
@@ -209,7 +209,7 @@ class Quantities(Field):
     def _one(self) -> Quantity:
         return Quantity(self.dimension, above=self.above)
 
-    def limit(self, value: float) -> Sentence | None:
+    def limit(self, value: float) -> Message | None:
         return self._one.limit(value)
 
     @cached_property

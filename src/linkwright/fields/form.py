@@ -6,16 +6,17 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkwright import units
+from linkwright.words import Message
 from linkwright.words.sentence import Gloss, Sentence
 
 
-def missing_remedy(key: str, doc: str, shape: Mapping[str, Any]) -> Sentence:
+def missing_remedy(key: str, doc: str, shape: Mapping[str, Any]) -> Message:
     """What to write for a missing key: its description, or in other languages its name and its form."""
     own = form(shape)
     return Sentence("form.add_key", key_=key, form=Gloss(doc, own) if doc else own)
 
 
-def form(shape: Mapping[str, Any]) -> Sentence:
+def form(shape: Mapping[str, Any]) -> Message:
     """The words for a JSON Schema: ``a length, such as 60.5 mm``; ``list of 2: a link's name``."""
     match shape:
         case {"const": only}:

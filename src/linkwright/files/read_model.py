@@ -29,6 +29,7 @@ from linkwright.files.report_schema import report_keys
 from linkwright.loads.base import Load, read_load
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import GRAVITY, Mechanism
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 FORMAT = 1
@@ -131,8 +132,8 @@ def _report(
     root: MappingNode,
     joint: str,
     key: str,
-    problem: Sentence,
-    remedy: Sentence,
+    problem: Message,
+    remedy: Message,
     severity: Severity = "error",
 ) -> None:
     """A finding about a key of a joint."""

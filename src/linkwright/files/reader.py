@@ -19,6 +19,7 @@ from linkwright.fields.reading import Names, Place
 from linkwright.fields.references import LinkPoint, resolve_output
 from linkwright.files.node_reader import NUMBER, PlainReader
 from linkwright.registry import listed, nearest
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 #: A name with dots in a text; superscripts belong to units.
@@ -217,7 +218,7 @@ class Reader(PlainReader):
             if not self.names.incomplete:
                 self.finding(node, place, "lone_pin", "unknown-name", name=name, owner=owners[0])
             return False
-        noun_of = what if isinstance(what, Sentence) else Sentence(f"nouns.{what}")
+        noun_of = what if isinstance(what, Message) else Sentence(f"nouns.{what}")
         self.finding(
             node, place, "no_such", "unknown-name", listed(name, candidates), what=noun_of, name=name
         )

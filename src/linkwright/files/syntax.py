@@ -90,8 +90,9 @@ def _slip(text: str, began: int, line: int) -> Remark | None:
         for key, pattern in _SLIPS.items():
             if found := re.match(pattern, shown):
                 values = found.groupdict()
-                code = f"U+{ord(values.get('sign', ' ')[0]):04X}"
-                told, remedy = (Sentence(f"yaml.{each}", code=code, **values) for each in (key, f"{key}_do"))
+                character = f"U+{ord(values.get('sign', ' ')[0]):04X}"
+                keys = (key, f"{key}_do")
+                told, remedy = (Sentence(f"yaml.{each}", character=character, **values) for each in keys)
                 return Remark(number, len(shown) - len(shown.lstrip()), told, remedy, "syntax")
     return None
 
@@ -125,7 +126,7 @@ def _remarks(found: Iterable[re.Match[str]], text: str, key: str, code: str) -> 
     remarks = []
     for each in islice(found, _MOST):
         start = text.rfind("\n", 0, each.start(1)) + 1
-        line, values = text.count("\n", 0, start), {"sign": each[1], "code": f"U+{ord(each[1][0]):04X}"}
+        line, values = text.count("\n", 0, start), {"sign": each[1], "character": f"U+{ord(each[1][0]):04X}"}
         told, remedy = Sentence(f"yaml.{key}", **values), Sentence(f"yaml.{key}_do")
         remarks.append(Remark(line, each.start(1) - start, told, remedy, code))
     return remarks

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from linkwright.formula.trace import Scalar, reciprocal
 from linkwright.groups.base import DYADS, Chain, Solved
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 
@@ -34,8 +35,8 @@ class PRP:
             facts={"sine": sine},
         )
 
-    def at_end(self, facts: Mapping[str, float]) -> Sentence:
+    def at_end(self, facts: Mapping[str, float]) -> Message:
         return Sentence("range.parallel")
 
-    def explain(self, facts: Mapping[str, float]) -> Sentence:
+    def explain(self, facts: Mapping[str, float]) -> Message:
         return Sentence("outcome.prp_parallel", sine=f"{facts['sine']:.1e}")

@@ -8,6 +8,7 @@ from math import sqrt as root_of
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Solved, shown_length
 from linkwright.joints.pose import Rotor
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 
@@ -45,10 +46,10 @@ class RPR:
             facts={"distance²": dd, "offset": e},
         )
 
-    def at_end(self, facts: Mapping[str, float]) -> Sentence:
+    def at_end(self, facts: Mapping[str, float]) -> Message:
         return Sentence("range.closest")
 
-    def explain(self, facts: Mapping[str, float]) -> Sentence:
+    def explain(self, facts: Mapping[str, float]) -> Message:
         distance, offset = root_of(max(facts["distance²"], 0.0)), abs(facts["offset"])
         return Sentence(
             "outcome.rpr_near",

@@ -8,6 +8,7 @@ from math import sqrt as root_of
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Solved, shown_length
 from linkwright.joints.pose import Rotor
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 
@@ -43,10 +44,10 @@ class RRP:
             facts={"height": h, "length²": rr},
         )
 
-    def at_end(self, facts: Mapping[str, float]) -> Sentence:
+    def at_end(self, facts: Mapping[str, float]) -> Message:
         return Sentence("range.perpendicular")
 
-    def explain(self, facts: Mapping[str, float]) -> Sentence:
+    def explain(self, facts: Mapping[str, float]) -> Message:
         height, length = abs(facts["height"]), root_of(max(facts["length²"], 0.0))
         return Sentence(
             "outcome.rrp_far",

@@ -8,6 +8,7 @@ from math import sqrt as root_of
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Solved, shown_length
 from linkwright.joints.pose import Rotor
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 
@@ -46,12 +47,12 @@ class RRR:
             facts={"distance²": dd, "first²": r1, "second²": r2},
         )
 
-    def at_end(self, facts: Mapping[str, float]) -> Sentence:
+    def at_end(self, facts: Mapping[str, float]) -> Message:
         distance, r1, r2 = (root_of(max(facts[key], 0.0)) for key in ("distance²", "first²", "second²"))
         stretched = abs(distance - r1 - r2) < abs(distance - abs(r1 - r2))
         return Sentence("range.stretched" if stretched else "range.folded")
 
-    def explain(self, facts: Mapping[str, float]) -> Sentence:
+    def explain(self, facts: Mapping[str, float]) -> Message:
         distance, r1, r2 = (root_of(max(facts[key], 0.0)) for key in ("distance²", "first²", "second²"))
         far = distance > r1 + r2
         reach = r1 + r2 if far else abs(r1 - r2)

@@ -20,7 +20,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import Vec
 from linkwright.joints.ends import Ends, Hung
 from linkwright.registry import Registry
-from linkwright.words import has
+from linkwright.words import Message, has
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -52,8 +52,8 @@ class Entry:
     def say(
         self,
         key: str,
-        problem: Sentence,
-        remedy: Sentence,
+        problem: Message,
+        remedy: Message,
         code: str = "reference",
         severity: Severity = "error",
     ) -> None:
@@ -66,9 +66,7 @@ class Entry:
 class Report(Protocol):
     """Adds a finding about a key of a joint."""
 
-    def __call__(
-        self, key: str, problem: Sentence, remedy: Sentence, severity: Severity = "error"
-    ) -> None: ...
+    def __call__(self, key: str, problem: Message, remedy: Message, severity: Severity = "error") -> None: ...
 
 
 @dataclass(frozen=True)
@@ -123,7 +121,7 @@ class Joint(ABC):
             new[key] = (*new.get(key, ()), value(address)) if index else value(address)
         return replace(self, **new)
 
-    def limit(self, address: str, value: float) -> Sentence | None:
+    def limit(self, address: str, value: float) -> Message | None:
         """What numbers a dimension takes, where this SI value is none of them: by the field of its key."""
         field = self.fields().get(address.removeprefix(f"{self.name}.").partition(".")[0])
         return None if field is None else field.limit(value)
@@ -231,7 +229,7 @@ class Joint(ABC):
         """Whether the sizes of the pair fit the places of its links, traced."""
         return True
 
-    def misfit(self, mechanism: Model) -> Sentence | None:
+    def misfit(self, mechanism: Model) -> Message | None:
         """What does not fit, where :meth:`fits` is false."""
         return None
 
@@ -288,7 +286,7 @@ class Joint(ABC):
         raise self.lacks("seats")
 
     @classmethod
-    def word(cls) -> Sentence | str:
+    def word(cls) -> Message | str:
         """The kind as it is read; one of another package by its own word."""
         key = f"nouns.pair_{cls.kind}"
         return Sentence(key) if has(key) else cls.kind

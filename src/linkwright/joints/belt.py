@@ -13,6 +13,7 @@ from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Size
 from linkwright.joints.ends import Ends
 from linkwright.joints.toothed import WheelPair, length
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ class BeltPair(WheelPair):
         if problem is not None:
             entry.say("radii" if self.radii else "teeth", problem, Sentence("joints.pulleys_apart"), "range")
 
-    def _touching(self, distance: float) -> Sentence | None:
+    def _touching(self, distance: float) -> Message | None:
         a, b = self.pitch_radii()
         if a + b < distance:
             return None
@@ -69,7 +70,7 @@ class BeltPair(WheelPair):
             "joints.pulleys_touch", sum=length(a + b), centres=self.centres, distance=length(distance)
         )
 
-    def misfit(self, mechanism: Model) -> Sentence | None:
+    def misfit(self, mechanism: Model) -> Message | None:
         return self._touching(abs(self.line(mechanism)))
 
     def fits(self, dimensions: Sizes) -> Mask:

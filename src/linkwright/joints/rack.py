@@ -25,6 +25,7 @@ from linkwright.joints.base import (
 from linkwright.joints.ends import Ends
 from linkwright.joints.gear import CLEARANCE, STANDARD
 from linkwright.joints.toothed import FITS, length, whole
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -134,7 +135,7 @@ class RackPair(HigherPair):
         off = way.gap.imag
         return replace(self, direction=way.direction, centre=way.centre, side=1 if off > 0 else -1)
 
-    def _misplaced(self, way: _Way, slack: float = 0.0) -> tuple[str, Sentence] | None:
+    def _misplaced(self, way: _Way, slack: float = 0.0) -> tuple[str, Message] | None:
         """What keeps the pinion off the pitch line by more than the slack, m, and the key that says it."""
         if not way.parallel:
             guide = way.guides[-1][0]
@@ -151,7 +152,7 @@ class RackPair(HigherPair):
         """By how much the pinion may be off its place, m."""
         return CLEARANCE * (self.module or 0.0)
 
-    def misfit(self, mechanism: Model) -> Sentence | None:
+    def misfit(self, mechanism: Model) -> Message | None:
         way = self._way(mechanism)
         wrong = None if way is None else self._misplaced(way, self._slack)
         return None if wrong is None else wrong[1]

@@ -14,6 +14,7 @@ from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint, Size
 from linkwright.joints.ends import Ends
 from linkwright.joints.toothed import FITS, WheelPair, length
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 
@@ -94,7 +95,7 @@ class RollingPair(WheelPair):
         """By how much the centres may be off the distance that the sizes ask for, m."""
         return 0.0
 
-    def _apart(self, distance: float, slack: float = 0.0) -> Sentence | None:
+    def _apart(self, distance: float, slack: float = 0.0) -> Message | None:
         """What is wrong where the sizes ask for another distance of the centres, by more than the slack, m."""
         wanted = self.asked
         if not wanted or abs(wanted - distance) <= max(FITS * distance, slack):
@@ -108,7 +109,7 @@ class RollingPair(WheelPair):
             mesh=Sentence("joints.internal" if self.sense > 0 else "joints.external"),
         )
 
-    def misfit(self, mechanism: Model) -> Sentence | None:
+    def misfit(self, mechanism: Model) -> Message | None:
         distance = abs(self.line(mechanism))
         return self._apart(distance, self._slack(distance))
 

@@ -25,6 +25,7 @@ from linkwright.formula.vector import Vec
 from linkwright.joints.base import Entry, HigherPair, Joint
 from linkwright.joints.ends import Ends
 from linkwright.units import number
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -129,7 +130,7 @@ class WheelPair(HigherPair):
             found[f"{self.name}.ratio"] = self.ratio
         return {**found, f"{self.name}.phase": self.phase or 0.0}
 
-    def limit(self, address: str, value: float) -> Sentence | None:
+    def limit(self, address: str, value: float) -> Message | None:
         """A pair does not become an internal one, or the other way round, by a changed ratio."""
         if address == f"{self.name}.ratio" and value * self.transmission < 0:
             return Sentence("joints.same_sign", ratio=self.transmission)
@@ -216,7 +217,7 @@ class Numbers(Field):
         a, b = found
         return None if a is None or b is None else (a, b)
 
-    def limit(self, value: float) -> Sentence | None:
+    def limit(self, value: float) -> Message | None:
         return Quantity("dimensionless", above=0).limit(value)
 
     def shape(self) -> dict[str, Any]:
@@ -295,7 +296,7 @@ class _Centres:
     def _without(kind: str) -> str:
         return "does_not_turn" if kind in ("belt", "chain") else "without_pin"
 
-    def _say(self, problem: Sentence, remedy: Sentence) -> None:
+    def _say(self, problem: Message, remedy: Message) -> None:
         self.entry.say("links", problem, remedy)
 
 

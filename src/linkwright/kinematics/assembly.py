@@ -22,6 +22,7 @@ from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import nearest, offered
 from linkwright.structure.analysis import Structure
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence, lines
 
 #: Where modes are looked for if the drawn inputs are out of reach: beside them, rad or shares of the size.
@@ -126,7 +127,7 @@ def _from_words(mechanism: Mechanism, structure: Structure) -> dict[str, float]:
 
 def _no_such_joint(
     joint: str, groups: dict[str, tuple[Group, tuple[str, str]]], open_groups: Iterable[Group]
-) -> Sentence:
+) -> Message:
     for group in open_groups:
         if any(connection.joint == joint for connection in group.inner_joints):
             drawn = _to_draw(group)

@@ -27,6 +27,7 @@ from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 #: Step of the search: of a turning driver in rad, of a sliding one as share of the mechanism's size; how far a
@@ -149,7 +150,7 @@ def range_sentence(mechanism: Mechanism, links: Sequence[str] = ()) -> str:
         if len(mechanism.drivers) == 1:
             return found.explain()
         groups = [end.group for end in (found.low, found.high) if end is not None]
-        if any(isinstance(each, Sentence) and each.values.get("links") == tuple(links) for each in groups):
+        if any(isinstance(each, Message) and each.values.get("links") == tuple(links) for each in groups):
             return Sentence("range.others_still", told=found.explain())
     return ""
 

@@ -7,7 +7,8 @@ from functools import partial
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
-from linkwright.words.sentence import Sentence, in_language
+from linkwright.words import Message
+from linkwright.words.sentence import in_language
 
 
 @dataclass(frozen=True)
@@ -15,7 +16,7 @@ class Outcome:
     """Of one position: whether it is solved, and if not, the group that fails and why (in English)."""
 
     ok: bool
-    sentence: str = field(default_factory=partial(Sentence, "outcome.assembled"))
+    sentence: str = field(default_factory=partial(Message, "outcome.assembled"))
     group: str | None = None
     kind: str = "ok"
 

@@ -21,6 +21,7 @@ from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.units import LARGEST, SI_UNITS
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 #: Dimensions of a coordinate and its rates, by whether the driver turns.
@@ -226,7 +227,7 @@ def rotary(mechanism: Mechanism) -> dict[str, bool]:
     }
 
 
-def coordinate_text(name: str, value: float, rotary: bool) -> Sentence:
+def coordinate_text(name: str, value: float, rotary: bool) -> Message:
     """A driver's coordinate in words: ``crank = 30°``."""
     shown = f"{math.degrees(value):.6g}°" if rotary else f"{value:.6g} m"
     own = Sentence("nouns.driver") if name == "driver" else name

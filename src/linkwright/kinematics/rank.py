@@ -21,6 +21,7 @@ from linkwright.kinematics.constraint_equations import (
 )
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.mobility import counts, grubler
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 #: Singular values below this share of the largest one count as zero: at solved positions, and in a drawing.
@@ -48,7 +49,7 @@ class RankReport:
     redundant: tuple[str, ...]
     links: tuple[str, ...]
     special: bool
-    sentence: Sentence
+    sentence: Message
 
     @property
     def mobility(self) -> int:
@@ -277,7 +278,7 @@ def _reason(
     special: bool,
     guides: tuple[str, ...],
     wheels: bool,
-) -> Sentence:
+) -> Message:
     if special:
         return Sentence("rank.special", redundant=redundant)
     if links:
@@ -291,11 +292,11 @@ def _reason(
     return Sentence("rank.passive", redundant=redundant)
 
 
-def _named(names: Sequence[str]) -> tuple[Sentence, ...]:
+def _named(names: Sequence[str]) -> tuple[Message, ...]:
     return tuple(Sentence("rank.named", name=name) for name in names)
 
 
-def _said(rows: Sequence[Row]) -> tuple[Sentence, ...]:
+def _said(rows: Sequence[Row]) -> tuple[Message, ...]:
     return tuple(Sentence(f"rank.{row.holds}", joint=row.joint) for row in rows)
 
 

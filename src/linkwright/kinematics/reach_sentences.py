@@ -19,6 +19,7 @@ from linkwright.kinematics.positions import Positions, coordinate_text
 from linkwright.kinematics.whole_turns import MOST
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import number
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ def explain(motion: Motion) -> list[Outcome]:
     return found
 
 
-def turn_notes(motion: Motion) -> tuple[Sentence, ...]:
+def turn_notes(motion: Motion) -> tuple[Message, ...]:
     """How many turns of the drivers the cycle of a mechanism with wheels takes, if not one, or that it never ends."""
     positions, mechanism = motion.positions, motion.mechanism
     if not positions.cycle or mechanism.cycle is not None:
@@ -62,7 +63,7 @@ def turn_notes(motion: Motion) -> tuple[Sentence, ...]:
     return (Sentence("cycle.never_back", most=MOST),) if mechanism.higher and not_back(mechanism) else ()
 
 
-def _apart(mechanism: Mechanism, count: float) -> Sentence:
+def _apart(mechanism: Mechanism, count: float) -> Message:
     """That drivers of several speeds are back together only after many turns, or not even then."""
     natural, driver = max((d.law.natural_duration() or 0.0, name) for name, d in mechanism.drivers.items())
     if math.isinf(count):
@@ -72,13 +73,13 @@ def _apart(mechanism: Mechanism, count: float) -> Sentence:
     )
 
 
-def branch_notes(motion: Motion) -> tuple[Sentence, ...]:
+def branch_notes(motion: Motion) -> tuple[Message, ...]:
     """That groups that are followed do not come back to their start."""
     way = motion.followed
     return () if way is None or way.returns is not False else (Sentence("cycle.not_back"),)
 
 
-def passage_notes(passing: Sequence[Passage], positions: Positions) -> tuple[Sentence, ...]:
+def passage_notes(passing: Sequence[Passage], positions: Positions) -> tuple[Message, ...]:
     """What the user should know about change points and gaps between positions."""
     said = [_passage_note(p, positions) for p in passing]
     if positions.closed and not closes(passing):
@@ -86,7 +87,7 @@ def passage_notes(passing: Sequence[Passage], positions: Positions) -> tuple[Sen
     return tuple(dict.fromkeys(said))
 
 
-def _passage_note(p: Passage, positions: Positions) -> Sentence:
+def _passage_note(p: Passage, positions: Positions) -> Message:
     name = next(iter(positions.coordinates))
     where = f"{name} = " + (
         f"{round(np.degrees(p.at), 9) + 0.0:.6g}°"
@@ -150,7 +151,7 @@ class _Facts:
         return Outcome(False, way_stopped(self.motion, group, stop), group.name, "unreachable")
 
 
-def way_stopped(motion: Motion, group: Group, stop: Stop) -> Sentence:
+def way_stopped(motion: Motion, group: Group, stop: Stop) -> Message:
     """Where the way of a group without closed form ends."""
     rotary = motion.positions.rotary
     where = ", ".join(
@@ -160,7 +161,7 @@ def way_stopped(motion: Motion, group: Group, stop: Stop) -> Sentence:
     return _of("stopped", group, where=where)
 
 
-def _of(key: str, group: Group, **values: object) -> Sentence:
+def _of(key: str, group: Group, **values: object) -> Message:
     """What is to be said of a group."""
     return Sentence(f"outcome.{key}", signature=group.signature, links=group.links, **values)
 

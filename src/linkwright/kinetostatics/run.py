@@ -25,7 +25,7 @@ from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.over_cycle import evaluate
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import format as spelled
-from linkwright.words import has
+from linkwright.words import Message, has
 from linkwright.words.sentence import Sentence, together
 
 #: Iterations of the friction, and the change, as share of what the largest reaction causes, at which these end.
@@ -83,7 +83,7 @@ def run_forces(
     return forces
 
 
-def _contacts_lost(forces: Forces) -> Iterable[Sentence]:
+def _contacts_lost(forces: Forces) -> Iterable[Message]:
     """Where pairs that can only push would have to pull, and belts to push."""
     motion = forces.motion
     drivers = motion.mechanism.drivers.values()

@@ -13,6 +13,7 @@ from linkwright.formula.late_import import numpy as np
 from linkwright.loads.signals import Signals, column, input_dimension, named_column, output_named, shown
 from linkwright.loads.strokes import NEAR, TURN, StrokePart
 from linkwright.units import LARGEST
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ _LARGEST = LARGEST["torque"]
 _APART = 0.5
 
 
-def formula_fault(expression: Expression, signals: Signals, where: Flags, found: Floats) -> Sentence | None:
+def formula_fault(expression: Expression, signals: Signals, where: Flags, found: Floats) -> Message | None:
     """Where the values ``found`` (n,) of an expression are not finite ``where`` they are needed, at a position or
     between two."""
     columns = {name: column(named_column(name, signals), len(where)) for name in sorted(expression.names)}
@@ -37,7 +38,7 @@ def formula_fault(expression: Expression, signals: Signals, where: Flags, found:
 
 def _not_finite(
     expression: Expression, columns: Mapping[str, Floats], signals: Signals, index: int
-) -> Sentence:
+) -> Message:
     where = Sentence("loads.only_position")
     if signals.mechanism.drivers:
         place = shown(float(signals.input[index]), input_dimension(signals))
@@ -51,7 +52,7 @@ def _not_finite(
 
 def _pole_between(
     expression: Expression, columns: Mapping[str, Floats], signals: Signals, where: Flags
-) -> Sentence | None:
+) -> Message | None:
     """Where a denominator goes through zero between two neighbouring positions."""
     divisors = [each for each in denominators(expression.tree) if not isinstance(each, Number)]
     if not divisors or len(where) < 2:
@@ -103,7 +104,7 @@ def _zero(divisor: Node, columns: Mapping[str, Floats], index: int) -> float | N
     return low if abs(value(low)) <= 1e-6 * size else None
 
 
-def interval_fault(start: float, end: float, signals: Signals) -> Sentence | None:
+def interval_fault(start: float, end: float, signals: Signals) -> Message | None:
     """Why an input does not pass an interval of angles."""
     length = end - start
     if not signals.rotary:
@@ -117,7 +118,7 @@ def interval_fault(start: float, end: float, signals: Signals) -> Sentence | Non
     return Sentence(key, start=shown(start, "angle"), end=shown(end, "angle"))
 
 
-def part_fault(output: Output, part: StrokePart, stroke: float) -> Sentence:
+def part_fault(output: Output, part: StrokePart, stroke: float) -> Message:
     """How far a stroke (m or rad) is too short for a part of it."""
     return Sentence(
         "loads.part_too_long",
@@ -130,7 +131,7 @@ def part_fault(output: Output, part: StrokePart, stroke: float) -> Sentence:
 
 def table_fault(
     over: Literal["input", "time"] | Output, ends: tuple[float, float], short: Floats, signals: Signals
-) -> Sentence:
+) -> Message:
     """The range that a table lacks which goes between two ``ends`` and has no values at the places ``short``."""
     dimension = "time" if over == "time" else input_dimension(signals)
     dimension = over.dimension if isinstance(over, Output) else dimension

@@ -13,7 +13,7 @@ from linkwright.formula.trace import Mask, Scalar, absolute, maximum, minimum, s
 from linkwright.loads.faults import interval_fault, part_fault
 from linkwright.loads.signals import Course, LimitKind, Signals, times_of_inputs
 from linkwright.loads.strokes import NEAR, TURN, StrokePart, share_of, turned, within
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
@@ -55,7 +55,7 @@ class Phase(ABC):
         limits = [limit.time for output in self.outputs for limit in signals.limits(output)]
         return np.array(limits), not self.in_part
 
-    def fault(self, signals: Signals, course: Course, exists: Flags) -> Sentence | None:
+    def fault(self, signals: Signals, course: Course, exists: Flags) -> Message | None:
         """What keeps the cycle from having such a phase."""
         return None
 
@@ -97,7 +97,7 @@ class InputPhase(Phase):
         found = times_of_inputs(np.array([self.start, self.end]), signals)
         return (np.empty(0), False) if found is None else (found, True)
 
-    def fault(self, signals: Signals, course: Course, exists: Flags) -> Sentence | None:
+    def fault(self, signals: Signals, course: Course, exists: Flags) -> Message | None:
         return interval_fault(self.start, self.end, signals)
 
 
@@ -189,7 +189,7 @@ class SwingPhase(Phase):
         amounts = () if self.part is None else self.part.amounts
         return {f"part.{k}": amount.value for k, amount in enumerate(amounts)}
 
-    def fault(self, signals: Signals, course: Course, exists: Flags) -> Sentence | None:
+    def fault(self, signals: Signals, course: Course, exists: Flags) -> Message | None:
         if self.part is None or np.all(exists):
             return None
         ends: tuple[Any, Any, Any] = self.part_ends(course)

@@ -18,7 +18,7 @@ from linkwright.loads.faults import formula_fault, table_fault
 from linkwright.loads.signals import Course, Signals, output_named, times_of_inputs
 from linkwright.loads.site import Mechanism
 from linkwright.loads.strokes import TURN
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
@@ -67,7 +67,7 @@ class Size(ABC):
         """Times, s, at which it bends, as far as these are known beforehand; whole cycles away perhaps."""
         return np.empty(0)
 
-    def fault(self, signals: Signals, course: Course, where: Flags, found: Floats) -> Sentence | None:
+    def fault(self, signals: Signals, course: Course, where: Flags, found: Floats) -> Message | None:
         """What keeps the values ``found`` from being finite at the positions ``where`` they are needed."""
         return None
 
@@ -112,7 +112,7 @@ class Formula(Size):
     def divides(self) -> bool:
         return any(not isinstance(each, Number) for each in denominators(self.expression.tree))
 
-    def fault(self, signals: Signals, course: Course, where: Flags, found: Floats) -> Sentence | None:
+    def fault(self, signals: Signals, course: Course, where: Flags, found: Floats) -> Message | None:
         return formula_fault(self.expression, signals, where, found)
 
 
@@ -193,7 +193,7 @@ class Table(Size):
         found = knots if self.over == "time" or not len(knots) else times_of_inputs(knots, signals)
         return np.empty(0) if found is None else found
 
-    def fault(self, signals: Signals, course: Course, where: Flags, found: Floats) -> Sentence | None:
+    def fault(self, signals: Signals, course: Course, where: Flags, found: Floats) -> Message | None:
         place: tuple[Any, Any] = self._place(course)
         short = place[0][where & place[1]]
         return table_fault(self.over, (self.x[0], self.x[-1]), short, signals) if len(short) else None

@@ -21,6 +21,7 @@ from linkwright.machine.energy import EnergyFluctuation, of_energy
 from linkwright.machine.torque_curve import TURN, TorqueCurve
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 
@@ -201,7 +202,7 @@ def steady_rate(motion: Motion) -> float:
     return float(rate[0])
 
 
-def _not_whole_turns(mechanism: Mechanism) -> Sentence:
+def _not_whole_turns(mechanism: Mechanism) -> Message:
     if mechanism.higher and not_back(mechanism):
         return Sentence("running.never_back", name=mechanism.name, most=MOST)
     return Sentence("running.not_whole_turns", name=mechanism.name)

@@ -21,7 +21,7 @@ from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.quantities import shown
 from linkwright.metrics.true_speed import steady_cycle
-from linkwright.words import Say
+from linkwright.words import Message, Say
 from linkwright.words.sentence import Sentence
 
 DIMENSIONS = {
@@ -91,18 +91,18 @@ class SteadyRunning(Plotted):
             yield say(f"machine.{key.removeprefix('equivalent_')}").strip(), value, DIMENSIONS[key]
 
     @property
-    def driven(self) -> Sentence | None:
+    def driven(self) -> Message | None:
         """That the loads drive the machine, as an engine's gas does, and a constant torque resists them."""
         name = self.equivalent.forces.mechanism.name
         return Sentence("running.driven", name=name) if self.mean_torque < 0.0 else None
 
     @property
-    def remarks(self) -> list[Sentence]:
+    def remarks(self) -> list[Message]:
         """What is to be said beside the numbers: that the loads drive the machine, or what its motor rests on."""
         return [each for each in (self.driven, self.evened) if each is not None]
 
     @property
-    def evened(self) -> Sentence | None:
+    def evened(self) -> Message | None:
         """That the motor of the mean power does only beside a flywheel, or the inertia that the machine has."""
         if self.driven is not None or self.power_without_flywheel <= self.motor.power * (1.0 + NOTHING):
             return None

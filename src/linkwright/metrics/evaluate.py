@@ -18,6 +18,7 @@ from linkwright.metrics.analysis import Analysis, Result
 from linkwright.metrics.base import METRICS, Metric, MetricValue
 from linkwright.metrics.quantities import NOTHING
 from linkwright.metrics.table import MetricsTable
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 
@@ -78,7 +79,7 @@ def _countable(motion: Motion) -> None:
         raise RequestError("metrics.too_many_turns", name=motion.mechanism.name, turns=turns, most=MOST)
 
 
-def _notes(analysis: Analysis, ok: Flags) -> tuple[Sentence, ...]:
+def _notes(analysis: Analysis, ok: Flags) -> tuple[Message, ...]:
     """What is to be said where not all positions are reached; ``ok``: which of those that were asked for are."""
     name = analysis.motion.mechanism.name
     if not ok.any():
@@ -126,7 +127,7 @@ def _chosen(asked: Iterable[str] | None) -> dict[str, type[Metric]]:
     return dict(sorted(usual, key=lambda each: each[1].rank))
 
 
-def unloaded(mechanism: Mechanism, names: Iterable[str]) -> Sentence | None:
+def unloaded(mechanism: Mechanism, names: Iterable[str]) -> Message | None:
     """That some of these numbers, each a metric with its subject, need joint forces that the machine has not."""
     metrics = {name: METRICS.get(name.split(" ")[0]) for name in names}
     idle = tuple(name for name, metric in metrics.items() if metric is not None and metric.needs_forces)

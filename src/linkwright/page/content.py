@@ -62,8 +62,8 @@ def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tup
     """What a page is made of as plain data, and the kernels' JavaScript text where there is no module."""
     found = [_model(motion, text, number) for number, (motion, text) in enumerate(models)]
     words = {
-        each: {f"page.{key}": text for key, text in catalogue("page", each).items() if key not in _NAMES}
-        | {f"outcome.{key}": catalogue("outcome", each)[key] for key in _OUTCOMES}
+        each: {f"page.{key}": say(f"page.{key}", each) for key in catalogue("page") if key not in _NAMES}
+        | {f"outcome.{key}": say(f"outcome.{key}", each) for key in _OUTCOMES}
         for each in LANGUAGES
     }
     data = {"language": language, "words": words, "models": [each for each, _ in found]}

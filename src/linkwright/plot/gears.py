@@ -15,8 +15,7 @@ from linkwright.pictures.drawing import Box, Drawing, bounds, captioned
 from linkwright.pictures.picture import Circle, Line, SvgNode
 from linkwright.pictures.svg.element import element, path_data
 from linkwright.pictures.symbols.base import points, ring, vec
-from linkwright.words import say
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, say
 
 DIAGONAL = 760.0
 #: Thickness of a ring outside its roots, modules.
@@ -105,7 +104,7 @@ def _lines(pair: GearPair, language: str) -> list[str]:
         angle=f"{math.degrees(pair.working_pressure_angle):.6g}",
         ratio=f"{pair.contact_ratio:.4g}",
     )
-    said = [each.say(language) if isinstance(each, Sentence) else each for each in pair.findings]
+    said = [each.say(language) if isinstance(each, Message) else each for each in pair.findings]
     return [numbers, *said]
 
 

@@ -26,7 +26,7 @@ from linkwright.server.background import unexpected
 from linkwright.server.files import LARGEST, Files
 from linkwright.server.request import BadRequest, parsed
 from linkwright.server.work import Work, language_of, said
-from linkwright.words import LANGUAGES, catalogue
+from linkwright.words import LANGUAGES, catalogue, say
 from linkwright.words.sentence import Sentence
 
 _POLICY = (
@@ -165,7 +165,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _page(self) -> bytes:
         words = {
-            each: {f"{area}.{key}": text for area in _AREAS for key, text in catalogue(area, each).items()}
+            each: {f"{area}.{key}": say(f"{area}.{key}", each) for area in _AREAS for key in catalogue(area)}
             for each in LANGUAGES
         }
         data: dict[str, Any] = {

@@ -9,6 +9,7 @@ from linkwright.joints.base import JOINTS
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.constraints import DRIVER, FRAME, ConstraintGraph
 from linkwright.structure.trains import GearTrain, blocking_pairs, gear_trains
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence, together
 
 
@@ -93,7 +94,7 @@ def explain_excess(
 ) -> StructureError:
     """The sentence for demands that exceed the freedoms."""
     drivers = len(mechanism.drivers)
-    why: Sentence = _has(mechanism, mobility)
+    why: Message = _has(mechanism, mobility)
     if mobility <= 0 and drivers:
         why = Sentence(
             "mobility.cannot_be_driven" if drivers == 1 else "mobility.cannot_be_driven_by_several",
@@ -118,7 +119,7 @@ def explain_excess(
     return StructureError("mobility.excess", why=why, links=links, extra=extra)
 
 
-def _source(mechanism: Mechanism, source: str) -> Sentence | str:
+def _source(mechanism: Mechanism, source: str) -> Message | str:
     """A joint or a driver, as it is called."""
     if source in mechanism.joints:
         return repr(source)
@@ -140,12 +141,12 @@ def _loop_of(mechanism: Mechanism, train: GearTrain) -> list[str]:
     return list(train.pairs)
 
 
-def _has(mechanism: Mechanism, mobility: int) -> Sentence:
+def _has(mechanism: Mechanism, mobility: int) -> Message:
     drivers = _drivers("drivers", len(mechanism.drivers))
     return Sentence("mobility.has", name=mechanism.name, mobility=mobility, drivers=drivers)
 
 
-def _drivers(key: str, count: int) -> Sentence:
+def _drivers(key: str, count: int) -> Message:
     return Sentence(f"mobility.{key}_{count if count < 4 else 'many'}", count=count)
 
 

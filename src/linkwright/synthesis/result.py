@@ -21,7 +21,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.merit import merit
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words import Say, has
+from linkwright.words import Message, Say, has
 from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import Sentence, in_language
 from linkwright.worked.page import Equation, Step
@@ -160,7 +160,7 @@ class Synthesis(Plotted):
     error_name: str = "none"
     target: NDArray[Any] | None = None
     counts: Mapping[str, int] = field(default_factory=dict)
-    notes: tuple[Sentence, ...] = ()
+    notes: tuple[Message, ...] = ()
     curves: Mapping[str, Complexes] = field(default_factory=dict)
     extent: float = 0.0
     derivation: Derivation | None = field(default=None, repr=False)
@@ -340,11 +340,11 @@ def _length(value: float) -> str:
 class SynthesisError(LinkwrightError):
     """A demand that cannot be met: which, how closely it can be, and the ``nearest`` solution."""
 
-    def __init__(self, sentence: Sentence, nearest: Synthesis | None = None) -> None:
+    def __init__(self, sentence: Message, nearest: Synthesis | None = None) -> None:
         self.nearest = nearest
         super().__init__(sentence)
 
-    def __reduce__(self) -> tuple[type[SynthesisError], tuple[Sentence, Synthesis | None]]:
+    def __reduce__(self) -> tuple[type[SynthesisError], tuple[Message, Synthesis | None]]:
         return SynthesisError, (self.args[0], self.nearest)
 
 
@@ -353,7 +353,7 @@ def refuse(rule: str, nearest: Synthesis | None = None, **values: object) -> Syn
     return SynthesisError(Sentence(f"synthesize.{rule}", **values), nearest)
 
 
-def note(key: str, **values: object) -> Sentence:
+def note(key: str, **values: object) -> Message:
     """A sentence of the catalogue ``synthesize``."""
     return Sentence(f"synthesize.{key}", **values)
 

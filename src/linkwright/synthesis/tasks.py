@@ -24,6 +24,7 @@ from linkwright.files.reader import Reader
 from linkwright.files.source import GALLERY, read_source
 from linkwright.registry import listed, nearest
 from linkwright.synthesis.result import Synthesis, note, refuse
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -286,5 +287,5 @@ def _bare(text: str) -> bool:
         return False
 
 
-def _form(form: str) -> Sentence:
+def _form(form: str) -> Message:
     return Sentence(f"synthesize.task.form.{form}")

@@ -1,10 +1,4 @@
-"""Every word that a user reads, by key and language.
-
-A key begins with its area: ``solve.summary`` is in ``words/en/solve.py`` and ``words/zh/solve.py``, each
-with one mapping ``WORDS`` of keys without the area. A new area is one more file per language; both
-languages have the same keys and the same ``{names}`` in their texts. What is the same text in all of them stands in
-``words/untranslated.py``, by whole keys.
-"""
+"""Every word that a user reads: messages, and the catalogues of texts that still have keys."""
 
 from __future__ import annotations
 
@@ -13,26 +7,32 @@ from collections.abc import Callable, Mapping
 from functools import cache
 
 from linkwright.core.entry_points import modules_within
+from linkwright.words.contexts import CONTEXTS
+from linkwright.words.message import LANGUAGES, Message, _, ngettext, pgettext
 from linkwright.words.untranslated import WORDS as ALIKE
 
-LANGUAGES = ("en", "zh")
+__all__ = ["LANGUAGES", "Message", "Say", "_", "has", "language_of", "ngettext", "pgettext", "say"]
+
 Say = Callable[..., str]
 
 
-def say(key: str, language: str = "en", **values: object) -> str:
-    """The text of a key in a language, its ``{names}`` replaced by ``values``, each said in that language; raises
-    KeyError."""
-    area, _, name = key.partition(".")
-    text = catalogue(area, language)[name]
-    told = {key: each.say(language) if hasattr(each, "say") else each for key, each in values.items()}
-    return text.format(**told) if told else text
+def say(text: str, /, language: str = "en", **values: object) -> str:
+    """A message, or the one of a key, in a language, with values; raises KeyError."""
+    message = text if isinstance(text, Message) else message_of(text)
+    return (message.format(**values) if values else message).translate(language)
+
+
+def message_of(key: str, /, **values: object) -> Message:
+    """The message of a key."""
+    area, _dot, name = key.partition(".")
+    return Message(catalogue(area)[name], values, context=CONTEXTS.get(key, ""), code=key)
 
 
 def has(key: str) -> bool:
     """Whether the catalogue has a key."""
-    area, _, name = key.partition(".")
+    area, _dot, name = key.partition(".")
     try:
-        return name in catalogue(area, LANGUAGES[0])
+        return name in catalogue(area)
     except KeyError:
         return False
 
@@ -43,11 +43,9 @@ def language_of(speaks: Say) -> str:
 
 
 @cache
-def catalogue(area: str, language: str) -> Mapping[str, str]:
-    """All texts of an area; raises KeyError for an area or a language that does not exist."""
-    if language not in LANGUAGES:
-        raise KeyError(language)
-    name = f"{__name__}.{language}.{area}"
+def catalogue(area: str) -> Mapping[str, str]:
+    """All texts of an area; raises KeyError for one that does not exist."""
+    name = f"{__name__}.en.{area}"
     try:
         module = importlib.import_module(name)
     except ModuleNotFoundError as error:
@@ -58,7 +56,7 @@ def catalogue(area: str, language: str) -> Mapping[str, str]:
     return {**module.WORDS, **shared}
 
 
-def areas(language: str) -> tuple[str, ...]:
-    """Names of all areas of a language."""
-    package = importlib.import_module(f"{__name__}.{language}")
+def areas() -> tuple[str, ...]:
+    """Names of all areas."""
+    package = importlib.import_module(f"{__name__}.en")
     return tuple(modules_within(package.__path__))

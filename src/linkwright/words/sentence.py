@@ -5,11 +5,11 @@ from __future__ import annotations
 import errno
 import re
 from collections.abc import Mapping, Sequence
-from typing import Protocol, runtime_checkable
 
 from linkwright.core.dataclass import dataclass
-from linkwright.words import LANGUAGES, has, say
+from linkwright.words import LANGUAGES, has, message_of, say
 from linkwright.words.characters import one_line
+from linkwright.words.message import Message
 
 _OWN_NAMES = re.compile(
     r"(?<![\w.-])(?:frame|driver)(?![\w-])|\b(?:max|min)(?=→)|(?<=→)(?:max|min)\b|(?<= )(?:max|min)$"
@@ -25,48 +25,21 @@ _AROUND = {
 }
 
 
-@runtime_checkable
-class SaidAnywhere(Protocol):
-    """What can be said in every language."""
-
-    def say(self, language: str = "en") -> str:
-        """The text in a language."""
-
-
 @dataclass(frozen=True)
 class Gloss:
     """An English text that is given, such as a field's description, and what is said in other languages instead."""
 
     english: str
-    other: Sentence
+    other: Message
 
     def say(self, language: str = "en") -> str:
         """The text in a language."""
         return self.english if language == "en" else self.other.say(language)
 
 
-class Sentence(str):
-    """The English text of a key with its values; ``say("zh")`` is the same in Chinese.
-
-    Values may be sentences themselves, anything else that has ``say(language)`` such as an error, or tuples of
-    these, which are said with commas in between, or lists, with semicolons; or functions of the language.
-    """
-
-    key: str
-    values: dict[str, object]
-
-    def __new__(cls, key: str, **values: object) -> Sentence:
-        sentence = super().__new__(cls, _said(key, "en", values))
-        sentence.key = key
-        sentence.values = values
-        return sentence
-
-    def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, object]]:
-        return (self.key,), self.values
-
-    def say(self, language: str = "en") -> str:
-        """The text in a language; raises KeyError for one that does not exist."""
-        return _said(self.key, language, self.values)
+def Sentence(key: str, /, **values: object) -> Message:
+    """The message of a key."""
+    return message_of(key, **values)
 
 
 class Worded(str):
@@ -96,7 +69,7 @@ class Worded(str):
 
 def in_language(text: str, language: str) -> str:
     """A sentence, or a text that is given in several languages, in a language; other texts as they are."""
-    return text.say(language) if isinstance(text, Sentence | Worded) else text
+    return text.say(language) if isinstance(text, Message | Worded) else text
 
 
 def in_words(subject: str, language: str) -> str:
@@ -122,10 +95,10 @@ def code_of(text: object) -> str:
     """The key of a sentence, or the code of what is within it where it only says what that is about (``--at: …``)."""
     if isinstance(text, tuple | list):
         return next(filter(None, map(code_of, text)), "")
-    if not isinstance(text, Sentence):
-        return getattr(text, "code", "") or getattr(getattr(text, "sentence", None), "key", "")
-    inner = code_of(text.values[_AROUND[text.key]]) if text.key in _AROUND else ""
-    return inner or text.key
+    if not isinstance(text, Message):
+        return getattr(text, "code", "") or getattr(getattr(text, "sentence", None), "code", "")
+    inner = code_of(text.values[_AROUND[text.code]]) if text.code in _AROUND else ""
+    return inner or text.code
 
 
 def values_of(text: str) -> dict[str, object]:
@@ -135,7 +108,7 @@ def values_of(text: str) -> dict[str, object]:
     for value in own.values():
         for each in value if isinstance(value, tuple | list) else (value,):
             inner = getattr(each, "sentence", each)
-            found = {**values_of(inner), **found} if isinstance(inner, Sentence) else found
+            found = {**values_of(inner), **found} if isinstance(inner, Message) else found
     return found
 
 
@@ -149,21 +122,6 @@ def lines(items: Sequence[str]) -> str:
     """One or more sentences, each on a line of its own."""
     first, *rest = items
     return Sentence("finding.below", first=first, second=lines(rest)) if rest else first
-
-
-def _said(key: str, language: str, values: dict[str, object]) -> str:
-    return say(key, language).format(**{name: _value(value, language) for name, value in values.items()})
-
-
-def _value(value: object, language: str) -> object:
-    if isinstance(value, tuple | list):
-        between = say("finding.comma" if isinstance(value, tuple) else "finding.semicolon", language)
-        return between.join(str(_value(each, language)) for each in value)
-    if callable(value):
-        return value(language)
-    if isinstance(value, SaidAnywhere):
-        return value.say(language)
-    return value
 
 
 def reason_of(problem: Exception) -> str:

@@ -321,7 +321,7 @@ def test_a_cycle_that_ends_in_another_assembly_is_reported(triad: Motion) -> Non
     assert branch_notes(motion) == ()
     motion.followed = replace(followed(motion), returns=False)
     (note,) = branch_notes(motion)
-    assert note.key == "cycle.not_back"
+    assert note.code == "cycle.not_back"
     motion.followed = None
     assert branch_notes(motion) == ()
 

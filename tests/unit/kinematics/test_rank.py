@@ -71,7 +71,7 @@ def test_wedge_has_a_passive_rotation() -> None:
     report = jacobian_rank(moved("wedge", 5))
     assert (report.grubler, report.mobility, report.special) == (0, 1, False)
     assert report.redundant == ("rotation at column",)
-    assert report.sentence.key == "rank.differs"
+    assert report.sentence.code == "rank.differs"
 
 
 @pytest.mark.parametrize("error", [0.0, 0.003])
@@ -80,7 +80,7 @@ def test_third_parallel_crank_is_redundant(error: float) -> None:
     report = rank_from_drawing(lw.loads(parallel_cranks(error=error)))
     assert report is not None
     assert (report.grubler, report.mobility, report.links, report.special) == (0, 1, ("crank_3",), False)
-    assert report.sentence.key == "rank.differs_drawn"
+    assert report.sentence.code == "rank.differs_drawn"
 
 
 def test_third_crank_that_is_not_parallel() -> None:
@@ -89,13 +89,13 @@ def test_third_crank_that_is_not_parallel() -> None:
     report = rank_from_drawing(lw.loads(parallel_cranks(o3=1.3, length=length)))
     assert report is not None
     assert report.mobility == 0
-    assert report.sentence.key == "rank.confirmed_drawn"
+    assert report.sentence.code == "rank.confirmed_drawn"
 
 
 def test_links_that_do_not_fit_the_drawing() -> None:
     report = rank_from_drawing(lw.loads(parallel_cranks(o3=9.0)))
     assert report is not None
-    assert report.sentence.key == "rank.gaping"
+    assert report.sentence.code == "rank.gaping"
     assert report.links == ()
 
 
@@ -113,7 +113,7 @@ drawing: {A: [1 m, 0 m]}
     report = rank_from_drawing(lw.loads(text))
     assert report is not None
     assert (report.grubler, report.mobility, report.special) == (0, 1, True)
-    assert report.sentence.key == "rank.differs_drawn"
+    assert report.sentence.code == "rank.differs_drawn"
 
 
 def test_change_point_in_a_drawing_is_a_special_position() -> None:

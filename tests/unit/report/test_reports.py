@@ -460,7 +460,7 @@ def test_what_solve_notes_stands_in_the_report_too(language: str) -> None:
         blocks = report(lw.loads(LIFTED_OFF), sections=[section], language=language).document.blocks
         notes = [plain(b.text) for b in blocks if isinstance(b, Paragraph) and b.kind == "note"]
         note = {"forces": pulls, "motion": turns}[kind]
-        begin, _, _ = say(note.key, language, **{**note.values, "places": "|"}).partition("|")
+        begin, _, _ = say(note.code, language, **{**note.values, "places": "|"}).partition("|")
         assert [each.startswith(begin) for each in notes] == [True]
         apart = say("forces.friction_apart", language, names="way")
         texts = [plain(b.text) for b in blocks if isinstance(b, Paragraph)]

@@ -121,11 +121,11 @@ def test_a_search_that_a_clock_ends_goes_on_with_the_time_that_is_left(tmp_path:
             return lw.free_curve(FOUR, joints=5, seconds=3.0, progress=progress)
 
     part = searched(stop)
-    assert [note.key for note in part.notes if note.key == "study.interrupted"]
+    assert [note.code for note in part.notes if note.code == "study.interrupted"]
     onward = list[float]()
     whole = searched(lambda done, total: onward.append(done / total))
     assert shares[0] < 0.5 < shares[-1] < onward[0]
-    assert "study.interrupted" not in [note.key for note in whole.notes]
+    assert "study.interrupted" not in [note.code for note in whole.notes]
     assert whole.counts["attempts"] > part.counts["attempts"] > 0
     assert whole.best.error < 1.02 * part.best.error  # what was found is there; demands are met more exactly
     assert json.dumps(searched(lambda *_: None).data()) == json.dumps(whole.data())  # the time is over

@@ -9,7 +9,7 @@ from linkwright import words
 
 def test_names_of_synthesis_have_words() -> None:
     """Counts and values are keys of mappings in the code: each has its word."""
-    known = words.catalogue("synthesis_names", "zh")
+    known = {key: words.say(f"synthesis_names.{key}", "zh") for key in words.catalogue("synthesis_names")}
     root = Path(lw.__file__).parent / "synthesis"
     code = "".join(path.read_text(encoding="utf-8") for path in root.rglob("*.py"))
     with_units = set(re.findall(r'"(\w+) \[(?:rad|m)\]":', code)) - {"lengths", "points"}

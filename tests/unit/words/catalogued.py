@@ -1,4 +1,4 @@
-"""The catalogues as they stand: every sentence by its area and key, and a record of those that are said."""
+"""The texts of the translations, and a record of the messages that are made."""
 
 from __future__ import annotations
 
@@ -7,36 +7,42 @@ from contextlib import contextmanager
 from functools import cache
 from unittest.mock import patch
 
-from linkwright import words
+from babel.messages.pofile import read_po
+
+from linkwright.words import LANGUAGES, message
 
 
+@cache
 def sentences(language: str) -> dict[str, str]:
-    """All texts of the catalogues of a language, by key."""
+    """All texts of a language, by the English ones, with their contexts where they have one."""
+    path = message.LOCALES / (LANGUAGES[1] if language == "en" else language) / "LC_MESSAGES/linkwright.po"
+    with path.open("rb") as file:
+        known = [each for each in read_po(file) if each.id]
     return {
-        f"{area}.{name}": text
-        for area in words.areas(language)
-        for name, text in words.catalogue(area, language).items()
+        f"{each.context or ''}|{english}": english if language == "en" else text
+        for each in known
+        for english, text in zip(_forms(each.id), _forms(each.string), strict=False)
     }
+
+
+def _forms(text: str | tuple[str, ...] | list[str]) -> tuple[str, ...]:
+    return (text,) if isinstance(text, str) else tuple(text)
 
 
 @contextmanager
 def recorded() -> Iterator[set[str]]:
-    """The keys of the texts that are looked up while it lasts."""
-    said: set[str] = set()
-    looked_up = words.catalogue
+    """The English texts of the messages that are made while it lasts."""
+    made: set[str] = set()
+    chosen = message._chosen
 
-    class Recorded(dict[str, str]):
-        area = ""
+    def recording(msgid: str, *given: object) -> str:
+        made.add(msgid)
+        return chosen(msgid, *given)  # type: ignore[arg-type]
 
-        def __getitem__(self, name: str) -> str:
-            said.add(f"{self.area}.{name}")
-            return super().__getitem__(name)
+    def translating(self: message.Message, language: str) -> str:
+        made.add(self.msgid)
+        return translate(self, language)
 
-    @cache
-    def recording(area: str, language: str) -> Recorded:
-        found = Recorded(looked_up(area, language))
-        found.area = area
-        return found
-
-    with patch.object(words, "catalogue", recording):
-        yield said
+    translate = message.Message.translate
+    with patch.object(message, "_chosen", recording), patch.object(message.Message, "translate", translating):
+        yield made

@@ -15,8 +15,8 @@ CHINESE = re.compile("[一-鿿]")
 
 def test_an_error_says_its_sentence_in_both_languages() -> None:
     error = LinkwrightError(STEEP)
-    assert str(error) == error.say() == say(STEEP.key, sine="0")
-    assert error.say("zh") == say(STEEP.key, "zh", sine="0") and CHINESE.search(error.say("zh"))
+    assert str(error) == error.say() == say(STEEP.code, sine="0")
+    assert error.say("zh") == say(STEEP.code, "zh", sine="0") and CHINESE.search(error.say("zh"))
 
 
 def test_an_error_is_a_value_of_another_sentence() -> None:
@@ -24,7 +24,7 @@ def test_an_error_is_a_value_of_another_sentence() -> None:
     assert str(outer).endswith(STEEP) and outer.say("zh").endswith(STEEP.say("zh"))
     assert "--at" in str(outer) and "--at" in outer.say("zh")
     again = pickle.loads(pickle.dumps(copy.deepcopy(outer)))
-    assert again.say("zh") == outer.say("zh") and (again.code, again.values["sine"]) == (STEEP.key, "0")
+    assert again.say("zh") == outer.say("zh") and (again.code, again.values["sine"]) == (STEEP.code, "0")
 
 
 def test_the_code_is_that_of_what_is_within() -> None:
@@ -32,7 +32,7 @@ def test_the_code_is_that_of_what_is_within() -> None:
     quantity = QuantityError(STEEP, REMEDY, code="missing-unit")
     within = {
         "missing-unit": [Sentence("cli.about", name="--at", cause=quantity)],
-        STEEP.key: [
+        STEEP.code: [
             Sentence("finding.with_remedy", message=STEEP, remedy=REMEDY),
             Sentence("finding.below", first=STEEP, second=REMEDY),
             Sentence("cli.about", name="a", cause=Sentence("cli.about", name="b", cause=[STEEP, REMEDY])),

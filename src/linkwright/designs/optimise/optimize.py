@@ -40,6 +40,7 @@ from linkwright.files.write import dump
 from linkwright.kinematics.outcome import PositionError
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 from linkwright.words.titles import title_said
 
@@ -407,7 +408,7 @@ class _Run:
             self.document,
         )  # fmt: skip
 
-    def _nothing(self, judged: Judged) -> Sentence:
+    def _nothing(self, judged: Judged) -> Message:
         """Why no design has all numbers: none of them moves, or some numbers have no value for any."""
         name = partial(title_said, self.task.problem.mechanism.name)
         none = tuple(text for text, each in judged.values.items() if not np.isfinite(each).any())
@@ -432,7 +433,7 @@ class _Run:
         counts = {"failed": failed, "steps": asked.steps}
         return Sentence("optimize.none_whole", name=name, design=said, reason=reason, **counts)
 
-    def _failing(self, found: Optimum) -> Sentence:
+    def _failing(self, found: Optimum) -> Message:
         """Which demands the nearest design misses, and by how much."""
         from linkwright.designs.optimise.report import missing
 

@@ -19,7 +19,7 @@ from linkwright.designs.optimise.problem import Problem
 from linkwright.errors import LinkwrightError
 from linkwright.files.document import Document
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ class Optimum(Plotted, Frozen):
 class OptimizeError(LinkwrightError):
     """Demands that cannot be met together: which fail, and the ``nearest`` design."""
 
-    def __init__(self, sentence: Sentence, nearest: Optimum) -> None:
+    def __init__(self, sentence: Message, nearest: Optimum) -> None:
         self.nearest = nearest
         super().__init__(sentence)
 

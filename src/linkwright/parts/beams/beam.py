@@ -33,7 +33,7 @@ from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, section_field
 from linkwright.parts.fields import Flag, Listed, Named, Table
 from linkwright.parts.motions import plain_motions
-from linkwright.words import Say
+from linkwright.words import Message, Say
 from linkwright.words.sentence import Sentence
 from linkwright.worked.page import Step
 
@@ -183,7 +183,7 @@ class Beam(Problem):
             found.append(fault("beam.empty_line", f"{key}.to"))
         return found
 
-    def _motion(self, motion: Floats) -> Sentence:
+    def _motion(self, motion: Floats) -> Message:
         """A motion that the supports leave, in words; ``motion`` is (w over length, slope, kinks)."""
         kinks = [x for x, kink in zip(sorted(self.hinges), motion[2:], strict=True) if abs(kink) > 1e-9]
         if kinks:

@@ -21,7 +21,7 @@ from linkwright.parts.base import Block, Problem, Result, Row, fault, number, pu
 from linkwright.parts.fields import Listed, Named, Table
 from linkwright.parts.motions import plain_motions
 from linkwright.parts.statics.forces import COUPLES, DIRECTION, FORCES, Components, Force, ForceField, spatial
-from linkwright.words import Say
+from linkwright.words import Message, Say
 from linkwright.words.sentence import Sentence
 from linkwright.worked.matrix import Matrices
 from linkwright.worked.page import Step
@@ -211,7 +211,7 @@ class _Balance:
         self.free = plain_motions(u[:, self.rank :].T)
 
 
-def describe(motion: Floats, scale: float, planar: bool) -> Sentence:
+def describe(motion: Floats, scale: float, planar: bool) -> Message:
     """A small motion (velocities, then rotation times the scale) in words."""
     velocity = spatial(motion[:2]) if planar else motion[:3]
     turn = np.array([0.0, 0.0, motion[2]]) if planar else motion[3:]

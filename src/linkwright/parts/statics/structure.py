@@ -19,7 +19,7 @@ from linkwright.parts.base import Block, Result, Row, fault, put
 from linkwright.parts.statics.balance import Balance, structure_balance
 from linkwright.parts.statics.body import describe
 from linkwright.structure import StructureError, structure
-from linkwright.words import Say, language_of
+from linkwright.words import Message, Say, language_of
 from linkwright.words.sentence import Sentence
 from linkwright.worked.matrix import Matrices
 from linkwright.worked.page import Step
@@ -71,14 +71,14 @@ def _closed(system: ConstraintEquations) -> Floats | None:
     return None
 
 
-def _motion(system: ConstraintEquations, motion: Floats) -> tuple[Sentence, ...]:
+def _motion(system: ConstraintEquations, motion: Floats) -> tuple[Message, ...]:
     """What every moving link does in a small motion."""
     found = []
     for i, link in enumerate(system.links):
         part = motion[3 * i : 3 * i + 3]
         if np.abs(part).max() > 1e-6:
             how = describe(np.where(np.abs(part) < 1e-9, 0.0, part), system.size, planar=True)
-            kind = "statics.link_slides" if how.key == "statics.slides" else "statics.link_turns"
+            kind = "statics.link_slides" if how.code == "statics.slides" else "statics.link_turns"
             found.append(Sentence(kind, link=link))
     return tuple(found)
 

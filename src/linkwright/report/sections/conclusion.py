@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from functools import partial
+from functools import partial, reduce
 
 from linkwright.core.outputs import Output
 from linkwright.cycle.summary import Summary
@@ -68,7 +68,11 @@ class _Conclusion:
 
     def _joined(self, *sentences: str) -> str:
         """Sentences of one paragraph; between Chinese ones there is no space."""
-        return self.say("between").join(sentences)
+
+        def together(first: str, second: str) -> str:
+            return self.say("between", first=first, second=second)
+
+        return reduce(together, sentences) if sentences else ""
 
     def _rows(self, *metrics: str) -> list[MetricValue]:
         return [row for row in self.case.metrics if row.metric in metrics]

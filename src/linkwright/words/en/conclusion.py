@@ -54,5 +54,5 @@ WORDS = {
     "derivatives at the present dimensions; what else is asked of the machine is to be checked anew.",
     "nothing": "there are no results of a motion or of forces to conclude from",
     "joint_list": ", ",
-    "between": " ",
+    "between": "{first} {second}",
 }
