@@ -66,6 +66,20 @@ FURTHER: Mapping[str, str] = {
     "angle_per_length": "rad/m",
     "count": "",
 }
+#: Dimensions that only results of calculations have; empty for a plain number.
+OF_CALCULATIONS: Mapping[str, str] = {
+    "": "",
+    "slope": "rad",
+    "flexural_rigidity": "N·m²",
+    "mass_radius": "kg·m",
+    "section_area": "m²",
+    "section_modulus": "m³",
+    "power_of_drag": "kg/m",
+    "length_per_angle_cubed": "m/rad³",
+    "per_angle_squared": "1/rad²",
+    "distance": "m",
+}
+_SI_OF_ALL: Mapping[str, str] = {**SI_UNITS, **FURTHER, **OF_CALCULATIONS}
 LARGEST: Mapping[str, float] = {name: largest for name, (_, _, largest) in _DIMENSIONS.items()}
 #: For a quantity of any other dimension.
 LARGEST_OF_ALL = max(LARGEST.values())
@@ -484,14 +498,14 @@ def name_of(kind: Dimension) -> Message:
 
 def si_unit(dimension: str) -> str:
     """SI unit of a dimension; raises KeyError for one that is not known."""
-    return FURTHER[dimension] if dimension in FURTHER else SI_UNITS[dimension]
+    return _SI_OF_ALL[dimension]
 
 
 def powers(dimension: str) -> Dimension:
     """Powers of metre, kilogram, second and radian in a dimension; raises KeyError for one that is not known."""
     if dimension in DIMENSIONS:
         return DIMENSIONS[dimension]
-    return unit(FURTHER[dimension])[1] if FURTHER[dimension] else NONE
+    return unit(si_unit(dimension))[1] if si_unit(dimension) else NONE
 
 
 def most(kind: Dimension) -> tuple[float, str]:

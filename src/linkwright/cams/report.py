@@ -8,10 +8,11 @@ from collections.abc import Callable
 import numpy as np
 
 from linkwright.cams.result import CamDesign
+from linkwright.core.quantity import number, shown
 from linkwright.core.search import first_largest
 from linkwright.laws.program import MotionProgram
 from linkwright.laws.smoothest import FoundProgram
-from linkwright.parts.base import Block, Row, Value, number, put, shown
+from linkwright.parts.base import Block, Row, Value, put
 from linkwright.words import Say, language_of
 from linkwright.words.sentence import in_language
 from linkwright.worked.page import Step

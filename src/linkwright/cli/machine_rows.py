@@ -9,13 +9,13 @@ import numpy as np
 
 from linkwright.cli.machine_options import Wanted
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import number, shown, shown_unit
 from linkwright.errors import LinkwrightError
 from linkwright.machine.energy import EnergyFluctuation, energy_fluctuation
 from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed_fluctuation
 from linkwright.machine.motor import motor
 from linkwright.machine.speed import SpeedCurve, true_speed
 from linkwright.machine.torque_curve import TorqueCurve
-from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.units import si_unit
 from linkwright.words import Say
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.html import html_table
+from linkwright.core.quantity import SHOWN, shown
 from linkwright.designs.alternatives import EFFORTS, Alternative
 from linkwright.designs.compare import Comparison, Rank, Row
 from linkwright.designs.criteria import criterion
 from linkwright.errors import speaker
-from linkwright.metrics.quantities import SHOWN, shown
 from linkwright.words import Say
 from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language

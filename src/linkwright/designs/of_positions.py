@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
 from linkwright.designs.one_by_one import OF_VALUES
 from linkwright.errors import LinkwrightError
@@ -15,7 +16,6 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.quantities import shown
 from linkwright.words import Message
 from linkwright.words.sentence import Sentence
 

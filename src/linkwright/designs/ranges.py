@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import si_of, written
 from linkwright.errors import LinkwrightError, RequestError, about
 from linkwright.loads.keys import PhaseField
 from linkwright.mechanism.mechanism import Mechanism
@@ -46,12 +47,11 @@ class Range:
     @property
     def si(self) -> str:
         """The SI unit of its values."""
-        return units.si_symbol(units.unit(self.unit)[1]) if self.unit else ""
+        return si_of(self.unit)
 
     def shown(self, value: float) -> str:
         """A value in the user's unit."""
-        factor = units.unit(self.unit)[0] if self.unit else 1.0
-        return f"{value / factor:.6g}{' ' if self.unit else ''}{self.unit}"
+        return written(value, self.unit)
 
 
 def parse_range(mechanism: Mechanism, address: str, given: str | ArrayLike) -> Range:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.core.quantity import number, shown, shown_unit
 from linkwright.designs.criteria import criterion
 from linkwright.designs.failures import Failure
 from linkwright.designs.study import Study
 from linkwright.errors import speaker
-from linkwright.metrics.quantities import number, shown, shown_unit
 from linkwright.words import Say
 from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language

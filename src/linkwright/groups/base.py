@@ -18,7 +18,6 @@ from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import Vec
 from linkwright.joints.pose import Pose, Rotor
 from linkwright.registry import Registry
-from linkwright.units import number
 
 if TYPE_CHECKING:
     from linkwright.elements.model import Sizes
@@ -106,8 +105,3 @@ class WholeGroup(Protocol):
 
 
 DYADS: Registry[type[Dyad]] = Registry("assur_group", "linkwright.groups", entry_points="linkwright.groups")
-
-
-def shown_length(value: float) -> str:
-    """A length as sentences print it."""
-    return f"{number(value, 7)} m"

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import sqrt as root_of
 
+from linkwright.core.quantity import reported
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
-from linkwright.groups.base import DYADS, Chain, Solved, shown_length
+from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.joints.pose import Rotor
 from linkwright.words import Message
 from linkwright.words.sentence import Sentence
@@ -53,7 +54,7 @@ class RPR:
         distance, offset = root_of(max(facts["distance²"], 0.0)), abs(facts["offset"])
         return Sentence(
             "outcome.rpr_near",
-            distance=shown_length(distance),
-            offset=shown_length(offset),
-            missing=shown_length(offset - distance),
+            distance=reported(distance, "length", 7),
+            offset=reported(offset, "length", 7),
+            missing=reported(offset - distance, "length", 7),
         )

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import sqrt as root_of
 
+from linkwright.core.quantity import reported
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
-from linkwright.groups.base import DYADS, Chain, Solved, shown_length
+from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.joints.pose import Rotor
 from linkwright.words import Message
 from linkwright.words.sentence import Sentence
@@ -51,7 +52,7 @@ class RRP:
         height, length = abs(facts["height"]), root_of(max(facts["length²"], 0.0))
         return Sentence(
             "outcome.rrp_far",
-            height=shown_length(height),
-            length=shown_length(length),
-            missing=shown_length(height - length),
+            height=reported(height, "length", 7),
+            length=reported(length, "length", 7),
+            missing=reported(height - length, "length", 7),
         )

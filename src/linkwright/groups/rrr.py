@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import sqrt as root_of
 
+from linkwright.core.quantity import reported
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
-from linkwright.groups.base import DYADS, Chain, Solved, shown_length
+from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.joints.pose import Rotor
 from linkwright.words import Message
 from linkwright.words.sentence import Sentence
@@ -58,9 +59,9 @@ class RRR:
         reach = r1 + r2 if far else abs(r1 - r2)
         return Sentence(
             "outcome.rrr_far" if far else "outcome.rrr_near",
-            distance=shown_length(distance),
-            first=shown_length(r1),
-            second=shown_length(r2),
-            reach=shown_length(reach),
-            missing=shown_length(distance - reach if far else reach - distance),
+            distance=reported(distance, "length", 7),
+            first=reported(r1, "length", 7),
+            second=reported(r2, "length", 7),
+            reach=reported(reach, "length", 7),
+            missing=reported(distance - reach if far else reach - distance, "length", 7),
         )

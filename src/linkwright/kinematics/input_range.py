@@ -14,6 +14,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.inputs import mode_groups
 from linkwright.core.outputs import row_name
+from linkwright.core.quantity import reported
 from linkwright.core.search import edge
 from linkwright.elements.topology import Group
 from linkwright.errors import LinkwrightError, RequestError
@@ -94,12 +95,12 @@ class InputRange:
         kind = "turn" if self.rotary else "slide"
         if self.full:
             return Sentence(f"range.full_{kind}", link=self.link)
-        shown = {
-            side: _shown(end.value, self.rotary)
+        ends = {
+            side: reported(end.value, "angle" if self.rotary else "length")
             for side, end in (("low", self.low), ("high", self.high))
             if end is not None
         }
-        way = Sentence(f"range.{'_'.join(shown)}", **shown)
+        way = Sentence(f"range.{'_'.join(ends)}", **ends)
         return Sentence(f"range.{kind}", link=self.link, way=way, ends=self._ends())
 
     def _ends(self) -> str | tuple[str, ...]:
@@ -107,7 +108,12 @@ class InputRange:
         if low is not None and high is not None and (low.group, low.how) == (high.group, high.how):
             return Sentence("range.both_ends", group=low.group, how=low.how)
         return tuple(
-            Sentence("range.at", place=_shown(end.value, self.rotary), group=end.group, how=end.how)
+            Sentence(
+                "range.at",
+                place=reported(end.value, "angle" if self.rotary else "length"),
+                group=end.group,
+                how=end.how,
+            )
             for end in (low, high)
             if end is not None
         )
@@ -219,7 +225,7 @@ class _Search:
             "range.not_assembled",
             name=self.mechanism.name,
             driver=self.driver,
-            place=_shown(nominal, self.rotary),
+            place=reported(nominal, "angle" if self.rotary else "length"),
         )
 
     # one direction --------------------------------------------------------------------------------
@@ -403,7 +409,3 @@ def _finite(states: Mapping[str, Floats], count: int) -> np.ndarray[tuple[int], 
     for row in states.values():
         fine &= np.isfinite(row)
     return fine
-
-
-def _shown(value: float, rotary: bool) -> str:
-    return f"{math.degrees(value):.4f}°" if rotary else f"{value:.6g} m"

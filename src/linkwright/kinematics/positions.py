@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Hashable, Mapping
 from contextlib import suppress
 from itertools import chain
@@ -16,6 +15,7 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.core.inputs import driven
+from linkwright.core.quantity import reported
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.mechanism.mechanism import Mechanism
@@ -229,9 +229,8 @@ def rotary(mechanism: Mechanism) -> dict[str, bool]:
 
 def coordinate_text(name: str, value: float, rotary: bool) -> Message:
     """A driver's coordinate in words: ``crank = 30°``."""
-    shown = f"{math.degrees(value):.6g}°" if rotary else f"{value:.6g} m"
     own = Sentence("nouns.driver") if name == "driver" else name
-    return Sentence("motion.coordinate", name=own, value=shown)
+    return Sentence("motion.coordinate", name=own, value=reported(value, "angle" if rotary else "length"))
 
 
 def _driver(mechanism: Mechanism, name: str) -> Driver:

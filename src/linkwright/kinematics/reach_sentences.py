@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Indices
 from linkwright.core.outputs import row_name
+from linkwright.core.quantity import reported
 from linkwright.kinematics.change_points import closes
 from linkwright.kinematics.cycle import FEW, cycle_turns, not_back, together
 from linkwright.kinematics.motion import Motion
@@ -89,11 +90,7 @@ def passage_notes(passing: Sequence[Passage], positions: Positions) -> tuple[Mes
 
 def _passage_note(p: Passage, positions: Positions) -> Message:
     name = next(iter(positions.coordinates))
-    where = f"{name} = " + (
-        f"{round(np.degrees(p.at), 9) + 0.0:.6g}°"
-        if positions.rotary[name]
-        else f"{round(p.at, 12) + 0.0:.6g} m"
-    )
+    where = f"{name} = {reported(float(p.at), 'angle' if positions.rotary[name] else 'length')}"
     return Sentence(f"cycle.{p.kind}", links=tuple(p.group.split("+")), where=where)
 
 

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Literal
 from linkwright.core.expression_tree import Node, Number, denominators, evaluate, scalar_functions
 from linkwright.core.expressions import ON_VALUES, Expression
 from linkwright.core.outputs import Output
+from linkwright.core.quantity import reported
 from linkwright.errors import QuantityError
 from linkwright.formula.late_import import numpy as np
-from linkwright.loads.signals import Signals, column, input_dimension, named_column, output_named, shown
+from linkwright.loads.signals import Signals, column, input_dimension, named_column, output_named
 from linkwright.loads.strokes import NEAR, TURN, StrokePart
 from linkwright.units import LARGEST
 from linkwright.words import Message
@@ -41,7 +42,7 @@ def _not_finite(
 ) -> Message:
     where = Sentence("loads.only_position")
     if signals.mechanism.drivers:
-        place = shown(float(signals.input[index]), input_dimension(signals))
+        place = reported(float(signals.input[index]), input_dimension(signals))
         where = Sentence("loads.at_input", input=place)
     try:
         expression.evaluate({name: float(values[index]) for name, values in columns.items()})
@@ -68,7 +69,9 @@ def _pole_between(
         for index in np.flatnonzero(both & (values[:-1] * values[1:] < 0)):
             share = _zero(divisor, columns, int(index))
             if share is not None:
-                place = shown(float(q[index] + share * (q[index + 1] - q[index])), input_dimension(signals))
+                place = reported(
+                    float(q[index] + share * (q[index + 1] - q[index])), input_dimension(signals)
+                )
                 return Sentence("loads.formula_divides", text=expression.text, place=place)
     return None
 
@@ -115,7 +118,7 @@ def interval_fault(start: float, end: float, signals: Signals) -> Message | None
         key = "loads.phase_too_long"
     else:
         return None
-    return Sentence(key, start=shown(start, "angle"), end=shown(end, "angle"))
+    return Sentence(key, start=reported(start, "angle"), end=reported(end, "angle"))
 
 
 def part_fault(output: Output, part: StrokePart, stroke: float) -> Message:
@@ -123,9 +126,9 @@ def part_fault(output: Output, part: StrokePart, stroke: float) -> Message:
     return Sentence(
         "loads.part_too_long",
         part=Sentence(f"loads.part_{part.word}"),
-        amounts=" + ".join(shown(each.way(stroke), output.dimension) for each in part.amounts),
+        amounts=" + ".join(reported(each.way(stroke), output.dimension) for each in part.amounts),
         output=output,
-        stroke=shown(stroke, output.dimension),
+        stroke=reported(stroke, output.dimension),
     )
 
 
@@ -139,7 +142,7 @@ def table_fault(
     missing = [(low, first)] if low < first else []
     missing += [(last, high)] if high > last else []
     ranges = [
-        Sentence("loads.stretch", low=shown(a, dimension), high=shown(b, dimension)) for a, b in missing
+        Sentence("loads.stretch", low=reported(a, dimension), high=reported(b, dimension)) for a, b in missing
     ]
-    covered = {"first": shown(first, dimension), "last": shown(last, dimension)}
+    covered = {"first": reported(first, dimension), "last": reported(last, dimension)}
     return Sentence("loads.table_too_short", over=over, ranges=together(ranges), **covered)

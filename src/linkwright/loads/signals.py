@@ -136,13 +136,6 @@ class Course(Protocol):
         ...
 
 
-def shown(value: float, dimension: str) -> str:
-    """A value for a message: angles in degrees, times in s, lengths in m."""
-    if dimension == "angle":
-        return f"{round(float(np.degrees(value)), 9) + 0.0:.6g}°"
-    return f"{value:.6g} {'s' if dimension == 'time' else 'm'}"
-
-
 def input_dimension(signals: Signals) -> str:
     """Name of the dimension of the input."""
     return "angle" if signals.rotary else "length"

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Literal, Protocol
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.core.quantity import reported
 from linkwright.errors import LinkwrightError
 from linkwright.formula.late_import import numpy as np
 from linkwright.formula.trace import Mask, Scalar, floor, maximum, minimum, select
-from linkwright.loads.signals import BetweenLimits, Limit, Signals, Whole, input_dimension, shown
+from linkwright.loads.signals import BetweenLimits, Limit, Signals, Whole, input_dimension
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -82,7 +83,7 @@ def strokes(phase: BetweenLimits, signals: Signals) -> list[Stretch]:
         return found
     dimension = input_dimension(signals)
     places = tuple(
-        Sentence("loads.limit_at", kind=Sentence(f"loads.{each.kind}"), input=shown(each.input, dimension))
+        Sentence("loads.limit_at", kind=Sentence(f"loads.{each.kind}"), input=reported(each.input, dimension))
         for each in extreme
     )
     ends = {name: Sentence(f"loads.{kind}") for name, kind in (("start", phase.start), ("end", phase.end))}

@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
+from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.kinetostatics.forces import Forces
@@ -19,7 +20,6 @@ from linkwright.machine.flywheel import NOTHING, flywheel_inertia, on_faster_sha
 from linkwright.machine.motor import Motor, motor
 from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.quantities import shown
 from linkwright.metrics.true_speed import steady_cycle
 from linkwright.words import Message, Say
 from linkwright.words.sentence import Sentence

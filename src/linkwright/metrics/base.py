@@ -12,12 +12,12 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.core.quantity import number as in_unit
+from linkwright.core.quantity import shown, shown_unit
 from linkwright.cycle.summary import Summary, SummaryValue
 from linkwright.formula.trace import Scalar
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Result
-from linkwright.metrics.quantities import number as in_unit
-from linkwright.metrics.quantities import shown, shown_unit
 from linkwright.registry import Registry
 from linkwright.units import si_unit
 from linkwright.words import has, say

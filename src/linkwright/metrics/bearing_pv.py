@@ -9,11 +9,11 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
 from linkwright.joints.lower import TurningJoint
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
-from linkwright.metrics.quantities import shown
 
 
 @METRICS.register("bearing_pv")

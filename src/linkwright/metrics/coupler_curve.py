@@ -13,6 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross, crossings
+from linkwright.core.quantity import shown
 from linkwright.core.search import lowest
 from linkwright.curves.curve import increasing, nodes
 from linkwright.cycle.summary import Summary
@@ -22,7 +23,6 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.outputs import coupler_points
-from linkwright.metrics.quantities import shown
 
 #: A path stops in a cusp where its speed falls below this share of its mean speed.
 STANDING = 1e-6

@@ -8,6 +8,7 @@ from math import isfinite
 
 from linkwright.core.arrays import Flags
 from linkwright.core.given import one_or_more, require
+from linkwright.core.quantity import NOTHING
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.whole_turns import MOST
@@ -16,7 +17,6 @@ from linkwright.loads.strokes import NEAR
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Result
 from linkwright.metrics.base import METRICS, Metric, MetricValue
-from linkwright.metrics.quantities import NOTHING
 from linkwright.metrics.table import MetricsTable
 from linkwright.words import Message
 from linkwright.words.sentence import Sentence

@@ -9,13 +9,13 @@ from itertools import combinations
 from math import hypot
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
 from linkwright.formula.trace import Scalar, maximum, minimum
 from linkwright.joints.lower import TurningJoint
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
-from linkwright.metrics.quantities import shown
 
 #: A Grashof sum this near to zero, relative to the longest link, is a change point.
 EQUAL = 1e-12

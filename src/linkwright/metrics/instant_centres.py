@@ -8,10 +8,10 @@ from itertools import combinations
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.quantity import shown
 from linkwright.kinematics.motion import Motion
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
-from linkwright.metrics.quantities import shown
 
 #: A relative angular velocity below this share of the largest one of all links has its centre at infinity.
 PARALLEL = 1e-12

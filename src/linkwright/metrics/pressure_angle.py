@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from math import pi, radians
 from typing import ClassVar
 
+from linkwright.core.quantity import shown
 from linkwright.formula.trace import Scalar
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number, Remark
-from linkwright.metrics.quantities import shown
 from linkwright.metrics.transmission_angle import smallest
 
 

@@ -8,6 +8,7 @@ from itertools import chain
 
 import numpy as np
 
+from linkwright.core.quantity import shown
 from linkwright.core.search import zeros
 from linkwright.cycle.summary import Summary
 from linkwright.drivers.base import Law
@@ -17,7 +18,6 @@ from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.limit_positions import outermost_limits
 from linkwright.metrics.outputs import output_link
-from linkwright.metrics.quantities import shown
 from linkwright.metrics.transmission_angle import smallest
 
 #: Transmission angle, rad, below which a position counts as a dead point.

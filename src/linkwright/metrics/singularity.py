@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import ClassVar
 
+from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
 from linkwright.elements.topology import Group
 from linkwright.kinetostatics.closure import closable
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
-from linkwright.metrics.quantities import shown
 
 #: Below this a dyad is nearer than 10° to a dead point.
 NEAR = 0.17

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.core.outputs import Output
+from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.outputs import turns_fully
-from linkwright.metrics.quantities import shown
 from linkwright.metrics.range_of_motion import reached_inputs
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import row_names
 from linkwright.core.plane import area, convex_hull
+from linkwright.core.quantity import shown
 from linkwright.curves.curve import nodes
 from linkwright.curves.polynomials import POINTS
 from linkwright.formula.recently_made import Recent
@@ -20,7 +21,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Remark
 from linkwright.metrics.outputs import output_link
-from linkwright.metrics.quantities import shown
 from linkwright.metrics.range_of_motion import turns
 from linkwright.metrics.swept_hull import Curves, SweptHull
 from linkwright.metrics.ways import SolvedCurves, Ways

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright.core.attached import Plotted
 from linkwright.core.html import html_table
+from linkwright.core.quantity import number, shown_unit
 from linkwright.errors import RequestError
 from linkwright.metrics.base import CELLS, METRICS, MetricValue
-from linkwright.metrics.quantities import number, shown_unit
 from linkwright.registry import offered
 from linkwright.words import say
 from linkwright.words.characters import aligned

@@ -8,13 +8,13 @@ from math import radians
 from typing import ClassVar
 
 from linkwright.core.outputs import Output
+from linkwright.core.quantity import shown
 from linkwright.cycle.summary import STROKES, StrokeSummary, Summary
 from linkwright.elements.topology import Group
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number, Remark
 from linkwright.metrics.outputs import output_link
-from linkwright.metrics.quantities import shown
 
 LIMIT = radians(40)
 SOURCE = "VDI 2123; Volmer, Getriebetechnik; TU Chemnitz, Getriebelexika: not below about 40°"

@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import number, shown, shown_unit
 from linkwright.errors import Finding, ModelError, speaker
 from linkwright.fields.base import Field, GivenByFile, given_by_file
-from linkwright.metrics.quantities import SHOWN
-from linkwright.units import FURTHER, SI_UNITS, Dimension, si_symbol
+from linkwright.units import Dimension, si_symbol, si_unit
 from linkwright.words import Say
 from linkwright.words.characters import aligned
 from linkwright.words.sentence import Sentence
@@ -33,52 +33,8 @@ if TYPE_CHECKING:
     from linkwright.pictures.drawing import Drawing
 
 
-#: Dimensions that only these results have, with their SI units.
-OWN: Mapping[str, str] = {
-    "slope": "rad",
-    "flexural_rigidity": "N·m²",
-    "mass_radius": "kg·m",
-    "section_modulus": "m³",
-    "power_of_drag": "kg/m",
-    "length_per_angle_cubed": "m/rad³",
-    "per_angle_squared": "1/rad²",
-    "distance": "m",
-}
-#: Units of display with the factor from SI, where they differ from SI.
-UNITS: Mapping[str, tuple[str, float]] = {
-    **SHOWN,
-    "pressure": ("MPa", 1e-6),
-    "slope": ("mrad", 1e3),
-    "area": ("mm²", 1e6),
-    "section_modulus": ("mm³", 1e9),
-    "second_moment_of_area": ("mm⁴", 1e12),
-}
-
-
 #: Beside the largest of its kind anything below this share is nothing but rounding.
 ROUNDING = 1e-12
-
-
-def si_unit(dimension: str) -> str:
-    """SI unit of a dimension; empty for a plain number."""
-    return OWN.get(dimension) or FURTHER.get(dimension) or SI_UNITS.get(dimension, "")
-
-
-def unit(dimension: str) -> str:
-    """Unit in which the dimension is shown."""
-    return UNITS[dimension][0] if dimension in UNITS else si_unit(dimension)
-
-
-def number(value: float, dimension: str = "", digits: int = 6) -> str:
-    """The number alone in the shown unit; nothing but rounding is zero."""
-    shown = value * (UNITS[dimension][1] if dimension in UNITS else 1.0)
-    return f"{0.0 if abs(shown) < 1e-12 else shown:.{digits}g}"
-
-
-def shown(value: float, dimension: str = "", digits: int = 6) -> str:
-    """Number and unit: ``4.21875 mm``, ``12 MPa``."""
-    name = unit(dimension)
-    return f"{number(value, dimension, digits)}{'' if name in ('', '°') else ' '}{name}"
 
 
 def fault(code: str, key: str, **values: object) -> Finding:
@@ -226,7 +182,7 @@ class Row:
             size = self.scale.factor
             return [label, " … ".join(f"{end / size:.{digits}g}" for end in ends), self.scale.unit, self.note]
         shown = " … ".join(number(end, self.dimension, digits) for end in ends)
-        return [label, shown, unit(self.dimension), self.note]
+        return [label, shown, shown_unit(self.dimension), self.note]
 
     def tidy(self, rounding: float) -> Row:
         """The row with values below a limit as zero; a plain number, or a ``remainder``, stays."""
@@ -381,7 +337,7 @@ def put(
     step.items.append(
         Equation(
             symbol, latex_symbol(symbol), formula, latex(formula) if formula else "", plain(found),
-            latex(found) if found else "", number(value, dimension), unit(dimension), value,
+            latex(found) if found else "", number(value, dimension), shown_unit(dimension), value,
         )
     )  # fmt: skip
 

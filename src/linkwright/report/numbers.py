@@ -10,9 +10,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.outputs import KINDS, RESIDUALS, Output
+from linkwright.core.quantity import MISSING, SHOWN, fixed
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.quantities import SHOWN
 from linkwright.report.document import literal
 from linkwright.words import Say
 from linkwright.worked.symbols import tex
@@ -93,7 +93,7 @@ def column(values: Floats) -> list[str]:
         return [small(value, DIGITS) for value in values]
     place = max(DIGITS - 1 - math.floor(math.log10(size)), 0) if size else 0
     place = min(place, 6)
-    return [_plain(float(value), place) for value in values]
+    return [fixed(float(value), place) for value in values]
 
 
 def residual(values: Floats) -> list[str]:
@@ -104,7 +104,7 @@ def residual(values: Floats) -> list[str]:
 def small(value: float, digits: int) -> str:
     """A number of any size with so many digits, a power of ten as ``e-13``; zero as 0."""
     if not math.isfinite(value):
-        return "–"
+        return MISSING
     return f"{value:.{digits - 1}e}" if value else "0"
 
 
@@ -121,10 +121,3 @@ def typeset(cell: str) -> str:
 def faded(value: float) -> float:
     """A value, zero where it is nothing but rounding."""
     return 0.0 if abs(value) < FADED else value
-
-
-def _plain(value: float, place: int) -> str:
-    if not math.isfinite(value):
-        return "–"
-    text = f"{value:.{place}f}"
-    return text.removeprefix("-") if float(text) == 0.0 else text.replace("-", "−")

@@ -8,10 +8,10 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.quantity import significant
 from linkwright.mechanism.force_names import link_numbers, reaction_index, reaction_pairs
 from linkwright.pictures.picture import Runs, Words, as_runs, indexed, joined
 from linkwright.pictures.svg.text import split_index
-from linkwright.plot.diagrams.axes import significant
 from linkwright.sheets.positions import Positions
 from linkwright.sheets.table import TablePanel
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import significant
 from linkwright.errors import LinkwrightError
 from linkwright.events.limit_positions import limits_of
 from linkwright.kinematics.motion import Motion
@@ -16,7 +17,6 @@ from linkwright.kinematics.solve import with_times
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.plot.diagrams.axes import significant
 from linkwright.report.machine_results import Case
 from linkwright.report.settings import settings as report_settings
 from linkwright.sheets.kind import Subject

@@ -3,7 +3,7 @@
 import pytest
 
 from linkwright.metrics import METRICS
-from linkwright.metrics.quantities import si_unit
+from linkwright.units import si_unit
 from linkwright.words import say
 
 

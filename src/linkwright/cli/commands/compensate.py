@@ -88,7 +88,7 @@ def _columns(found: CompensatingCam) -> dict[str, Any]:
 
 def _report(found: CompensatingCam, session: Session) -> list[str]:
     """What is kept constant where, and how well."""
-    from linkwright.metrics.quantities import shown
+    from linkwright.core.quantity import shown
 
     across, of_lift = found.mechanism.across, _lift_dimension(found)
     first, last = (shown(each, across) for each in found.zone)

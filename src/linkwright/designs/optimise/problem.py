@@ -10,9 +10,9 @@ from typing import Any, Literal
 
 import numpy as np
 
-from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import si_of, written
 from linkwright.designs.objective_terms import PathError
 from linkwright.designs.optimise.paths import path_error
 from linkwright.designs.ranges import Range, parse_range
@@ -46,12 +46,11 @@ class Variable:
     @property
     def si(self) -> str:
         """The SI unit of its values."""
-        return units.si_symbol(units.unit(self.unit)[1]) if self.unit else ""
+        return si_of(self.unit)
 
     def shown(self, value: float) -> str:
         """A value in the unit of the bounds."""
-        factor = units.unit(self.unit)[0] if self.unit else 1.0
-        return f"{value / factor:.6g}{' ' if self.unit else ''}{self.unit}"
+        return written(value, self.unit)
 
     def allowed(self, values: Floats) -> Floats:
         """The nearest allowed values."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from linkwright import units
+from linkwright.core.quantity import in_kind, number, unit_of_kind, with_unit, written
 from linkwright.designs.criteria import Criterion
 from linkwright.designs.optimise.optimum import Choice, Optimum
 from linkwright.errors import speaker
@@ -65,42 +66,26 @@ def comparison(found: Optimum, choice: Choice, language: str) -> list[list[str]]
     tell = speaker(language)
     rows = [[tell(f"optimize.column.{name}") for name in ("what", "start", "found", "change", "bounds")]]
     for variable, was in zip(found.problem.variables, found.problem.start, strict=True):
-        factor = units.unit(variable.unit)[0] if variable.unit else 1.0
         now = choice.values[variable.address]
-        bounds = f"{variable.low / factor:.6g}..{variable.high / factor:.6g}"
+        bounds = "..".join(written(each, variable.unit, bare=True) for each in (variable.low, variable.high))
         shown = [variable.shown(value) for value in (was, now)]
         rows.append([variable.address, *shown, _change(was, now), bounds])
     for text, now in choice.numbers.items():
-        kind = found.kinds[text]
-        symbol, factor = shown_unit(kind)
         was = found.start[text]
-        shown = [_shown(value, factor, symbol) for value in (was, now)]
+        shown = [in_kind(value, found.kinds[text]) for value in (was, now)]
         name = label(found, text, language)
-        rows.append([name, *shown, _change(was, now), _limits(found, choice, text, factor, tell)])
+        rows.append([name, *shown, _change(was, now), _limits(found, choice, text, tell)])
     return rows
 
 
-def _limits(found: Optimum, choice: Choice, text: str, factor: float, tell: Say) -> str:
+def _limits(found: Optimum, choice: Choice, text: str, tell: Say) -> str:
     goals = {goal.text: goal.sign for goal in found.problem.goals}
     said = [tell("optimize.goal" if goals[text] > 0 else "optimize.goal_most")] if text in goals else []
     if text in found.limits:
-        said.append(_between(found, text, factor))
+        said.append(_between(found, text)[0])
     if text in choice.missed:
         said.append(tell("optimize.missed"))
     return ", ".join(said)
-
-
-def shown_unit(kind: units.Dimension) -> tuple[str, float]:
-    """Symbol and factor of a shown value: angles in degrees, lengths in mm, as ``metrics`` shows them."""
-    for dimension in ("angle", "length"):
-        if kind == units.DIMENSIONS[dimension]:
-            symbol = units.USUAL_UNITS[dimension]
-            return symbol, units.unit(symbol)[0]
-    return (units.si_symbol(kind) if kind != units.NONE else ""), 1.0
-
-
-def _shown(value: float, factor: float, unit: str) -> str:
-    return f"{value / factor:.6g}{' ' if unit else ''}{unit}"
 
 
 def _change(was: float, now: float) -> str:
@@ -115,15 +100,12 @@ def _front(found: Optimum, language: str) -> list[str]:
     rows = [["", *(label(found, text, language) for text in texts), *addresses]]
     count = len(found)
     listed = {round(k * (count - 1) / max(1, LISTED - 1)) for k in range(LISTED)} if count > LISTED else None
-    for number, choice in enumerate(found.choices, 1):
-        if listed is not None and number - 1 not in listed:
+    for index, choice in enumerate(found.choices, 1):
+        if listed is not None and index - 1 not in listed:
             continue
-        cells = []
-        for text in texts:
-            symbol, factor = shown_unit(found.kinds[text])
-            cells.append(_shown(choice.numbers[text], factor, symbol))
+        cells = [in_kind(choice.numbers[text], found.kinds[text]) for text in texts]
         cells += [each.shown(choice.values[each.address]) for each in found.problem.variables]
-        rows.append([str(number), *cells])
+        rows.append([str(index), *cells])
     return aligned(rows, ">" * len(rows[0]))
 
 
@@ -131,9 +113,8 @@ def _worst(found: Optimum) -> list[str]:
     """What the numbers of the first design come to at the worst within the tolerances."""
     said = []
     for text, ends in found.best.worst.items():
-        symbol, factor = shown_unit(found.kinds[text])
-        shown = "..".join(f"{end / factor:.6g}" for end in sorted(ends))
-        said.append(f"{text} {shown}{' ' if symbol else ''}{symbol}")
+        unit, factor = unit_of_kind(found.kinds[text])
+        said.append(f"{text} {with_unit('..'.join(number(end * factor) for end in sorted(ends)), unit)}")
     return said
 
 
@@ -141,15 +122,16 @@ def missing(found: Optimum) -> list[str]:
     """The demands that the first design misses, with what is demanded and what it has."""
     said = []
     for text in found.best.missed:
-        symbol, factor = shown_unit(found.kinds[text])
         ends = sorted(found.best.worst.get(text, (found.best.numbers[text],)))
-        wanted, has = _between(found, text, factor), "..".join(_shown(end, factor, symbol) for end in ends)
-        said.append(f"{text} {wanted}{' ' if symbol else ''}{symbol} ({has})")
+        has = "..".join(in_kind(end, found.kinds[text]) for end in ends)
+        said.append(f"{text} {with_unit(*_between(found, text))} ({has})")
     return said
 
 
-def _between(found: Optimum, text: str, factor: float) -> str:
-    low, high = (each / factor for each in found.limits[text])
-    if math.isinf(low) or math.isinf(high):
-        return f"≤ {high:.6g}" if math.isinf(low) else f"≥ {low:.6g}"
-    return f"{low:.6g}..{high:.6g}"
+def _between(found: Optimum, text: str) -> tuple[str, str]:
+    """The limits of a number, and their unit."""
+    unit, factor = unit_of_kind(found.kinds[text])
+    low, high = (number(each * factor) for each in found.limits[text])
+    if "∞" in low or "∞" in high:
+        return (f"≤ {high}" if "∞" in low else f"≥ {low}"), unit
+    return f"{low}..{high}", unit

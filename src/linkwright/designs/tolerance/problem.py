@@ -17,9 +17,9 @@ from linkwright.designs.ranges import dimension_of
 from linkwright.fields.base import Quantity, Text, Word, given
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import si_unit
 from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
+from linkwright.units import si_unit
 
 #: Standard deviation of each distribution as a share of its tolerance ±t.
 DEVIATIONS = {"normal": 1 / 3, "uniform": 1 / math.sqrt(3), "triangular": 1 / math.sqrt(6)}

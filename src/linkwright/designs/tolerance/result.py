@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
 from linkwright.designs.designs import Sweep, sweep
 from linkwright.designs.sensitivity import Sensitivity, sensitivity
@@ -21,7 +22,7 @@ from linkwright.designs.varied_dimensions import design_values
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.by_name import wanted
-from linkwright.parts.base import PERCENT, Block, Result, Row, fault, put, shown
+from linkwright.parts.base import PERCENT, Block, Result, Row, fault, put
 from linkwright.words import Say
 from linkwright.worked.page import Step
 

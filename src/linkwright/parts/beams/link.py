@@ -11,6 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross
+from linkwright.core.quantity import shown
 from linkwright.errors import Finding, LinkwrightError, SelfCheckError
 from linkwright.fields.base import Quantity, Text, given
 from linkwright.kinetostatics.forces import Forces
@@ -19,7 +20,7 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Result, Row, Value, fault, put, shown
+from linkwright.parts.base import Block, Result, Row, Value, fault, put
 from linkwright.parts.beams.axis import LinkAxis, SpreadMass
 from linkwright.parts.beams.balance import polynomial_text
 from linkwright.parts.beams.materials import MATERIAL, Material
@@ -413,7 +414,7 @@ class LinkStress(Result):
         put(cut, "N", "−Σ F − ∫ p ds", float(self.normal[i, k]), "force")
         section, strength = self.problem.section, self.problem.material.strength or 0.0
         of: dict[str, Value] = {
-            "N": (abs(float(self.normal[i, k])), "force"), "A": (section.area or 0.0, "area"),
+            "N": (abs(float(self.normal[i, k])), "force"), "A": (section.area or 0.0, "section_area"),
             "M": (abs(float(self.moment[i, k])), "torque"), "W": (section.modulus or 0.0, "section_modulus"),
         }  # fmt: skip
         put(cut, "σ", "|N|/A + |M|/W", float(self.stress[i, k]), "pressure", of=of)

@@ -13,13 +13,13 @@ from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import in_kind, unit_of_kind
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
 from linkwright.fields.base import Field, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
 from linkwright.parts.base import (
-    UNITS,
     Block,
     Problem,
     Result,
@@ -27,8 +27,6 @@ from linkwright.parts.base import (
     fault,
     in_si,
     put,
-    shown,
-    si_unit,
     unused,
 )
 from linkwright.parts.fields import AnyQuantity, Flag, Listed, Named, Table
@@ -167,7 +165,7 @@ class Program(Problem):
 
     def shown(self, variable: str, value: float) -> str:
         """A variable's value with its unit."""
-        return in_unit(value, self.variables[variable].dimension)
+        return in_kind(value, self.variables[variable].dimension)
 
     def solve(self) -> Optimum:
         """The optimum. Raises ModelError with all findings; for a program without solution with the constraints that
@@ -234,22 +232,6 @@ def _aimless(model: Model) -> Model:
     return Model(model.variables, formula("0", {}, {}), 1, model.constraints)
 
 
-def in_unit(value: float, kind: units.Dimension, digits: int = 6) -> str:
-    """A value in the unit of its kind as results show it."""
-    for name, dimension in units.DIMENSIONS.items():
-        if dimension == kind:
-            return shown(value, name, digits)
-    return f"{value:.{digits}g} {units.si_symbol(kind)}".rstrip()
-
-
-def unit_of(kind: units.Dimension) -> tuple[str, float]:
-    """The unit of a kind as results show it, and the factor from SI."""
-    for name, dimension in units.DIMENSIONS.items():
-        if dimension == kind:
-            return UNITS.get(name, (si_unit(name), 1.0))
-    return units.si_symbol(kind), 1.0
-
-
 @dataclass(frozen=True, repr=False)
 class Optimum(Result):
     """The optimum: ``x`` (SI) by variable, ``value``, and for every constraint how it stands.
@@ -305,13 +287,13 @@ class Optimum(Result):
     def blocks(self, say: Say) -> list[Block]:
         rows = [
             Row(name, value, label=name, note=self._at_bound(name, say), scale=in_si(self._kind(name)),
-                text=in_unit(value, self._kind(name)))
+                text=in_kind(value, self._kind(name)))
             for name, value in self.x.items()
         ]  # fmt: skip
         word = say("program.minimum" if self.program.minimize else "program.maximum")
         kind = self.program.model.objective.dimension
         rows.append(
-            Row("objective", self.value, label=word, scale=in_si(kind), text=in_unit(self.value, kind))
+            Row("objective", self.value, label=word, scale=in_si(kind), text=in_kind(self.value, kind))
         )
         found = [Block("optimum", say("program.optimum"), rows, (self._method(say),))]
         limits = [self._limit_row(c, say) for c in self.program.subject_to]
@@ -366,12 +348,12 @@ class Optimum(Result):
 
     def _limit_row(self, c: Constraint, say: Say) -> Row:
         left, right = (
-            in_unit(float(side.value(self.point)[0]), side.dimension, 5) for side in (c.left, c.right)
+            in_kind(float(side.value(self.point)[0]), side.dimension, 5) for side in (c.left, c.right)
         )
         state = (
             say("program.active")
             if self.active(c)
-            else say("program.slack", slack=in_unit(self.slack(c), c.left.dimension, 4))
+            else say("program.slack", slack=in_kind(self.slack(c), c.left.dimension, 4))
         )
         text = f"{left} {c.sense} {right}"
         return Row(c.name, self.slack(c), label=c.name, note=state, scale=in_si(_limit_kind(c)), text=text)
@@ -383,8 +365,8 @@ class Optimum(Result):
             price = self.prices.get(c.name, 0.0)
             if price:
                 (unit, factor), (own, size) = (
-                    unit_of(_limit_kind(c)),
-                    unit_of(self.program.model.objective.dimension),
+                    unit_of_kind(_limit_kind(c)),
+                    unit_of_kind(self.program.model.objective.dimension),
                 )
                 gain = f"{abs(price) * size / factor:.6g} {own}".rstrip()
                 best = say("program.minimum" if self.program.minimize else "program.maximum")
@@ -439,7 +421,7 @@ class Optimum(Result):
             found.law(f"{name} = {measured(self.program.shown(name, value))}")
         values = {name: self.program.shown(name, value) for name, value in self.x.items()}
         self._law(
-            found, f"f = {objective.text}", values=values, result=in_unit(self.value, objective.dimension)
+            found, f"f = {objective.text}", values=values, result=in_kind(self.value, objective.dimension)
         )
         for c in self.program.subject_to:
             row = self._limit_row(c, say)

@@ -12,12 +12,13 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import number
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile, Word, given, quantity_schema
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.fields.reading import Place, Reader
-from linkwright.parts.base import Block, Problem, Result, Row, fault, number, put
+from linkwright.parts.base import Block, Problem, Result, Row, fault, put
 from linkwright.parts.fields import Listed, Named, Table
 from linkwright.parts.motions import plain_motions
 from linkwright.parts.statics.forces import COUPLES, DIRECTION, FORCES, Components, Force, ForceField, spatial

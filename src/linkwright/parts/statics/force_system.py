@@ -11,9 +11,10 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import number, shown
 from linkwright.errors import Finding
 from linkwright.fields.base import given
-from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, number, put, shown, signed
+from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put, signed
 from linkwright.parts.statics.forces import (
     COUPLES,
     FORCES,

@@ -12,6 +12,7 @@ import numpy as np
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import number
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, Text, Word, given
 from linkwright.parts.base import (
@@ -24,7 +25,6 @@ from linkwright.parts.base import (
     Value,
     fault,
     in_si,
-    number,
     put,
 )
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Numbers, Sample, Table, Whole

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
-from linkwright.metrics.quantities import SHOWN
+from linkwright.core.quantity import SHOWN, significant
 from linkwright.pictures.diagram import Axes, Figure
 from linkwright.units import si_unit
 
@@ -50,17 +50,6 @@ def unit_of(dimension: str, arrays: Iterable[Floats] = ()) -> Unit:
     size = max(map(largest, arrays), default=0.0)
     prefix, factor = next((p, f) for least, p, f in _PREFIXES if size >= least or (size == 0.0 and f == 1.0))
     return Unit(prefix + _PREFIXED[dimension], factor)
-
-
-def significant(value: float, digits: int = 4) -> str:
-    """A number with a true minus sign and no exponent where none is needed."""
-    if value and abs(value) < 1e-12:
-        value = 0.0
-    places = 0 if value == 0 else max(0, digits - 1 - math.floor(math.log10(abs(value))))
-    text = f"{value:.{digits}g}" if places > 7 or abs(value) >= 1e7 else f"{value:.{places}f}"
-    if "." in text and "e" not in text:
-        text = text.rstrip("0").rstrip(".")
-    return ("0" if text in ("-0", "") else text).replace("-", "−")
 
 
 def round_up(value: float) -> float:

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
+from linkwright.core.quantity import significant
 from linkwright.pictures.diagram import Axes
-from linkwright.plot.diagrams.axes import InputAxis, round_up, significant
+from linkwright.plot.diagrams.axes import InputAxis, round_up
 from linkwright.plot.diagrams.marks import acting
 from linkwright.plot.diagrams.names import Name, Names
 from linkwright.plot.diagrams.source import Source

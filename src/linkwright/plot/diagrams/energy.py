@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.core.quantity import significant
 from linkwright.cycle.summary import SummaryValue
 from linkwright.errors import LinkwrightError
 from linkwright.machine.energy import EnergyFluctuation
@@ -13,7 +14,7 @@ from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.analysis import Analysis, Kind
 from linkwright.metrics.true_speed import steady_cycle
 from linkwright.pictures.diagram import COLOURS
-from linkwright.plot.diagrams.axes import InputAxis, significant, unit_of
+from linkwright.plot.diagrams.axes import InputAxis, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.panels import Level, OverInput, Panel, with_mean

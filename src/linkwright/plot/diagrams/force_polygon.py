@@ -10,12 +10,13 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
+from linkwright.core.quantity import significant
 from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import driver_wrenches
 from linkwright.mechanism.force_names import link_numbers, reaction_index
 from linkwright.pictures.diagram import COLOURS, Axes, Figure
-from linkwright.plot.diagrams.axes import significant, unit_of, wrapped
+from linkwright.plot.diagrams.axes import unit_of, wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.outputs import known_link
 from linkwright.plot.diagrams.position import draw_position, name_position, position_cell

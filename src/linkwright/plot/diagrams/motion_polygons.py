@@ -10,10 +10,11 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.quantity import significant
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.pictures.diagram import COLOURS, INK, Axes, Figure
-from linkwright.plot.diagrams.axes import significant, wrapped
+from linkwright.plot.diagrams.axes import wrapped
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
 from linkwright.plot.diagrams.position import draw_position, name_position, position_cell

@@ -8,9 +8,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import significant
 from linkwright.kinematics.motion import Motion
 from linkwright.pictures.diagram import INK, Axes, new_figure
-from linkwright.plot.diagrams.axes import significant
 from linkwright.plot.diagrams.scaled_page import BAR, Cell, Labels, scale_for, symbol, with_index
 from linkwright.plot.drawing.joint_marks import marks
 from linkwright.words import Say

@@ -9,12 +9,13 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.core.quantity import significant
 from linkwright.pictures.drawing import Box
 from linkwright.pictures.picture import Line, SvgNode
 from linkwright.pictures.svg.element import Element, element
 from linkwright.pictures.svg.text import text_element, width
 from linkwright.pictures.symbols.base import points
-from linkwright.plot.diagrams.axes import significant, unit_of
+from linkwright.plot.diagrams.axes import unit_of
 from linkwright.words import has, say
 
 HEIGHT, GAP, SIZE = 78.0, 26.0, 12.0

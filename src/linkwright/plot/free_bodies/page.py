@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import fixed
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.pictures.drawing import document
@@ -111,19 +112,19 @@ def _table(body: FreeBody, say: Say, top: float) -> tuple[list[SvgNode], float]:
             x_part, y_part = (float(part) * factor for part in each.force)
             angle = math.degrees(math.atan2(y_part, x_part)) % 360.0
             cells = (
-                _shown(x_part, place),
-                _shown(y_part, place),
-                _shown(each.size * factor, place),
+                fixed(x_part, place),
+                fixed(y_part, place),
+                fixed(each.size * factor, place),
                 f"{angle:.2f}",
             )
             y = _row(found, y, each, cells)
         total = np.sum([each.force for each in body.forces], axis=0) * factor
-        y = _line(found, y, say("free_bodies.sum"), tuple(_shown(float(part), place) for part in total))
+        y = _line(found, y, say("free_bodies.sum"), tuple(fixed(float(part), place) for part in total))
     if body.couples:
         y = _head(found, y, ("M / N·m",))
         place = _places(max(abs(each.torque) for each in body.couples))
         for each in body.couples:
-            y = _row(found, y, each, (_shown(each.torque, place),))
+            y = _row(found, y, each, (fixed(each.torque, place),))
     y = _moments(found, y, body, say)
     return found, y - top
 
@@ -135,7 +136,7 @@ def _moments(found: list[SvgNode], y: float, body: FreeBody, say: Say) -> float:
     largest = max(map(abs, [*moments, *arms]))
     if largest <= 0.0:
         return y
-    value = f"{_shown(sum(moments), _places(largest))} N·m"
+    value = f"{fixed(sum(moments), _places(largest))} N·m"
     text = say("free_bodies.moment_sum", value=value)
     found.append(sentence_element(0.0, y + SIZE, text, "lw-legend", SIZE))
     return y + LINE
@@ -148,11 +149,6 @@ def _force_unit(forces: Sequence[Action]) -> tuple[str, float]:
 def _places(largest: float) -> int:
     """Decimals with which a number has DIGITS digits."""
     return max(0, min(9, DIGITS - 1 - math.floor(math.log10(largest))))
-
-
-def _shown(value: float, place: int) -> str:
-    text = f"{value:.{place}f}"
-    return text.removeprefix("-") if not float(text) else text.replace("-", "−")
 
 
 def _head(found: list[SvgNode], y: float, texts: Sequence[str]) -> float:

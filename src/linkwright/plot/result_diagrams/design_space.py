@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.quantity import significant
 from linkwright.errors import RequestError
 from linkwright.pictures.diagram import COLOURS, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, significant
+from linkwright.plot.diagrams.axes import Legend
 from linkwright.plot.diagrams.base import Request, framed
 from linkwright.plot.result_diagrams.design_table import Column, DesignTable
 

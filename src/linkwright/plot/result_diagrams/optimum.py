@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.quantity import unit_of_kind
 from linkwright.designs.optimise.optimum import Optimum
-from linkwright.designs.optimise.report import label, shown_unit
+from linkwright.designs.optimise.report import label
 from linkwright.pictures.diagram import COLOURS, INK, Figure, new_figure
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.words import say
@@ -41,10 +42,10 @@ def _front(axes: Any, result: Optimum, text: str, language: str) -> None:
     first = result.problem.goals[0].text
     columns = []
     for name in (first, text):
-        symbol, factor = shown_unit(result.kinds[name])
-        values = np.array([each.numbers[name] for each in result.choices]) / factor
+        symbol, factor = unit_of_kind(result.kinds[name])
+        values = np.array([each.numbers[name] for each in result.choices]) * factor
         title = label(result, name, language)
-        columns.append((values, result.start[name] / factor, f"{title}, {symbol}" if symbol else title))
+        columns.append((values, result.start[name] * factor, f"{title}, {symbol}" if symbol else title))
     (x, x0, x_label), (y, y0, y_label) = columns
     axes.plot(x, y, "o-", ms=4.5, color=COLOURS[0], lw=1, label=say("optimize.legend.front", language))
     if np.isfinite([x0, y0]).all():
@@ -61,16 +62,16 @@ def _front(axes: Any, result: Optimum, text: str, language: str) -> None:
 
 def _progress(axes: Any, result: Optimum, language: str) -> None:
     goal = result.problem.goals[0]
-    symbol, factor = shown_unit(result.kinds[goal.text])
-    history = goal.sign * np.array([np.nan if np.isinf(v) else v for v in result.history]) / factor
+    symbol, factor = unit_of_kind(result.kinds[goal.text])
+    history = goal.sign * np.array([np.nan if np.isinf(v) else v for v in result.history]) * factor
     generations = np.arange(1, len(history) + 1)
     met = all(low <= result.start[text] <= high for text, (low, high) in result.limits.items())
     if met and np.isfinite(result.start[goal.text]):
         generations = np.arange(len(history) + 1)
-        history = np.append(result.start[goal.text] / factor, history)
+        history = np.append(result.start[goal.text] * factor, history)
     said = say("optimize.legend.search", language)
     axes.step(generations, history, where="post", color=COLOURS[0], label=said)
-    best = result.best.numbers[goal.text] / factor
+    best = result.best.numbers[goal.text] * factor
     axes.plot(
         [len(result.history)],
         [best],
@@ -79,7 +80,7 @@ def _progress(axes: Any, result: Optimum, language: str) -> None:
         label=say("optimize.legend.polished", language),
     )
     if np.isfinite(result.start[goal.text]):
-        start = result.start[goal.text] / factor
+        start = result.start[goal.text] * factor
         axes.axhline(start, ls="--", lw=1, color=INK, label=say("optimize.legend.start", language))
     axes.margins(0.03)
     axes.set_xlabel(say("optimize.axis.generation", language))

@@ -9,7 +9,6 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.parts.base import UNITS, unit
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, Unit, angle_ticks, unit_of
 from linkwright.plot.diagrams.base import Request, framed
@@ -42,18 +41,6 @@ class Pane:
     log: bool = False
 
 
-def unit_for(dimension: str, lines: Sequence[Line] = ()) -> Unit:
-    """The unit of an axis."""
-    if dimension in ("", "dimensionless"):
-        return Unit("", 1.0)
-    if dimension in UNITS:
-        return Unit(*UNITS[dimension])
-    try:
-        return unit_of(dimension, [line.y for line in lines])
-    except KeyError:
-        return Unit(unit(dimension), 1.0)
-
-
 def panes(
     name: str, across: tuple[str, str], given: Sequence[Pane], request: Request, *, logx: bool = False
 ) -> Figure:
@@ -61,7 +48,7 @@ def panes(
     figure = new_figure(request.size or (7.2, 1.2 + 1.9 * max(len(given), 1.45)))
     axes = list(figure.subplots(len(given), 1, sharex=True, squeeze=False)[:, 0])
     legend = Legend()
-    below = unit_for(across[1])
+    below = unit_of(across[1])
     for one, pane in zip(axes, given, strict=True):
         _pane(one, pane, below, legend)
         if logx:
@@ -76,7 +63,7 @@ def panes(
 
 
 def _pane(axes: Axes, pane: Pane, below: Unit, legend: Legend) -> None:
-    shown = unit_for(pane.dimension, pane.lines)
+    shown = unit_of(pane.dimension, [line.y for line in pane.lines])
     if not pane.log:
         axes.axhline(0.0, color="#9aa0a6", linewidth=0.7, zorder=1.2)
     for number, line in enumerate(pane.lines):

@@ -7,8 +7,9 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.quantity import unit_of_kind
 from linkwright.parts.programs.problem import Variable
-from linkwright.parts.programs.program import Optimum, unit_of
+from linkwright.parts.programs.program import Optimum
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 
@@ -42,7 +43,7 @@ def _region(axes: Axes, result: Optimum) -> None:
     spans = [_span(result.program.variables[n], result.x[n]) for n in names]
     u, v = (each.ravel() for each in np.meshgrid(*spans))
     point = dict(zip(names, (u, v), strict=True))
-    scales = [unit_of(result.program.variables[n].dimension) for n in names]
+    scales = [unit_of_kind(result.program.variables[n].dimension) for n in names]
     x, y = (span * scale[1] for span, scale in zip(spans, scales, strict=True))
     value = result.program.model.objective.value(point).reshape(GRID, GRID)
     kept = np.ones(len(u), dtype=bool)

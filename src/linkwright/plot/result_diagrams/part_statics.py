@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.parts.base import shown
+from linkwright.core.quantity import shown
 from linkwright.parts.statics.belt import BeltTensions
 from linkwright.parts.statics.body import HELD, Reactions
 from linkwright.parts.statics.force_system import PointEquilibrium, Resultant

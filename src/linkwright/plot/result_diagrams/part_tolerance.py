@@ -6,8 +6,8 @@ import numpy as np
 
 from linkwright.designs.tolerance.result import Spread
 from linkwright.pictures.diagram import COLOURS, FAINT, Axes, Figure, new_figure
+from linkwright.plot.diagrams.axes import unit_of
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
-from linkwright.plot.result_diagrams.part_axes import unit_for
 
 
 @result_diagram("tolerance", Spread)
@@ -26,7 +26,7 @@ def draw_tolerance(result: Spread, request: Request) -> Figure:
 
 
 def _histogram(axes: Axes, result: Spread, text: str, request: Request) -> None:
-    values, shown = result.values(text), unit_for(result.dimension(text))
+    values, shown = result.values(text), unit_of(result.dimension(text))
     axes.hist(values * shown.factor, bins=60, color=FAINT, alpha=0.5)
     sigma, middle = result.linear(text), float(values.mean())
     if sigma:
@@ -45,8 +45,8 @@ def _histogram(axes: Axes, result: Spread, text: str, request: Request) -> None:
 def _band(axes: Axes, result: Spread, output: str) -> None:
     """±3σ about the shift by pressed pins, over the input, and between which values 99.73 % of the machines lie."""
     place, _, deviation = result.curve(output)
-    shift, shown = result.pressed(output), unit_for(result.dimension(output))
-    turning = unit_for("angle" if result.turning else "length")
+    shift, shown = result.pressed(output), unit_of(result.dimension(output))
+    turning = unit_of("angle" if result.turning else "length")
     x = place * turning.factor
     low, high = ((shift + sign * 3 * deviation) * shown.factor for sign in (-1, 1))
     axes.fill_between(x, low, high, color=COLOURS[0], alpha=0.2, linewidth=0)

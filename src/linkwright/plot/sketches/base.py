@@ -127,8 +127,3 @@ def roller_support(paper: Paper, at: Vec, toward: Vec = (0.0, 1.0), size: float 
     for y in (-0.55 * half, 0.55 * half):
         paper.circle(vec(placed([(size + radius, y)], at, toward)[0]), radius, "lw-pin")
     paper.put("wall", at=vec(placed([(size + 2 * radius, 0)], at, toward)[0]), toward=toward, size=0.9 * size)
-
-
-def direction_text(value: float) -> str:
-    """An angle (rad) in degrees."""
-    return f"{math.degrees(value):.4g}°"

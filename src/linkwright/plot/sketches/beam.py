@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.parts.base import shown
+from linkwright.core.quantity import shown
 from linkwright.parts.beams.beam import Beam, BeamLoad, BeamSupport
 from linkwright.pictures.drawing import Drawing
 from linkwright.plot.sketches.base import WIDE, Paper, roller_support, sketched

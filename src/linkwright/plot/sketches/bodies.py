@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.parts.base import shown
+from linkwright.core.quantity import shown
 from linkwright.parts.mechanism_field import OfMechanism
 from linkwright.parts.statics.body import RigidBody, Support
 from linkwright.parts.statics.forces import spatial

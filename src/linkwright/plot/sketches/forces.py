@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.parts.base import shown
+from linkwright.core.quantity import shown
 from linkwright.parts.statics.force_system import ForceSystem
 from linkwright.parts.statics.forces import spatial
 from linkwright.pictures.drawing import Drawing

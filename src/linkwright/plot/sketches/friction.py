@@ -7,12 +7,12 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.parts.base import shown
+from linkwright.core.quantity import shown
 from linkwright.parts.statics.belt import Belt
 from linkwright.parts.statics.wedge import Wedge
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.symbols.base import vec
-from linkwright.plot.sketches.base import Paper, direction_text, sketched
+from linkwright.plot.sketches.base import Paper, sketched
 
 #: Radius of a drum, free length of a belt, length of a wedge and height of its load.
 RADIUS, FREE, WEDGE, LOAD = 84.0, 96.0, 300.0, 90.0
@@ -42,7 +42,7 @@ def draw_belt(belt: Belt, language: str) -> Drawing:
     paper.put("dimension_arc", at=(0.0, 0.0), radius=0.55 * RADIUS, first=-first, sweep=wrap)
     middle = -first + 0.35 * wrap
     turn = 0.55 * RADIUS * np.array([math.cos(middle), math.sin(middle)])
-    paper.name(f"θ = {direction_text(belt.wrap)}", turn, 0.7 * turn, style="lw-value")
+    paper.name(f"θ = {shown(belt.wrap, 'angle', 4)}", turn, 0.7 * turn, style="lw-value")
     paper.name(f"μ = {belt.friction:.4g}", arc[30], arc[20], arc[40], style="lw-value")
     if belt.torque is not None:
         paper.put("moment", at=(0.0, 0.0), turning=1, radius=24.0, style="lw-load")
@@ -52,7 +52,7 @@ def draw_belt(belt: Belt, language: str) -> Drawing:
         paper.line([np.zeros(2), edge], "lw-dimension")
         paper.name(f"r = {shown(belt.radius, 'length')}", edge, 0.6 * edge, style="lw-value")
     if belt.groove is not None:
-        paper.name(f"α = {direction_text(belt.groove)}", (-RADIUS, 0.6 * RADIUS), style="lw-value")
+        paper.name(f"α = {shown(belt.groove, 'angle', 4)}", (-RADIUS, 0.6 * RADIUS), style="lw-value")
     return paper.drawing(belt.name)
 
 
@@ -86,7 +86,7 @@ def draw_wedge(wedge: Wedge, language: str) -> Drawing:
     paper.put("dimension_arc", at=(length, 0.0), radius=0.3 * length, first=math.pi, sweep=wedge.angle)
     way = math.pi + 0.5 * wedge.angle
     spot = np.array([length + 0.34 * length * math.cos(way), 0.34 * length * math.sin(way)])
-    paper.name(f"α = {direction_text(wedge.angle)}", spot, (length, -10.0), style="lw-value")
+    paper.name(f"α = {shown(wedge.angle, 'angle', 4)}", spot, (length, -10.0), style="lw-value")
     on_slope, on_floor, on_wall = (math.tan(each) for each in wedge.friction_angles)
     paper.name(f"μ = {on_slope:.4g}", 0.5 * (np.array(under[0]) + under[1]), style="lw-value")
     paper.name(f"μf = {on_floor:.4g}", vec(np.array([0.25 * length, 8.0])), style="lw-value", clearance=10.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from linkwright.parts.base import number, shown
+from linkwright.core.quantity import number, shown
 from linkwright.parts.vibration.excitation import STRAIGHT, TURNING
 from linkwright.parts.vibration.follower import FollowerSpring
 from linkwright.parts.vibration.system import GROUND, Tie, VibratingSystem

@@ -5,10 +5,10 @@ from __future__ import annotations
 import cmath
 import math
 
-from linkwright.parts.base import shown
+from linkwright.core.quantity import shown
 from linkwright.parts.statics.rotor import Rotor
 from linkwright.pictures.drawing import Drawing
-from linkwright.plot.sketches.base import Paper, direction_text, sketched
+from linkwright.plot.sketches.base import Paper, sketched
 
 #: Largest radius on the paper, length of the shaft between the outermost places, gap between both views.
 RADIUS, SHAFT, GAP = 100.0, 300.0, 110.0
@@ -60,6 +60,6 @@ def _along_the_shaft(paper: Paper, rotor: Rotor, scale: float) -> None:
         at = (spot.real, -spot.imag)
         paper.line([(0.0, 0.0), at], "lw-ground")
         paper.put("mass_centre", at=at)
-        text = f"{name} {shown(mass.mass, 'mass')}, {direction_text(mass.angle)}"
+        text = f"{name} {shown(mass.mass, 'mass')}, {shown(mass.angle, 'angle', 4)}"
         paper.name(text, at, clearance=10.0)
     paper.put("pin", at=(0.0, 0.0))

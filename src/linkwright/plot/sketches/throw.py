@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from linkwright.parts.base import shown
+from linkwright.core.quantity import shown
 from linkwright.parts.trajectories.particle import Particle
 from linkwright.pictures.drawing import Drawing
-from linkwright.plot.sketches.base import Paper, direction_text, sketched
+from linkwright.plot.sketches.base import Paper, sketched
 
 #: Length of the ground, of the velocity's arrow and of the axis at the start, height of a start above the ground.
 GROUND, ARROW, LEVEL, HEIGHT = 320.0, 110.0, 90.0, 90.0
@@ -28,7 +28,7 @@ def draw_particle(particle: Particle, language: str) -> Drawing:
     if abs(angle) > 1e-6:
         paper.put("dimension_arc", at=(0.0, -high), radius=56.0, first=0.0, sweep=-angle)
     middle = start + 62.0 * np.array([math.cos(0.5 * angle), -math.sin(0.5 * angle)])
-    paper.name(f"α = {direction_text(angle)}", middle, style="lw-value")
+    paper.name(f"α = {shown(angle, 'angle', 4)}", middle, style="lw-value")
     if high:
         paper.line([(-30.0, -high), (0.0, -high)], "lw-axis")
         paper.dimension((-24.0, 0.0), (-24.0, -high), f"h = {shown(particle.height, 'distance')}")

@@ -10,12 +10,12 @@ from collections.abc import Iterator, Sequence
 from functools import partial, reduce
 
 from linkwright.core.outputs import Output
+from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
 from linkwright.designs.evaluation import told
 from linkwright.errors import LinkwrightError
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, MetricValue
-from linkwright.metrics.quantities import shown
 from linkwright.plot.diagrams.outputs import main_outputs
 from linkwright.report.document import Block, Paragraph, literal
 from linkwright.report.improvements import EFFORT, broken, improvements

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkwright.core.quantity import number, shown_unit
 from linkwright.errors import LinkwrightError
 from linkwright.machine.running import SteadyRunning
-from linkwright.metrics.quantities import number, shown_unit
 from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section

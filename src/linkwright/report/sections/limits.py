@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkwright.core.quantity import number
 from linkwright.metrics.base import MetricValue
-from linkwright.metrics.quantities import number
 from linkwright.metrics.table import told
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from linkwright.core.quantity import shown
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
-from linkwright.metrics.quantities import shown
 from linkwright.report.document import Block, Figure, Paragraph, Table, literal
 from linkwright.report.machine_results import Case
 from linkwright.report.numbers import ROUNDING, faded

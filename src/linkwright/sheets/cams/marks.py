@@ -10,10 +10,11 @@ import numpy as np
 
 from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Complexes, Floats
+from linkwright.core.quantity import significant
 from linkwright.pictures.picture import Picture, Runs, as_runs, indexed, joined
 from linkwright.sheets.cams.division import divided, widest_gap
 from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of, sharpest
-from linkwright.sheets.cams.scales import equal, plain
+from linkwright.sheets.cams.scales import equal
 from linkwright.sheets.labels import Name
 from linkwright.words import Say
 
@@ -156,8 +157,8 @@ def said(design: CamDesign) -> Runs:
         angle = equal(indexed("α", "max"), degrees, "°")
         if found.limit is not None:
             kept = "≤" if degrees <= math.degrees(found.limit) + 5e-4 else ">"
-            angle = joined(angle, f" {kept} [α] = {plain(math.degrees(found.limit))}°")
-        parts.append(joined(angle, f" (δ = {plain(math.degrees(found.place))}°)"))
+            angle = joined(angle, f" {kept} [α] = {significant(math.degrees(found.limit))}°")
+        parts.append(joined(angle, f" (δ = {significant(math.degrees(found.place))}°)"))
     if radius is not None:
         parts.append(equal(indexed("ρ", "min"), 1e3 * radius.value, "mm"))
     return joined(*(part for k, each in enumerate(parts) for part in (((",  ", 0),) if k else (), each)))

@@ -10,10 +10,11 @@ import numpy as np
 from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import significant
 from linkwright.laws.program import TURN
 from linkwright.pictures.picture import LEAST, TEXT, Picture, Runs, as_runs, indexed, joined, runs_width
 from linkwright.sheets.cams.division import Phase, divided, phases
-from linkwright.sheets.cams.scales import graphical, plain
+from linkwright.sheets.cams.scales import graphical
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.words import Say
 
@@ -96,7 +97,7 @@ class MotionPanel(Panel):
         for k in range(math.ceil(ends[0] * each / step - 1e-9), math.floor(ends[1] * each / step + 1e-9) + 1):
             level = zero + k * step / each
             picture.line([(-1.2, level), (0.0, level)])
-            picture.text((-2.0, level - 0.5 * LEAST), plain(k * step), LEAST, "end")
+            picture.text((-2.0, level - 0.5 * LEAST), significant(k * step), LEAST, "end")
         picture.line(np.stack([x, zero + strip.values / each], axis=1), "thick")
 
     def _divisions(self, picture: Picture, wide: float, zero: float, each: float) -> None:
@@ -128,7 +129,7 @@ class MotionPanel(Panel):
         found = []
         for phase in self.phases:
             symbol = indexed(*phase.symbol) if phase.symbol[0] else ()
-            degrees = f"{plain(math.degrees(phase.angle), 5)}°"
+            degrees = f"{significant(math.degrees(phase.angle), 5)}°"
             whole = joined(symbol, f" = {degrees}") if symbol else as_runs(degrees)
             span = wide * phase.angle / TURN
             short = symbol and self._fits(symbol, span) and not self._fits(whole, span)

@@ -9,11 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from linkwright.cams.result import CamDesign
+from linkwright.core.quantity import fixed, significant
 from linkwright.laws.smoothest import FoundProgram
 from linkwright.pictures.picture import Runs, Words, as_runs, indexed, joined
 from linkwright.sheets.cams.division import Phase, divided, phases
 from linkwright.sheets.cams.geometry import pitch_of
-from linkwright.sheets.cams.scales import fixed, plain
 from linkwright.sheets.panel import Drawn
 from linkwright.sheets.table import TablePanel
 from linkwright.words import Say, has
@@ -32,7 +32,7 @@ def data_table(design: CamDesign, say: Say, parts: int) -> TablePanel:
 
 def _row(say: Say, key: str, symbol: Words, value: float, unit: str) -> Row:
     gap = "" if unit in ("", "°") else " "
-    return [say(f"cam_sheet.{key}"), symbol, f"{plain(value, 5)}{gap}{unit}"]
+    return [say(f"cam_sheet.{key}"), symbol, f"{significant(value, 5)}{gap}{unit}"]
 
 
 def _motion(design: CamDesign, say: Say) -> Iterator[Row]:
@@ -48,7 +48,7 @@ def _motion(design: CamDesign, say: Say) -> Iterator[Row]:
         yield [say("cam_sheet.law"), "", say("cam_sheet.found")]
     sense = say(f"cam_sheet.{'counterclockwise' if cam.turn > 0 else 'clockwise'}")
     if design.loading.speed:
-        speed = f"{plain(design.loading.speed * 30 / math.pi, 5)} r/min"
+        speed = f"{significant(design.loading.speed * 30 / math.pi, 5)} r/min"
         yield [say("cam_sheet.speed"), "n", f"{speed}, {sense}"]
     else:
         yield [say("cam_sheet.turn"), "", sense]
@@ -58,7 +58,7 @@ def _phase(phase: Phase, number: int, say: Say) -> Row:
     """The angle of a phase, and its law where it moves."""
     symbol: Words = indexed(*phase.symbol) if phase.symbol[0] else indexed("δ", str(number))
     name = say(f"cam_sheet.{_name(phase)}")
-    degrees = f"{plain(math.degrees(phase.angle), 5)}°"
+    degrees = f"{significant(math.degrees(phase.angle), 5)}°"
     if phase.way == "dwell":
         return [name, symbol, degrees]
     laws = ", ".join(say(f"report.law_{law}") if has(f"report.law_{law}") else law for law in phase.laws)
@@ -106,8 +106,8 @@ def _checks(design: CamDesign, say: Say) -> Iterator[Row]:
         ("angle_fall", design.pressure_angle_fall, fall),
     ):
         if extreme.value:
-            value = f"{plain(abs(math.degrees(extreme.value)), 4)}°"
-            value += "" if limit is None else f",  [α] = {plain(math.degrees(limit))}°"
+            value = f"{significant(abs(math.degrees(extreme.value)), 4)}°"
+            value += "" if limit is None else f",  [α] = {significant(math.degrees(limit))}°"
             yield [say(f"cam_sheet.{key}"), indexed("α", "max"), value]
     if design.smallest_radius is not None:
         yield _row(say, "smallest_radius", indexed("ρ", "min"), 1e3 * design.smallest_radius.value, "mm")
@@ -155,6 +155,6 @@ def _points(design: CamDesign) -> tuple[Row, list[Row]]:
         head.append("α/°")
         columns.append(np.degrees(np.abs(contact.pressure_angle)))
     rows: list[Row] = [
-        [str(k), *(fixed(float(each)) for each in row)] for k, row in enumerate(zip(*columns, strict=True))
+        [str(k), *(fixed(float(each), 2) for each in row)] for k, row in enumerate(zip(*columns, strict=True))
     ]
     return head, rows

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import fixed
 from linkwright.synthesis.result import Synthesis
 from linkwright.words import Say
 from linkwright.worked.matrix import Matrix, side_by_side
@@ -112,8 +113,7 @@ def named(name: str, index: str = "") -> tuple[str, str]:
 
 def decimals(values: ArrayLike, places: int) -> list[str]:
     """Numbers with so many decimals, zero without a sign."""
-    least = 0.5 * 10.0**-places
-    return [f"{0.0 if abs(value) < least else value:.{places}f}" for value in np.atleast_1d(values)]
+    return [fixed(float(value), places, "-") for value in np.atleast_1d(values)]
 
 
 def degrees(radians: ArrayLike, places: int = 4) -> list[str]:
