@@ -12,8 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from linkwright import Finding, LinkwrightError, ModelError, check
+from linkwright import Finding, LinkwrightError, ModelError
 from linkwright.cli import main
+from linkwright.files.model_file import read_text
+from linkwright.files.source import read_source
 
 
 @contextmanager
@@ -36,11 +38,14 @@ def faulty(code: str, key: str, /, **values: object) -> Iterator[pytest.Exceptio
 
 
 def findings(text: str, name: str = "<text>") -> list[Finding]:
-    """All findings of the text of a model file; places name the file as given."""
+    """What reading the text of a model file finds; places name the file as given."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "model.yaml")
         path.write_bytes(text.encode("utf-8"))
-        return [replace(each, where=name + each.where.removeprefix(path.name)) for each in check(path)]
+        return [
+            replace(each, where=name + each.where.removeprefix(path.name))
+            for each in read_text(*read_source(path))[1]
+        ]
 
 
 def checked(path: Path) -> tuple[int, list[Finding]]:

@@ -53,8 +53,8 @@ if TYPE_CHECKING:
     from linkwright.export.export import export as export
     from linkwright.export.sweep_parts import SweepParts as SweepParts
     from linkwright.export.sweep_parts import sweep_parts as sweep_parts
+    from linkwright.file_check import check as check
     from linkwright.files.build import Model as Model
-    from linkwright.files.model_file import check as check
     from linkwright.files.model_file import gallery_names as gallery_names
     from linkwright.files.model_file import load as load
     from linkwright.files.model_file import loads as loads

@@ -40,6 +40,7 @@ STAGES = (
     ("metrics", "machine", "worked"),
     ("designs", "synthesis", "cams", "gears", "parts"),
     ("report", "plot", "export", "page", "validation", "course", "sheets"),
+    ("file_check",),
     ("cli", "server", "__main__"),
 )
 STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}

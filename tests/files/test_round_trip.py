@@ -12,9 +12,11 @@ from tests import store
 from tests.refusals import refused
 
 from linkwright.errors import LinkwrightError, ModelError, RequestError
+from linkwright.file_check import check
 from linkwright.files.build import Model
-from linkwright.files.model_file import check, gallery_names, load, loads, read_document
+from linkwright.files.model_file import gallery_names, load, loads, read_document, read_text
 from linkwright.files.schema import json_schema
+from linkwright.files.source import read_source
 from linkwright.files.write import dump
 
 BLOCK = """\
@@ -49,7 +51,8 @@ def test_every_model_of_the_gallery_reads_back_the_same(name: str) -> None:
 
 @pytest.mark.parametrize("name", gallery_names())
 def test_the_gallery_has_no_findings(name: str) -> None:
-    assert [str(each) for each in check(f"gallery:{name}")] == []
+    assert read_text(*read_source(f"gallery:{name}"))[1] == []
+    assert [str(each) for each in check(f"gallery:{name}") if each.severity != "note"] == []
 
 
 #: Bounds of a value, by the keys of their sentences.

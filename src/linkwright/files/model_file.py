@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from linkwright.files.document import Document
 
-__all__ = ["check", "gallery_names", "load", "loads", "read_document"]
+__all__ = ["gallery_names", "load", "loads", "read_document"]
 
 
 def load(source: str | Path) -> Mechanism:
@@ -43,15 +43,6 @@ def loads(text: str, name: str = "<text>") -> Mechanism:
     if mechanism is None:
         raise ModelError(findings)
     return mechanism
-
-
-def check(source: str | Path) -> list[Finding]:
-    """All findings about a model file, errors and warnings; never raises for bad content."""
-    try:
-        text, name = read_source(source)
-    except ModelError as error:
-        return list(error.findings)
-    return read_text(text, name)[1]
 
 
 def read_document(source: str | Path) -> Document:
@@ -81,6 +72,12 @@ def declared_kind(root: Node | None) -> str | None:
     """The kind of calculation that a tree declares; None of a model."""
     node = below(root, "kind")
     return node.text if isinstance(node, Scalar) else None
+
+
+def is_task(root: Node | None) -> bool:
+    """Whether a tree holds a task of synthesis and no model."""
+    task, *model = (below(root, key) for key in ("synthesis", "links", "frame"))
+    return task is not None and model == [None, None]
 
 
 def read_nodes(text: str, name: str) -> tuple[Node | None, list[Finding]]:

@@ -68,13 +68,12 @@ def load(source: str | Path) -> Problem:
 
     Raises ModelError with all findings where the file cannot be used.
     """
-    text, name, folder = _text(source)
-    return loads(text, name, folder)
+    return loads(*_text(source))
 
 
 def loads(text: str, name: str = "<text>", folder: str | Path = ".") -> Problem:
     """The problem in a text; ``folder`` is where files that it names are looked for."""
-    problem, findings = _read(text, name, Path(folder))
+    problem, findings = read_calculation(*read_root(text, name), name, folder)
     if problem is None:
         raise ModelError(findings)
     return problem
@@ -84,7 +83,7 @@ def check(source: str | Path) -> list[Finding]:
     """All findings about a file; never raises for bad content."""
     try:
         text, name, folder = _text(source)
-        return _read(text, name, folder)[1]
+        return read_calculation(*read_root(text, name), name, folder)[1]
     except ModelError as error:
         return list(error.findings)
 
@@ -168,8 +167,10 @@ def _text(source: str | Path) -> tuple[str, str, Path]:
     return text, name, Path(source).parent
 
 
-def _read(text: str, name: str, folder: Path) -> tuple[Problem | None, list[Finding]]:
-    root, findings = read_root(text, name)
+def read_calculation(
+    root: Node | None, findings: list[Finding], name: str, folder: str | Path
+) -> tuple[Problem | None, list[Finding]]:
+    """The problem of what :func:`read_root` gives, or None where there is an error, and all findings."""
     if findings or root is None:
         return None, findings
     reader = Reader(name)
@@ -185,7 +186,7 @@ def _read(text: str, name: str, folder: Path) -> tuple[Problem | None, list[Find
     values = reader.table(mapping, Place("", ""), fields)
     if values is None or reader.error_count:
         return None, reader.findings
-    return _built(owner, values, mapping, reader, folder)
+    return _built(owner, values, mapping, reader, Path(folder))
 
 
 def _kind(reader: Reader, root: MappingNode) -> str | None:

@@ -12,6 +12,7 @@ from tempfile import TemporaryDirectory
 
 from linkwright.core.json_data import Plain
 from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
+from linkwright.file_check import checked_text
 from linkwright.files.document import Document
 from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
@@ -99,7 +100,7 @@ class Work:
 
     def _prepare(self, text: str, language: str) -> None:
         try:
-            self._foreseen = (text, language, solved(text, language))
+            self._foreseen = (text, language, solved(text, language, str(self.files.folder)))
         finally:
             self._solving.release()
 
@@ -109,7 +110,7 @@ class Work:
             foreseen, self._foreseen = self._foreseen, None
             if foreseen is not None and foreseen[:2] == (text, language):
                 return foreseen[2]
-            return solved(text, language)
+            return solved(text, language, str(self.files.folder))
 
     def _optimize(self, asked: Plain) -> Plain:
         """Begins the optimisation that the text's section asks."""
@@ -156,11 +157,14 @@ def _changed(text: str, values: Mapping[str, float]) -> str:
     return changed_text(Document(text, "model", read_text), values)
 
 
-def solved(text: str, language: str) -> Plain:
-    """The model of a text for the page; what is in its way otherwise; in any case what can be drawn."""
-    mechanism, findings = read_text(text, "model")
+def solved(text: str, language: str, folder: str = "") -> Plain:
+    """The model of a text for the page; what is in its way otherwise; in any case what can be drawn.
+
+    ``folder``: where files lie that the text names.
+    """
+    mechanism, _ = read_text(text, "model")
     found: Plain = {
-        "findings": [_finding(each, language) for each in findings],
+        "findings": [_finding(each, language) for each in checked_text(text, "model", folder).findings],
         "model": None,
         "sentence": "",
         "optimize": {},

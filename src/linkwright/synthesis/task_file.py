@@ -11,11 +11,10 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.reading import Place
-from linkwright.files.model_file import read_nodes
+from linkwright.files.model_file import is_task, read_nodes
 from linkwright.files.read_model import HEADER, TASK_KEYS
 from linkwright.files.reader import Reader
 from linkwright.files.source import GALLERY, read_source
-from linkwright.synthesis.tasks import check_text
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
 
@@ -49,10 +48,8 @@ def task_file(file: str | Path) -> TaskFile | None:
     Raises ModelError for a file that cannot be read, and for a heading that is wrong.
     """
     text, name = read_source(file)
-    if "synthesis" not in text or check_text(text, name) is None:
-        return None
     root, _ = read_nodes(text, name)
-    if not isinstance(root, MappingNode):
+    if not is_task(root) or not isinstance(root, MappingNode):
         return None
     reader = Reader(name)
     entries = [entry for entry in root.entries if entry.key.text in HEADING]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping
 from os import PathLike
 from os.path import exists
@@ -17,7 +18,6 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.fields.reading import Place
 from linkwright.files.calculations import refuse_kind
-from linkwright.files.compose import compose
 from linkwright.files.model_file import read_nodes
 from linkwright.files.read_model import TASK_KEYS
 from linkwright.files.reader import Reader
@@ -32,8 +32,6 @@ if TYPE_CHECKING:
 
 #: The line that gives the unit of bare numbers in lists, by their dimension.
 UNIT_KEYS = {"length": "unit: mm", "angle": "angle_unit: deg"}
-#: The folder in which the program runs.
-HERE = Path()
 #: Forms of values: dimensions of the entries, and how deep the list is.
 SHAPES: Mapping[str, tuple[tuple[str, ...], int]] = {
     "length": (("length",), 0),
@@ -103,11 +101,10 @@ def synthesize_text(text: str, name: str = "<text>") -> Synthesis:
 def asked_of(source: str | Path) -> tuple[str, dict[str, Any]]:
     """Task and demands (SI) of the section ``synthesis`` of a file; raises ModelError."""
     text, name = read_source(source)
-    beside = Path() if str(source).startswith(GALLERY) else Path(source).parent
-    return asked_in(text, name, beside)
+    return asked_in(text, name, "" if str(source).startswith(GALLERY) else os.path.dirname(source))
 
 
-def asked_in(text: str, name: str, folder: Path = HERE) -> tuple[str, dict[str, Any]]:
+def asked_in(text: str, name: str, folder: str = "") -> tuple[str, dict[str, Any]]:
     """Task and demands (SI) of the section ``synthesis`` of a text; raises ModelError.
 
     ``folder``: where files lie that the demands name.
@@ -124,27 +121,23 @@ def asked_in(text: str, name: str, folder: Path = HERE) -> tuple[str, dict[str, 
     return read_section(section, name, folder)
 
 
-def check_text(text: str, name: str) -> tuple[list[Finding], str] | None:
-    """Findings about a text that holds a task and no model, and the task; None for every other text."""
-    root, remarks = compose(text.removeprefix("\ufeff"))
-    if remarks or not isinstance(root, MappingNode) or root.get("synthesis") is None:
-        return None
-    if root.get("links") is not None or root.get("frame") is not None:
-        return None
+def check_task(root: Node | None, name: str, folder: str = "") -> tuple[list[Finding], str]:
+    """Findings about a tree that holds a task and no model, and the task."""
+    assert isinstance(root, MappingNode)
     reader = Reader(name)
     root, _ = reader.unknown_keys(root, Place("", ""), list(TASK_KEYS))
-    found, task = check_section(root.get("synthesis"), name)
+    found, task = check_section(root.get("synthesis"), name, folder)
     return [*reader.findings, *found], task
 
 
-def check_section(section: Node | None, name: str) -> tuple[list[Finding], str]:
+def check_section(section: Node | None, name: str, folder: str = "") -> tuple[list[Finding], str]:
     """Findings about the section of a task, and the task."""
     if not isinstance(section, MappingNode):
         reader = Reader(name)
         reader.mapping(section, "synthesis")
         return reader.findings, ""
     try:
-        task, demands = read_section(section, name)
+        task, demands = read_section(section, name, folder)
     except ModelError as error:
         return list(error.findings), ""
     own = _Reader(name)
@@ -157,7 +150,7 @@ def check_section(section: Node | None, name: str) -> tuple[list[Finding], str]:
     return own.findings, task
 
 
-def read_section(section: MappingNode, name: str, folder: Path = HERE) -> tuple[str, dict[str, Any]]:
+def read_section(section: MappingNode, name: str, folder: str = "") -> tuple[str, dict[str, Any]]:
     """Task and demands (SI) of a section; raises ModelError with all findings."""
     reader = _Reader(name, folder)
     given = section.get("task")
@@ -191,7 +184,7 @@ def read_section(section: MappingNode, name: str, folder: Path = HERE) -> tuple[
 class _Reader:
     """Values of a section; collects every finding."""
 
-    def __init__(self, name: str, folder: Path = HERE) -> None:
+    def __init__(self, name: str, folder: str = "") -> None:
         self.name, self.folder = name, folder
         self.findings: list[Finding] = []
         self.units: dict[str, str] = {}
@@ -220,7 +213,7 @@ class _Reader:
             return self._word(node, key, form)
         if form == "file":
             named = self._word(node, key, form)
-            return None if named is None else str(self.folder / named)
+            return None if named is None else os.path.join(self.folder, named)
         dimensions, depth = SHAPES[form]
         found = self._nested(node, key, form, dimensions, depth)
         if form == "count" and isinstance(found, float):

@@ -44,8 +44,11 @@ LEFT: Mapping[str, tuple[int, str]] = {
     "worked/wheels.py": (1, "the same, from the joint's hook to them"),
     "server/drawn_contacts.py": (2, "tools of the studio that write a cam, a rack into a file"),
     "server/edits.py": (3, "tools of the studio that write a guide, a slot, a gear, a force into a file"),
-    "tolerance/pin_turning_law.py": (1, "a law of its own, by a table, for pins that follow their reactions"),
-    "cli/commands/check.py": (1, "judges closeness to singular positions by the metric's rule"),
+    "designs/tolerance/pin_turning_law.py": (
+        1,
+        "a law of its own, by a table, for pins that follow their reactions",
+    ),
+    "file_check.py": (1, "judges closeness to singular positions by the metric's rule"),
     "cli/solve_remarks.py": (1, "says how near a solution is to a singular position"),
     "export/modelica/laws.py": (3, "the texts of laws, by type"),
     "mechanism/cam_shape.py": (1, "the profile of a cam joint"),

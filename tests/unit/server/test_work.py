@@ -22,7 +22,7 @@ def test_the_file_of_the_command_is_solved_while_the_browser_opens(
     (tmp_path / "a.yaml").write_text(text, encoding="utf-8")
     solved: list[str] = []
 
-    def counted(text: str, language: str) -> dict[str, Any]:
+    def counted(text: str, language: str, folder: str) -> dict[str, Any]:
         time.sleep(0.2)
         solved.append(text)
         return {"text": text, "language": language}

@@ -1,0 +1,308 @@
+"""Everything that is wrong with a file, at once: the same for programs, the command ``check`` and the studio."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import field, replace
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from linkwright import gallery
+from linkwright.core.dataclass import dataclass
+from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.fields.nodes import Node, below, located
+from linkwright.files.model_file import declared_kind, is_task, read_root, read_tree
+from linkwright.files.source import GALLERY, read_source
+from linkwright.words.sentence import Sentence, code_of
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from linkwright.elements.topology import Group
+    from linkwright.kinematics.motion import Motion
+    from linkwright.loads.base import Load
+    from linkwright.loads.phases import Phase
+    from linkwright.mechanism.mechanism import Mechanism
+    from linkwright.structure.analysis import Structure
+
+#: Positions of the cycle that are tried.
+TRIED = 72
+#: Positions of the cycle that other commands solve unless asked for others; they may lie on change points.
+ASKED = 360
+#: A coefficient of friction that no pair of materials has.
+RUBS = 2.0
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What there is to say about a file; ``fact``: its structure, or its kind, in short, where it has one."""
+
+    findings: Sequence[Finding]
+    fact: Mapping[str, object] = field(default_factory=dict)
+
+
+def check(source: str | Path) -> list[Finding]:
+    """All findings about a file, errors, warnings and notes; never raises for bad content.
+
+    A machine is turned once, and the sections that only some commands read are read; calculations and tasks of
+    synthesis are checked as well.
+    """
+    return list(checked(source).findings)
+
+
+def checked(source: str | Path) -> Checked:
+    """The findings about a file, and what it holds in short."""
+    try:
+        if str(source).removeprefix(GALLERY) in gallery.calculations() and str(source).startswith(GALLERY):
+            text, place = gallery.content(name := str(source).removeprefix(GALLERY)).decode(), f"{name}.yaml"
+        else:
+            text, place = read_source(source)
+    except ModelError as error:
+        return Checked(error.findings)
+    return checked_text(text, place, os.path.dirname(source), str(source))
+
+
+def checked_text(text: str, place: str, folder: str = "", source: str = "") -> Checked:
+    """The same of a text; ``place`` stands for the file in findings, ``source`` where they are about all of it.
+
+    Files that it names lie in ``folder``.
+    """
+    source = source or place
+    root, faults = read_root(text, place)
+    if (kind := declared_kind(root)) is not None:
+        from linkwright.parts.file import read_calculation
+
+        problem, found = read_calculation(root, faults, place, folder)
+        if problem is not None:
+            found = [*found, *_placed(_of_report(problem.report, None, folder), source, root, place)]
+        return Checked(found, {"kind": kind})
+    if not faults and below(root, "synthesis") is not None:
+        from linkwright.synthesis.tasks import check_section, check_task
+
+        if is_task(root):
+            found, task = check_task(root, place, folder)
+            return Checked(found, {"kind": f"synthesis, {task}"})
+        faults, _ = check_section(below(root, "synthesis"), place, folder)
+    mechanism, found = read_tree(root, faults, place)
+    if mechanism is None:
+        return Checked(found)
+    rests = any(each.code == "no-motion" for each in found)
+    own, fact = _of_machine(mechanism, folder, rests=rests)
+    placed = list(_placed(own, source, root, place))
+    return Checked([*found, *(placed if fact else (replace(each, key="") for each in placed))], fact)
+
+
+def _placed(found: Iterable[Finding], source: str, root: Node | None, place: str) -> Iterator[Finding]:
+    """Findings with line and column where their key stands in the text."""
+    for each in found:
+        yield located(replace(each, where=source), root, place)
+
+
+def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list[Finding], dict[str, object]]:
+    """What only structure, motion and loads show to be wrong, and the structure in short; ``rests``: what an output
+    never does in a load's phase is told already."""
+    from linkwright.kinematics.assembly import AssemblyError
+    from linkwright.kinematics.passing_proof import plainly_passed
+    from linkwright.kinematics.structure_with_rank import analysed
+
+    try:
+        built = analysed(mechanism)
+        swings = _swings(mechanism)
+        plain = plainly_passed(
+            mechanism, built, TRIED, [output for each in swings.values() for output in each.outputs]
+        )
+        turned, notes = _turned(mechanism) if plain is None else ([], [])
+    except LinkwrightError as error:
+        parts = (isinstance(error, AssemblyError) and error.parts) or (("", error.sentence),)
+        return [Finding("error", "", key, said, code=code_of(said)) for key, said in parts], {}
+    sure = plain or [False] * len(swings)
+    unsure = [
+        load
+        for (load, phase), each in zip(swings.items(), sure, strict=True)
+        if not rests and (phase.in_part or not each)
+    ]
+    varying = [load for load, each in mechanism.loads.items() if _varies(each)]
+    found = [
+        *turned,
+        *(_of_loads(mechanism, unsure, varying) if (unsure or varying) and not turned else ()),
+        *(_of_cams(mechanism) if mechanism.higher else ()),
+        *_of_friction(mechanism),
+        *_of_settings(mechanism, folder, moves=not turned),
+        *notes,
+        *_assumed(mechanism, built),
+    ]
+    return found, {"links": len(mechanism.links), "mobility": built.mobility, "class": built.mechanism_class}
+
+
+def _assumed(mechanism: Mechanism, structure: Structure) -> list[Finding]:
+    """Notes on dyads whose assembly neither a word nor a drawing says."""
+    from linkwright.kinematics.assembly import modal_groups
+
+    found = []
+    for group, words in modal_groups(structure).values():
+        inner = [each.joint for each in group.inner_joints]
+        if not any(joint in mechanism.assembly for joint in inner) and not _drawn(mechanism, group):
+            told = {"signature": group.signature, "links": tuple(group.links), "joint": inner[0]}
+            message = Sentence("check.assumed", **told, first=words[0], second=words[1])
+            found.append(Finding("note", "", "", message, code="assembly"))
+    return found
+
+
+def _drawn(mechanism: Mechanism, group: Group) -> bool:
+    """Whether the drawing has a point of a group beside those by which it hangs."""
+    outer = {each.joint for each in group.outer_joints}
+    return any(
+        point not in outer and not mechanism.drawing.keys().isdisjoint((point, f"{link}.{point}"))
+        for link in group.links
+        for point in mechanism.links[link].points
+    )
+
+
+def _of_cams(mechanism: Mechanism) -> list[Finding]:
+    """Cams whose profile could not be made: their follower would cut away what it should touch."""
+    from linkwright.cams.joint import cam_of
+
+    found: list[Finding] = []
+    for joint in mechanism.joints.values():
+        try:
+            faults = cam_of(mechanism, joint.name).findings()
+        except TypeError:  # no cam
+            continue
+        for each in faults:
+            key = f"joints.{joint.name}.{each.key.split('.')[-1]}"
+            found.append(replace(each, severity="warning", key=key))
+    return found
+
+
+def _turned(mechanism: Mechanism) -> tuple[list[Finding], list[Finding]]:
+    """What there is to say about a cycle: where it cannot be passed, and notes."""
+    from linkwright.kinematics.solve import try_motion
+
+    motion = try_motion(mechanism, TRIED)
+    if motion.whole and motion.notes:
+        motion = try_motion(mechanism, ASKED)
+    notes = [Finding("note", "", "", note, code=code_of(note)) for note in motion.notes if motion.ok.any()]
+    if motion.whole:
+        return [], [*_hardly_determined(motion), *notes]
+    barred = motion.refusal()
+    return [Finding("error", "", "", barred.sentence, code=barred.code)], notes
+
+
+def _hardly_determined(motion: Motion) -> Iterator[Finding]:
+    """Groups that are close to a singular position all the time."""
+    from linkwright.metrics.analysis import Analysis
+    from linkwright.metrics.singularity import Singularity
+
+    if motion.mechanism.drivers:
+        for group, best, limit in Singularity.throughout(Analysis.of(motion)):
+            said = {"links": group.links, "best": f"{best:.2g}", "limit": f"{limit:.2g}"}
+            told, remedy = Sentence("check.singular", **said), Sentence("check.singular_do")
+            yield Finding("warning", "", "", told, remedy, "singular")
+
+
+def _swings(mechanism: Mechanism) -> dict[str, Phase]:
+    """Phases of loads by the strokes of an output, or while it moves one way."""
+    phases = {load: each.magnitude.phase for load, each in mechanism.loads.items()}
+    return {load: phase for load, phase in phases.items() if phase.outputs}
+
+
+def _varies(load: Load) -> bool:
+    """Whether a load's size follows an expression or a table, which may not hold for all positions."""
+    return load.magnitude.size.fallible
+
+
+def _of_loads(mechanism: Mechanism, loads: Sequence[str], varying: Sequence[str]) -> list[Finding]:
+    """Loads whose phase the motion does not have: of an output that never reverses, of more than its stroke, while
+    an output moves as it never does; and ``varying`` ones that have no value somewhere in the cycle."""
+    from linkwright.kinematics.solve import try_motion
+    from linkwright.kinetostatics.signals import MotionSignals
+    from linkwright.loads.over_cycle import activity, magnitudes
+    from linkwright.loads.phases import MovingPhase
+
+    signals, found = MotionSignals(try_motion(mechanism, TRIED)), []
+    for load in loads:
+        key, each = f"loads.{load}.phase", mechanism.loads[load]
+        phase = each.magnitude.phase
+        try:
+            acts = activity(each, signals).where
+        except LinkwrightError as error:
+            found.append(Finding("error", "", key, error.sentence, code="no-motion"))
+            continue
+        if isinstance(phase, MovingPhase) and not (acts & (signals.output(phase.output)[1] != 0.0)).any():
+            told, remedy = (
+                Sentence(f"check.never_{phase.direction}", output=phase.output),
+                Sentence("check.never_do"),
+            )
+            found.append(Finding("warning", "", key, told, remedy, "no-motion"))
+    for load in varying:
+        try:
+            magnitudes(mechanism.loads[load], signals)
+        except LinkwrightError as error:
+            found.append(Finding("error", "", f"loads.{load}", error.sentence, code=error.code))
+    return found
+
+
+def _of_friction(mechanism: Mechanism) -> list[Finding]:
+    """Friction of which no force can be found, or so much as no joint has."""
+    found: list[Finding] = []
+    for joint in mechanism.joints.values():
+        key, friction = f"joints.{joint.name}.friction", float(getattr(joint, "friction", 0.0))
+        if friction and getattr(joint, "pin_radius", 0.0) is None:
+            told, remedy = Sentence("check.no_pin_radius"), Sentence("check.add_pin_radius")
+            found.append(Finding("error", "", key, told, remedy, "missing-key"))
+        if friction > RUBS:
+            told, remedy = Sentence("check.rubs", friction=friction), Sentence("check.rubs_do")
+            found.append(Finding("warning", "", key, told, remedy, "unlikely"))
+    return found
+
+
+def _of_settings(mechanism: Mechanism, folder: str, *, moves: bool) -> list[Finding]:
+    """What is wrong with sections that only some commands read: report, sheet, course and optimize, the last one's
+    numbers where the machine ``moves``."""
+    found = _of_report(mechanism.report, mechanism, folder)
+    reading: Mapping[str, Callable[[Mechanism], None]] = {
+        "sheet": _sheet,
+        "course": _course,
+        "optimize": partial(_optimize, moves=moves),
+    }
+    for key, read in reading.items():
+        try:
+            if getattr(mechanism, key):
+                read(mechanism)
+        except ModelError as error:
+            found += error.findings
+        except LinkwrightError as error:
+            found.append(Finding("error", "", key, error.sentence, code=error.code))
+    return found
+
+
+def _of_report(given: Mapping[str, Any], mechanism: Mechanism | None, folder: str) -> list[Finding]:
+    from linkwright.report.settings import settings
+
+    try:
+        settings(given, mechanism=mechanism, folder=folder)
+    except ModelError as error:
+        return list(error.findings)
+    return []
+
+
+def _sheet(mechanism: Mechanism) -> None:
+    from linkwright.sheets.settings import check
+
+    check(mechanism)
+
+
+def _course(mechanism: Mechanism) -> None:
+    from linkwright.course.task import task
+
+    task(mechanism)
+
+
+def _optimize(mechanism: Mechanism, *, moves: bool) -> None:
+    from linkwright.designs.optimise.problem import problem
+    from linkwright.designs.optimise.task import Task
+
+    asked = problem(mechanism, mechanism.optimize)
+    if moves:
+        Task(asked)

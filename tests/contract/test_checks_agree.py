@@ -1,0 +1,82 @@
+"""The library, the command ``check`` and the studio find the same in the same file, good or damaged."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from tests import store
+from tests.course_sheets import FOUR_BAR
+
+import linkwright as lw
+from linkwright import gallery
+from linkwright.cli import main
+from linkwright.server.work import solved
+from linkwright.words import LANGUAGES
+
+BAR = FOUR_BAR.partition("course:")[0]
+BEAM = gallery.content("cantilever").decode().partition("report:")[0]
+#: Sections behind a four-bar, with the key at which each is wrong; good ones with none.
+SECTIONS = {
+    "course: {tolerance: 2 %, vary: {crank.length: 8 %}}": "",
+    "course: {tolerance: nan %, vari: {}}": "course.tolerance",
+    "course: {ask: [nope]}": "course.ask.0",
+    "optimize: {vary: {coupler.length: [3 m, 4 m]}, maximize: transmission_angle}": "",
+    "optimize: {vary: {coupler.length: [3 m]}, maximise: transmission_angle}": "optimize.vary.coupler.length",
+    "optimize: {vary: {coupler.length: 3..4 m}, minimize: nonsense}": "optimize",
+    "report: {title: Four-bar, sections: [task, {title: Own, text: Words}]}": "",
+    "report: {titel: Four-bar, sections: [tusk], errata: [{where: p. 3}]}": "report.titel",
+    "report: {zh: {text: {no_chapter: x}}, positions: 1, fluctuation: 2}": "report.positions",
+    "sheet: {size: A2, positions: [60 deg]}": "",
+    "sheet: {size: A7, positions: [60 mm], panels: {}}": "sheet.size",
+    "synthesis: {task: slider_crank, stroke: 30 mm, time_ratio: 1.2}": "",
+    "synthesis: {task: slider_crank, strok: 30 mm}": "synthesis.strok",
+    "loads: {push: {kind: torque, on: rocker, torque: 1 N·m, phase: {of: crank, from: min, to: max}}}": "loads.push",
+}
+#: Whole files.
+FILES = {
+    "format: 1\nsynthesis: {task: slider_crank, stroke: 30 mm}\nreprot: {}\n": "reprot",
+    "format: 1\nsynthesis: [1]\n": "synthesis",
+    BEAM: "",
+    BEAM.replace("length: ", "length: 3 kg #"): "length",
+    BEAM + "report: {titel: Beam, positions: 1}\n": "report.titel",
+    BAR.replace("length", "lenght", 1): "",
+    BAR + "a: [\n": "",
+    "": "",
+}
+
+
+@pytest.mark.parametrize(
+    ("text", "key"), [*((f"{BAR}\n{each}\n", key) for each, key in SECTIONS.items()), *FILES.items()]
+)
+def test_every_way_finds_the_same(
+    text: str, key: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "machine.yaml"
+    path.write_text(text, encoding="utf-8")
+    found = lw.check(path)
+    keys = [each.key for each in found if each.severity == "error"]
+    assert any(each.startswith(key) for each in keys) if key else True
+    main(["check", "--json", str(path)])
+    (told,) = json.loads(capsys.readouterr().out)["files"]
+    assert [(each["key"], each["code"], each["where"]) for each in told["findings"]] == [
+        (each.key, each.code, each.where) for each in found
+    ]
+    for language in LANGUAGES:
+        shown = solved(text, language, str(tmp_path))["findings"]
+        assert [(each["key"], each["code"]) for each in shown] == [(each.key, each.code) for each in found]
+        own = [each.say(language) for each in found]
+        assert all(each["sentence"] in said for each, said in zip(shown, own, strict=True)), own
+        assert [each["line"] for each in shown] == [_line(each) for each in found]
+
+
+def _line(found: lw.Finding) -> int:
+    place = found.where.removesuffix("machine.yaml").rsplit("machine.yaml:", 1)
+    return int(place[1].split(":")[0]) if len(place) == 2 else 0
+
+
+@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "printing_press", "crank_rocker"])
+def test_the_same_is_found_in_the_gallery(name: str) -> None:
+    found = solved(store.text(name), "en")["findings"]
+    assert [each["code"] for each in found] == [each.code for each in lw.check(f"gallery:{name}")]
