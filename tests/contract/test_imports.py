@@ -24,7 +24,7 @@ STAGES = (
         "formula",
         "pictures",
     ),
-    ("curves",),
+    ("curves", "equations"),
     ("fields", "elements"),
     ("laws",),
     ("joints", "drivers", "loads"),

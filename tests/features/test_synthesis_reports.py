@@ -8,6 +8,7 @@ import pytest
 from tests.every import every
 
 import linkwright as lw
+from linkwright.equations.latex import latex
 
 THREE = "gallery:function_of_three_pairs"
 UNMET = """\
@@ -35,7 +36,7 @@ def test_a_task_alone_has_a_report(language: str) -> None:
     found = lw.report(THREE, language=language)
     assert found.missing == () and {"Heading", "Table", "Formula", "Figure"} <= kinds(found)
     formulas = [block for block in found.document.blocks if type(block).__name__ == "Formula"]
-    assert any(r"\begin{bmatrix}" in side for block in every(formulas) for side in block.sides)
+    assert any(r"\begin{bmatrix}" in latex(side) for block in every(formulas) for side in block.sides)
     assert "0.615661" in found.content(".html").decode()
 
 

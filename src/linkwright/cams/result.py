@@ -18,11 +18,11 @@ from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.search import ends, first_largest
 from linkwright.curves.curve import Curve, Extreme
+from linkwright.equations.steps import Step
 from linkwright.errors import RequestError
 from linkwright.laws.program import MotionProgram
 from linkwright.parts.base import Block, Result
 from linkwright.words import Say
-from linkwright.worked.page import Step
 
 if TYPE_CHECKING:
     from linkwright.cams.curves import CamCurve, Contact

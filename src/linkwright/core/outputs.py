@@ -19,12 +19,12 @@ from linkwright.words.sentence import Sentence
 class Kind:
     """What outputs of one kind share.
 
-    ``of``: what they belong to (point, link, guide, driver, joint, load, the loads on a
-    link, group, motion, machine); ``dimension``: of a driver's
-    outputs for one that turns; ``row``: before the owner among rows of programs; ``symbol``: LaTeX; ``vector``: has
-    components x and y; ``word``: for the user, where it is not the kind's name; ``slid``: dimension for a driver that
-    slides; ``form``: how the user asks for it, a ``part`` behind its owner, a
-    ``place`` (the owner with a component), a ``phrase`` before it, or by its ``owner`` alone.
+    ``of``: what they belong to (point, link, guide, driver, joint, load, the loads on a link, group, motion,
+    machine); ``dimension``: of a driver's outputs for one that turns; ``row``: before the owner among rows of
+    programs; ``symbol``: as in formulas on a line; ``vector``: has components x and y; ``word``: for the
+    user, where it is not the kind's name; ``slid``: dimension for a driver that slides; ``form``: how the user asks
+    for it, a ``part`` behind its owner, a ``place`` (the owner with a component), a ``phrase`` before it, or by its
+    ``owner`` alone.
     """
 
     of: str
@@ -45,14 +45,14 @@ KINDS = {
     "acceleration": Kind("point", "acceleration", "a", "a", vector=True, form="part"),
     "jerk": Kind("point", "jerk", vector=True, form="part"),
     "direction": Kind("link", "dimensionless", "e", vector=True),
-    "angle": Kind("link", "angle", symbol=r"\varphi", form="part"),
+    "angle": Kind("link", "angle", symbol="φ", form="part"),
     "turned_angle": Kind("link", "angle", "o"),
-    "angular_velocity": Kind("link", "angular_velocity", "w", r"\omega", form="part"),
-    "angular_acceleration": Kind("link", "angular_acceleration", "g", r"\alpha", form="part"),
+    "angular_velocity": Kind("link", "angular_velocity", "w", "ω", form="part"),
+    "angular_acceleration": Kind("link", "angular_acceleration", "g", "α", form="part"),
     "angular_jerk": Kind("link", "angular_jerk", form="part"),
     "displacement": Kind("guide", "length", "s", "s", form="part"),
-    "slide_velocity": Kind("guide", "velocity", "sv", r"\dot{s}", word="velocity", form="part"),
-    "slide_acceleration": Kind("guide", "acceleration", "sa", r"\ddot{s}", word="acceleration", form="part"),
+    "slide_velocity": Kind("guide", "velocity", "sv", "ṡ", word="velocity", form="part"),
+    "slide_acceleration": Kind("guide", "acceleration", "sa", "s̈", word="acceleration", form="part"),
     "slide_jerk": Kind("guide", "jerk", word="jerk", form="part"),
     "guide_direction": Kind("guide", "dimensionless", "d", vector=True),
     "quality": Kind("group", "dimensionless", "quality"),
@@ -66,7 +66,7 @@ KINDS = {
     "effort": Kind("driver", "torque", "effort", "M", slid="force", form="part"),
     "reaction": Kind("joint", "force", "r", "F", vector=True, form="phrase"),
     "couple": Kind("joint", "torque", "c", "M", form="phrase"),
-    "reaction_direction": Kind("joint", "angle", symbol=r"\beta", word="direction", form="phrase"),
+    "reaction_direction": Kind("joint", "angle", symbol="β", word="direction", form="phrase"),
     "heat": Kind("joint", "power", form="phrase"),
     "reaction_place": Kind("joint", "length", "rp", vector=True),
     "multiplier": Kind("joint", "force", "lambda"),
@@ -77,13 +77,13 @@ KINDS = {
     "load_place": Kind("load", "length", "lp", vector=True),
     "load_moment": Kind("load", "torque", "lm"),
     "applied": Kind("loads", "force", "on", vector=True),
-    "shaking_force": Kind("machine", "force", "shake", r"F_{\mathrm{S}}", vector=True, form="phrase"),
-    "shaking_moment": Kind("machine", "torque", "shake_moment", r"M_{\mathrm{S}}", form="phrase"),
+    "shaking_force": Kind("machine", "force", "shake", "F_S", vector=True, form="phrase"),
+    "shaking_moment": Kind("machine", "torque", "shake_moment", "M_S", form="phrase"),
     "power": Kind("machine", "power", "driver_power", form="phrase"),
     "friction_power": Kind("machine", "power", "friction_power", form="phrase"),
     "power_of_forces": Kind("machine", "power", "power"),
-    "power_residual": Kind("machine", "power", symbol=r"\Delta P"),
-    "balance_residual": Kind("machine", "force", symbol=r"\Delta F"),
+    "power_residual": Kind("machine", "power", symbol="ΔP"),
+    "balance_residual": Kind("machine", "force", symbol="ΔF"),
     "distance": Kind("point", "length", form="phrase"),
     "areal_velocity": Kind("point", "areal_velocity", form="phrase"),
     "velocity_ratio": Kind("link", "", form="phrase"),

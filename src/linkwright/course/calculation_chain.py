@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.equations.terms import APPLY, Term
 from linkwright.worked.solution import Worked
-from linkwright.worked.terms import APPLY, Term
 
 #: Changes the formula of one line: its number, its result, its formula.
 Change = Callable[[int, Term, Term], Term]

@@ -13,13 +13,13 @@ from functools import partial
 
 from linkwright.core.dataclass import dataclass
 from linkwright.course.calculation_chain import Calculation, Change, Line, Values, lines_of, with_terms
+from linkwright.equations.terms import TWO, ZERO, Term
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.worked.solution import worked
-from linkwright.worked.terms import TWO, ZERO, Term
 
 RPM = 2.0 * math.pi / 60.0
 #: Off the middle of its link by this share of its length, a mass centre can be measured from the wrong end.

@@ -67,7 +67,7 @@ class MotionLaw(ABC):
 
     @property
     def formula(self) -> str:
-        """s(u) as LaTeX, for reports; empty where it has several pieces."""
+        """s(u) on a line, for worked solutions; empty where it has several pieces."""
         return ""
 
     @property

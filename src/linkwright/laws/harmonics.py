@@ -28,9 +28,9 @@ def sines(u: Any, shares: Sequence[tuple[int, float]]) -> tuple[Any, Any, Any, A
 
 
 def two_sines(first: str, third: str) -> str:
-    """The formula of a law with sines of the orders 1 and 3, their shares as LaTeX."""
-    sine = r"\frac{{\sin\left({0}\,\pi\,u\right)}}{{{0}\,\pi}}"
-    return rf"u-{first}\,{sine.format(2)}-{third}\,{sine.format(6)}"
+    """The formula of a law with sines of the orders 1 and 3, by their shares."""
+    sine = "(sin({0}πu))/({0}π)"
+    return f"u-{first}{sine.format(2)}-{third}{sine.format(6)}"
 
 
 @MOTION_LAWS.register("cycloidal")
@@ -39,7 +39,7 @@ class Cycloidal(MotionLaw):
     """s = u - sin(2πu)/(2π): sine acceleration, from rest to rest; in VDI 2143 the inclined sine of Bestehorn."""
 
     source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 2; VDI 2143-1"
-    formula = r"u-\frac{\sin\left(2\,\pi\,u\right)}{2\,\pi}"
+    formula = "u-(sin(2πu))/(2π)"
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         return sines(u, ((1, 1.0),))
@@ -55,8 +55,8 @@ class InclinedSine(MotionLaw):
 
     @property
     def formula(self) -> str:
-        share = rf"{1 - self.velocity:.6g}\," if self.velocity else ""
-        return rf"u-{share}\frac{{\sin\left(2\,\pi\,u\right)}}{{2\,\pi}}"
+        share = f"{1 - self.velocity:.6g}" if self.velocity else ""
+        return f"u-{share}(sin(2πu))/(2π)"
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         return sines(u, ((1, 1.0 - self.velocity),))
@@ -67,7 +67,7 @@ class InclinedSine(MotionLaw):
 class Gutman(MotionLaw):
     """s = u - (15/16) sin(2πu)/(2π) - (1/16) sin(6πu)/(6π): first and third order."""
 
-    formula = two_sines(r"\frac{15}{16}", r"\frac{1}{16}")
+    formula = two_sines("15/16", "1/16")
     source: ClassVar[str] = (
         "A. S. Gutman, To avoid vibration try this new cam profile, Product Engineering, 1961"
     )
@@ -81,7 +81,7 @@ class Gutman(MotionLaw):
 class Freudenstein(MotionLaw):
     """s = u - (27/28) sin(2πu)/(2π) - (1/28) sin(6πu)/(6π): of the first and third order, the least acceleration."""
 
-    formula = two_sines(r"\frac{27}{28}", r"\frac{1}{28}")
+    formula = two_sines("27/28", "1/28")
     source: ClassVar[str] = "F. Freudenstein, On the dynamics of high-speed cam profiles, IJMS 1, 1960"
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
@@ -125,7 +125,7 @@ class SimpleHarmonic(MotionLaw):
     """s = (1 - cos πu)/2: turns at both ends; beside a dwell the acceleration jumps."""
 
     source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 2"
-    formula = r"\frac{1-\cos\left(\pi\,u\right)}{2}"
+    formula = "(1-cos(πu))/2"
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         c, s = np.cos(pi * u), np.sin(pi * u)
@@ -138,7 +138,7 @@ class DoubleHarmonic(MotionLaw):
     """s = (1 - cos πu)/2 - (1 - cos 2πu)/8: from rest to a turn, for a rise that a fall follows at once."""
 
     source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 3"
-    formula = r"\frac{1-\cos\left(\pi\,u\right)}{2}-\frac{1-\cos\left(2\,\pi\,u\right)}{8}"
+    formula = "(1-cos(πu))/2-(1-cos(2πu))/8"
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         c, s = np.cos(pi * u), np.sin(pi * u)

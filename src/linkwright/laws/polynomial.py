@@ -17,6 +17,7 @@ from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.laws.base import MOTION_LAWS, MeetingLaw, MotionLaw
 
 Coefficients = tuple[float, ...]
+_RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def powers(u: Any, coefficients: Sequence[float]) -> tuple[Any, Any, Any, Any]:
@@ -56,12 +57,9 @@ class Polynomial(MotionLaw):
         found = ""
         for k, factor in enumerate(self.coefficients):
             if abs(factor) > 1e-12:
-                base, e, power = f"{abs(factor):.6g}".partition("e")
-                size = rf"{base}\cdot 10^{{{int(power)}}}" if e else "" if base == "1" and k else base
+                size = "" if abs(factor) == 1.0 and k else f"{abs(factor):.6g}"
                 joint = "-" if factor < 0 else "+" if found else ""
-                found += (
-                    f"{joint}{size}" + ("" if not k else r"\,u" if size else "u") + (f"^{k}" if k > 1 else "")
-                )
+                found += f"{joint}{size}{'u' if k else ''}{str(k).translate(_RAISED) if k > 1 else ''}"
         return found
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:

@@ -18,14 +18,14 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number, shown, shown_unit
+from linkwright.equations.reading import filled, normal, plain
+from linkwright.equations.steps import Equation, Step
 from linkwright.errors import Finding, ModelError, speaker
 from linkwright.fields.base import Field, GivenByFile, given_by_file
 from linkwright.units import Dimension, si_symbol, si_unit
 from linkwright.words import Say
 from linkwright.words.characters import aligned
 from linkwright.words.sentence import Sentence
-from linkwright.worked.page import Equation, Step
-from linkwright.worked.written import filled, latex, latex_symbol, normal, plain
 
 if TYPE_CHECKING:
     from typing import Self
@@ -290,7 +290,7 @@ class Result(Plotted, ABC):
 
     def worked(self, language: str = "en") -> str:
         """The worked solution as plain text."""
-        from linkwright.worked.text import page
+        from linkwright.equations.text import page
 
         return page((self.title,), self.tidy_steps(speaker(language)))
 
@@ -335,11 +335,8 @@ def put(
     if plain(found) in (formula, number(value, dimension)):
         found = ""
     step.items.append(
-        Equation(
-            symbol, latex_symbol(symbol), formula, latex(formula) if formula else "", plain(found),
-            latex(found) if found else "", number(value, dimension), shown_unit(dimension), value,
-        )
-    )  # fmt: skip
+        Equation(symbol, formula, found, number(value, dimension), shown_unit(dimension), value)
+    )
 
 
 def _put_in(of: Mapping[str, Value], dimension: str, digits: int) -> dict[str, str]:

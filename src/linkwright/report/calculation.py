@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem, Result
-from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal, symbols
+from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal, noted, symbols
 from linkwright.report.given_data import given_data
 from linkwright.report.machine_results import picture
 from linkwright.report.sections.errata import errata_blocks
@@ -16,7 +16,6 @@ from linkwright.report.settings import Settings
 from linkwright.words import Say
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
-from linkwright.worked.written import latex
 
 #: Sections of machines' reports whose own text stands behind a heading of a calculation, by the heading's key.
 PLACES: Mapping[str, str] = {
@@ -108,10 +107,7 @@ def _label(text: str) -> str:
         and not bare.islower()
         and any(c.isalpha() for c in bare)
     ):
-        try:
-            return f"${latex(bare)}$"
-        except LinkwrightError:
-            pass
+        return noted(bare)
     return symbols(text)
 
 

@@ -1,7 +1,8 @@
 """What a report is made of: blocks in reading order, numbered and referred to, before it has any file form.
 
-Texts may hold formulas between dollar signs (LaTeX), ``**strong**`` words and references ``[[label]]`` to what has a
-label; a dollar sign of its own is ``\\$``. What else marks a text comes from ``marked``, ``linked`` and ``cited``.
+Texts may hold formulas between dollar signs (LaTeX) or ``noted`` (as they stand on a line), ``**strong**`` words and
+references ``[[label]]`` to what has a label; a dollar sign of its own is ``\\$``. What else marks a text comes from
+``marked``, ``linked`` and ``cited``.
 """
 
 from __future__ import annotations
@@ -11,14 +12,20 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import field, replace
 
 from linkwright.core.dataclass import dataclass
+from linkwright.equations.notation import Row
+from linkwright.equations.reading import read_name
+from linkwright.report.formula import formula
+from linkwright.report.formula_lines import width
 from linkwright.words import Say
+from linkwright.words.characters import cells
 
 #: Signs that switch a style on and off, and those around the target of a link, a source, the label of a link.
 STYLES = {"strong": "\ue010", "emphasis": "\ue011", "raised": "\ue012", "struck": "\ue013"}
-_LINK, _LINKED, _END, _BREAK, _CITE, _CITED = (chr(0xE014 + i) for i in range(6))
+_LINK, _LINKED, _END, _BREAK, _CITE, _CITED, _NOTE, _NOTED = (chr(0xE014 + i) for i in range(8))
 _PRIVATE = re.compile("[\ue000-\ue01f]")
 _MARKS = re.compile(
-    r"(\$[^$]+\$|\*\*[^*]+\*\*|`[^`]+`|\[\[[^\]]+\]\]"
+    rf"({_NOTE}[^{_NOTED}]*{_NOTED}"
+    r"|\$[^$]+\$|\*\*[^*]+\*\*|`[^`]+`|\[\[[^\]]+\]\]"
     f"|[{''.join(STYLES.values())}{_END}{_BREAK}]|{_LINK}[^{_LINKED}]*{_LINKED}|{_CITE}[^{_CITED}]*{_CITED})"
 )
 _HIDDEN = {"$": "\ue000", "*": "\ue001", "`": "\ue002", "[": "\ue003", "]": "\ue004"}
@@ -58,13 +65,18 @@ def broken() -> str:
 
 def symbols(text: str) -> str:
     """A sentence printed as it is, but for symbols with an index, which become formulas: ``v_Ax``."""
-    return _INDEXED.sub(lambda found: f"${found[1]}_{{{found[2]}}}$", literal(text))
+    return _INDEXED.sub(lambda found: noted(found[0]), literal(text))
+
+
+def noted(text: str) -> str:
+    """A formula as it stands on a line, ``φ1``, as it is printed."""
+    return f"{_NOTE}{literal(text)}{_NOTED}"
 
 
 def strong(text: str) -> str:
     """Marked text in bold, its formulas as they are."""
-    return "".join(f"**{part}**" if part and not part.startswith("$") else part
-                   for part in re.split(r"(\$[^$]+\$)", text))  # fmt: skip
+    return "".join(f"**{part}**" if part and part[0] not in f"${_NOTE}" else part
+                   for part in re.split(rf"(\$[^$]+\$|{_NOTE}[^{_NOTED}]*{_NOTED})", text))  # fmt: skip
 
 
 def shown(text: str) -> str:
@@ -93,9 +105,9 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Formula:
-    """An equation: LaTeX of its sides, joined by equal signs; ``number``: whether it is counted."""
+    """An equation: its sides, joined by equal signs; ``number``: whether it is counted."""
 
-    sides: tuple[str, ...]
+    sides: tuple[Row, ...]
     label: str = ""
     number: bool = True
 
@@ -347,13 +359,20 @@ def with_prefix(block: Block, prefix: str) -> Block:
 
 @dataclass(frozen=True)
 class Span:
-    """Part of a text: ``kind`` is ``text``, ``formula``, ``code``, ``reference`` (to a label), ``source`` or
-    ``break``; the styles it is in, and where it leads."""
+    """Part of a text: ``kind`` is ``text``, ``formula`` (LaTeX), ``symbol`` (a formula on a line), ``code``,
+    ``reference`` (to a label), ``source`` or ``break``; the styles it is in, and where it leads."""
 
     kind: str
     text: str
     styles: frozenset[str] = frozenset()
     link: str = ""
+
+    @property
+    def formula(self) -> Row | None:
+        """The formula that it is, as it is printed."""
+        if self.kind == "symbol":
+            return read_name(self.text)
+        return formula(self.text) if self.kind == "formula" else None
 
 
 _SINGLE = {code: style for style, code in STYLES.items()}
@@ -377,6 +396,8 @@ def spans(text: str) -> Iterator[Span]:
             yield Span("source", part[1:-1], styles, link)
         elif part[0] == "$" and len(part) > 2:
             yield Span("formula", part[1:-1], styles, link)
+        elif part[0] == _NOTE:
+            yield Span("symbol", shown(part[1:-1]), styles, link)
         elif part.startswith("**"):
             yield Span("text", shown(part[2:-2]), styles | {"strong"}, link)
         elif part[0] == "`":
@@ -394,11 +415,9 @@ def plain(text: str) -> str:
 
 def longest_part(text: str) -> int:
     """Characters of the longest part of a text that does not break; a formula is one."""
-    from linkwright.report.formula import formula, width
-    from linkwright.words.characters import cells
-
-    joined = "".join("m" * round(2.6 * width(formula(span.text))) if span.kind == "formula" else span.text
-                     for span in spans(text))  # fmt: skip
+    joined = "".join(
+        "m" * round(2.6 * width(span.formula)) if span.formula else span.text for span in spans(text)
+    )
     return max((cells(word) for word in joined.split(" ")), default=1)
 
 

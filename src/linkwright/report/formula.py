@@ -1,4 +1,4 @@
-"""Formulas as trees: read from LaTeX, the worked solution's or a user's own, printed for Typst and for Word.
+"""A user's own formulas, in LaTeX, as they are printed.
 
 Known is what formulas of mechanisms need: letters, numbers, fractions, roots, indices, accents, brackets, functions,
 sums and integrals, matrices, cases, equations below each other. Another command is refused, so that nothing is
@@ -12,6 +12,20 @@ from collections.abc import Sequence
 from dataclasses import field, replace
 
 from linkwright.core.dataclass import dataclass
+from linkwright.equations.notation import (
+    Accent,
+    Atom,
+    Bracket,
+    Fraction,
+    Limits,
+    Matrix,
+    Node,
+    Root,
+    Row,
+    Script,
+    letter,
+    sign,
+)
 from linkwright.errors import LinkwrightError
 from linkwright.report.formula_signs import (
     ACCENTS,
@@ -21,101 +35,17 @@ from linkwright.report.formula_signs import (
     DELIMITERS,
     FUNCTIONS,
     IGNORED,
-    LARGE,
     MATRICES,
-    RELATIONS,
     SPACES,
     STYLES,
     SYMBOLS,
 )
-from linkwright.words.characters import cells
 
 _TEXT = r"\\(?:text|textrm|textit|textbf|mbox)\s*\{[^{}]*\}"
 _TOKEN = re.compile(rf"{_TEXT}|\\[A-Za-z]+\*?|\\.|\d+(?:\.\d+)?|[^\s]", re.DOTALL)
 #: Escaped signs that are letters of an upright name.
 _PLAIN = (r"\_", r"\%", r"\&", r"\#", r"\$", r"\{", r"\}")
 _SIGNS = "+-=<>,;|/·:→⊥°±≤≥≈≠×!−"
-
-
-@dataclass(frozen=True)
-class Atom:
-    """One sign: ``kind`` is ``letter`` (slanted), ``upright``, ``bold``, ``slanted bold``, ``script``, ``double``,
-    ``number``, ``sign``, ``space``, or ``open`` and ``close`` (a delimiter by itself)."""
-
-    kind: str
-    text: str
-
-
-@dataclass(frozen=True)
-class Row:
-    """Formulas side by side."""
-
-    items: tuple[Node, ...] = ()
-
-
-@dataclass(frozen=True)
-class Fraction:
-    """A quotient."""
-
-    above: Node
-    below: Node
-
-
-@dataclass(frozen=True)
-class Root:
-    """A root, a square one without ``degree``."""
-
-    inside: Node
-    degree: Node | None = None
-
-
-@dataclass(frozen=True)
-class Script:
-    """A sign with what stands below and above it."""
-
-    base: Node
-    below: Node | None = None
-    above: Node | None = None
-
-
-@dataclass(frozen=True)
-class Limits:
-    """A sign with what stands straight under and over it."""
-
-    base: Node
-    below: Node | None = None
-    above: Node | None = None
-
-
-@dataclass(frozen=True)
-class Accent:
-    """A sign with a dot, an arrow, a bar or a brace over or under it; ``mark`` is the command's name."""
-
-    mark: str
-    inside: Node
-
-
-@dataclass(frozen=True)
-class Bracket:
-    """What stands in brackets; an empty side has none."""
-
-    inside: Row
-    left: str = "("
-    right: str = ")"
-
-
-@dataclass(frozen=True)
-class Matrix:
-    """Rows of equally many cells between delimiters; ``align`` of the columns: ``<``, ``^``, ``>``, or ``=``: right
-    and left in turn, as equations below each other."""
-
-    rows: tuple[tuple[Row, ...], ...]
-    left: str = ""
-    right: str = ""
-    align: str = "^"
-
-
-Node = Atom | Row | Fraction | Root | Script | Limits | Accent | Bracket | Matrix
 
 
 def formula(text: str) -> Row:
@@ -256,9 +186,8 @@ class _Reader:
         if token[0].isdigit():
             return Atom("number", token)
         if token in _SIGNS:
-            return Atom("sign", "−" if token == "-" else token)
-        slanted = (token.isalpha() and token.isascii()) or "α" <= token <= "ω"
-        return Atom("letter" if slanted else "upright", token)
+            return sign(token)
+        return letter(token)
 
     def _closed(self) -> bool:
         """Whether a round bracket that was opened is closed within the same braces."""
@@ -371,45 +300,3 @@ def _with_script(base: Node, token: str, part: Node) -> Node:
     if token == "_":
         return replace(own, below=part if own.below is None else Row((own.below, part)))
     return replace(own, above=part if own.above is None else Row((own.above, part)))
-
-
-def large(node: Node) -> bool:
-    """Whether it is the sign of a sum or an integral."""
-    return isinstance(node, Atom) and node.text in LARGE.values()
-
-
-def relation(node: Node) -> bool:
-    """Whether it is a sign between two sides."""
-    return (
-        isinstance(node, Atom) and node.kind == "sign" and node.text in ("=", "<", ">", *RELATIONS.values())
-    )
-
-
-def width(node: Node | None, size: float = 1.0) -> float:
-    """Roughly how wide a formula is printed, in em."""
-    match node:
-        case None:
-            return 0.0
-        case Atom("space", text):
-            return size * {"quad": 1.0, "qquad": 2.0}.get(text, 0.2)
-        case Atom("sign", text):
-            return size * (1.25 if text in "+−" or relation(node) else 1.1 if large(node) else 0.35)
-        case Atom(_, text):
-            return size * 0.54 * cells(text)
-        case Row(items):
-            return sum(width(each, size) for each in items)
-        case Fraction(above, below):
-            return max(width(above, size), width(below, size)) + 0.3 * size
-        case Root(inside, degree):
-            return width(inside, size) + width(degree, 0.5 * size) + 0.9 * size
-        case Script(base, below, above):
-            return width(base, size) + max(width(below, 0.7 * size), width(above, 0.7 * size))
-        case Limits(base, below, above):
-            return max(width(base, size), width(below, 0.7 * size), width(above, 0.7 * size))
-        case Accent(_, inside):
-            return width(inside, size)
-        case Bracket(inside):
-            return width(inside, size) + 0.8 * size
-        case Matrix(rows, left, right):
-            columns = (max(width(row[i], size) for row in rows) for i in range(len(rows[0])))
-            return sum(columns) + size * (len(rows[0]) - 1 + 0.5 * (bool(left) + bool(right)))

@@ -1,11 +1,25 @@
-"""Lines of formulas: where an equation that is too wide for a page is broken."""
+"""How wide formulas are, and where an equation that is too wide for a page is broken."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
 from linkwright.core.dataclass import dataclass
-from linkwright.report.formula import Atom, Bracket, Node, Row, width
+from linkwright.equations.notation import (
+    EQUAL,
+    Accent,
+    Atom,
+    Bracket,
+    Fraction,
+    Limits,
+    Matrix,
+    Node,
+    Root,
+    Row,
+    Script,
+)
+from linkwright.report.formula_signs import LARGE, RELATIONS
+from linkwright.words.characters import cells
 
 #: Binary signs and relations: a line may break before them.
 SIGNS = "+-−=≤≥≈≠"
@@ -36,21 +50,20 @@ def set_lines(sides: Sequence[Row], widest: float, left: float) -> Iterator[Line
 
     Behind a left side wider than ``left`` em a new line begins.
     """
-    equal = Atom("sign", "=")
     if len(sides) == 1:
         for number, row in enumerate(lines(sides[0], widest)):
             yield Line("further" if number else "left", row)
         return
     if sum(width(row) for row in sides) + 1.25 * (len(sides) - 1) <= widest:
         first, *rest = sides
-        yield Line("left", Row((*first.items, *(each for row in rest for each in (equal, *row.items)))))
+        yield Line("left", Row((*first.items, *(each for row in rest for each in (EQUAL, *row.items)))))
         return
     first, *rest = sides
     yield Line("left", first)
     place, margin = ("below", 1.5) if width(first) > left else ("right", width(first) + 1.5)
     for side in _joined(rest, widest - margin):
         for number, row in enumerate(lines(side, widest - margin - 1.0)):
-            yield Line("further", row) if number else Line(place, Row((equal, *row.items)))
+            yield Line("further", row) if number else Line(place, Row((EQUAL, *row.items)))
         place = "sign"
 
 
@@ -59,7 +72,7 @@ def _joined(sides: Sequence[Row], room: float) -> Iterator[Row]:
     held: Row | None = None
     for side in sides:
         if held is not None and width(held) + width(side) + 1.25 <= room:
-            held = Row((*held.items, Atom("sign", "="), *side.items))
+            held = Row((*held.items, EQUAL, *side.items))
             continue
         if held is not None:
             yield held
@@ -93,3 +106,45 @@ def _opened(row: Row, widest: float) -> Iterator[Node]:
             yield from (Atom("close", item.right),) if item.right else ()
         else:
             yield item
+
+
+def large(node: Node) -> bool:
+    """Whether it is the sign of a sum or an integral."""
+    return isinstance(node, Atom) and node.text in LARGE.values()
+
+
+def relation(node: Node) -> bool:
+    """Whether it is a sign between two sides."""
+    return (
+        isinstance(node, Atom) and node.kind == "sign" and node.text in ("=", "<", ">", *RELATIONS.values())
+    )
+
+
+def width(node: Node | None, size: float = 1.0) -> float:
+    """Roughly how wide a formula is printed, in em."""
+    match node:
+        case None:
+            return 0.0
+        case Atom("space", text):
+            return size * {"quad": 1.0, "qquad": 2.0}.get(text, 0.2)
+        case Atom("sign", text):
+            return size * (1.25 if text in "+−" or relation(node) else 1.1 if large(node) else 0.35)
+        case Atom(_, text):
+            return size * 0.54 * cells(text)
+        case Row(items):
+            return sum(width(each, size) for each in items)
+        case Fraction(above, below):
+            return max(width(above, size), width(below, size)) + 0.3 * size
+        case Root(inside, degree):
+            return width(inside, size) + width(degree, 0.5 * size) + 0.9 * size
+        case Script(base, below, above):
+            return width(base, size) + max(width(below, 0.7 * size), width(above, 0.7 * size))
+        case Limits(base, below, above):
+            return max(width(base, size), width(below, 0.7 * size), width(above, 0.7 * size))
+        case Accent(_, inside):
+            return width(inside, size)
+        case Bracket(inside):
+            return width(inside, size) + 0.8 * size
+        case Matrix(rows, left, right):
+            columns = (max(width(row[i], size) for row in rows) for i in range(len(rows[0])))
+            return sum(columns) + size * (len(rows[0]) - 1 + 0.5 * (bool(left) + bool(right)))

@@ -9,9 +9,8 @@ from typing import Any
 from linkwright import units
 from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem
-from linkwright.report.document import Block, Table, literal
+from linkwright.report.document import Block, Table, literal, noted
 from linkwright.words import Say
-from linkwright.worked.written import latex, latex_symbol
 
 #: Symbols of single values, by key, or by kind and key where a kind has another one.
 SYMBOLS: Mapping[str, str] = {
@@ -125,7 +124,7 @@ def _symbol(kind: str, path: tuple[str, ...]) -> str:
 
 
 def _math(symbol: str) -> str:
-    return f"${latex_symbol(symbol)}$" if symbol else ""
+    return noted(symbol) if symbol else ""
 
 
 def _cell(value: Any, say: Say) -> str:
@@ -148,7 +147,7 @@ def _split(value: Any, say: Say) -> tuple[str, str]:
     if found is None:
         return literal(text), ""
     power = "e" in found[1].lower()
-    number = f"${latex(found[1].lower())}$" if power else found[1].replace("-", "−")
+    number = noted(found[1].lower()) if power else found[1].replace("-", "−")
     unit = found[2].strip()
     if unit:
         try:

@@ -210,7 +210,7 @@ class _Reader:
         shown = self.formula(found)
         if not shown.startswith("$"):
             return Paragraph(shown)
-        return Formula((found,), label, bool(label))
+        return Formula((formula(found),), label, bool(label))
 
     def _table(self, node: SyntaxTreeNode, caption: str) -> Table:
         rows = [row.children for part in node.children for row in part.children]

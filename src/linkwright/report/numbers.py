@@ -13,9 +13,8 @@ from linkwright.core.outputs import KINDS, RESIDUALS, Output
 from linkwright.core.quantity import MISSING, SHOWN, fixed
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.report.document import literal
+from linkwright.report.document import literal, noted
 from linkwright.words import Say
-from linkwright.worked.symbols import tex
 
 #: Significant digits of the largest number of a column.
 DIGITS = 6
@@ -26,8 +25,6 @@ ROUNDING = 1e-12
 #: Keeps a unit such as rad/s on one line.
 JOINER = "\u2060"
 _POWER_OF_TEN = re.compile(r"([-−]?\d+(?:\.\d+)?)e([+-]?\d+)((?: ?\S+)?)")
-#: Signs that a name cannot have inside a formula.
-_UNPRINTABLE = frozenset("$\\{}^#%&~")
 _NEGATIVE = re.compile(r"-(?=\d)")
 
 
@@ -42,29 +39,27 @@ class Heads:
         """Head of a column of results in the unit of tables, and the factor from SI."""
         shown, factor = SHOWN.get(output.dimension, (output.unit, 1.0))
         symbol = self.symbol(output)
-        quantity = f"${symbol}$" if symbol else literal(output.column)
+        quantity = noted(symbol) if symbol else literal(output.column)
         return f"{quantity}\u00a0/\u00a0{shown.replace('/', f'/{JOINER}')}", factor
 
     def symbol(self, output: Output) -> str:
-        """LaTeX of a result; empty where the books have none."""
+        """What a result is called; empty where the books have none."""
         kind, owner, axis = KINDS[output.kind], output.owner, output.component
-        if _UNPRINTABLE & set(output.column):
-            return ""
         match kind.of:
             case "point":
-                name = tex(self._point(owner))
-                return f"{kind.symbol}_{{{name}{axis}}}" if kind.symbol else f"{axis}_{{{name}}}"
+                name = self._point(owner)
+                return f"{kind.symbol}_{name}{axis}" if kind.symbol else f"{axis}_{name}"
             case "link":
-                return f"{kind.symbol}_{{{self.numbers[owner]}}}"
+                return f"{kind.symbol}_{self.numbers[owner]}"
             case "guide":
-                return f"{kind.symbol}_{{{tex(owner)}}}"
+                return f"{kind.symbol}_{owner}"
             case "joint":
-                return f"{kind.symbol}_{{{tex(owner)},{self.numbers.get(output.on, output.on)}{axis}}}"
+                return f"{kind.symbol}_{owner},{self.numbers.get(output.on, output.on)}{axis}"
             case "driver" if kind.symbol:
                 several = len(self.mechanism.drivers) > 1
                 letter = "F" if output.slides else kind.symbol
-                return rf"{letter}_{{\mathrm{{d}}{f',{tex(owner)}' if several else ''}}}"
-        return f"{kind.symbol[:-1]}{axis}}}" if axis else kind.symbol
+                return f"{letter}_d{f',{owner}' if several else ''}"
+        return f"{kind.symbol}{axis}"
 
     def _point(self, name: str) -> str:
         """A point without its link where no other link has one of this name."""
@@ -114,7 +109,7 @@ def typeset(cell: str) -> str:
     if found:
         base = found[1].replace("−", "-")
         base = base.rstrip("0").rstrip(".") if "." in base else base
-        return rf"${base}\cdot 10^{{{int(found[2])}}}${found[3]}"
+        return f"{noted(f'{base}e{int(found[2])}')}{found[3]}"
     return _NEGATIVE.sub("−", cell, count=1) if re.match(r"-\d[\d.]*(?: ?[^\s\w]*| \S+)$", cell) else cell
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.report.formula import (
+from linkwright.equations.notation import (
     Accent,
     Atom,
     Bracket,

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from itertools import chain, count
 from typing import Any
 from unicodedata import category
 
+from linkwright.equations.notation import Row
 from linkwright.errors import LinkwrightError
 from linkwright.pictures.svg.fonts import check_fonts, given_fonts
 from linkwright.pictures.svg.render import natural_size
@@ -33,8 +34,7 @@ from linkwright.report.document import (
     spans,
     walk,
 )
-from linkwright.report.formula import formula, width
-from linkwright.report.formula_lines import set_lines
+from linkwright.report.formula_lines import set_lines, width
 from linkwright.report.typst_formula import quoted, typst
 from linkwright.report.typst_style import COVER, HEAD, STYLE
 from linkwright.words.characters import cells
@@ -353,8 +353,8 @@ class _Writer:
 
     def _span(self, span: Span) -> str:
         match span.kind:
-            case "formula":
-                found = f"${typst(formula(span.text))}$"
+            case "formula" | "symbol" if span.formula:
+                found = f"${typst(span.formula)}$"
             case "code":
                 found = f"#raw({quoted(span.text)});"
             case "break":
@@ -407,12 +407,12 @@ def _wrapping(table: Table) -> list[bool]:
     return [sum(wide) + 2 * len(wide) > ACROSS and each > 40 for each in wide]
 
 
-def aligned(sides: tuple[str, ...]) -> tuple[str, float]:
+def aligned(sides: Sequence[Row]) -> tuple[str, float]:
     """Sides of an equation in Typst, on one line or with their equal signs below each other; the widest line, em."""
     begun = {"left": "", "right": " & ", "below": " \\\n quad & ", "sign": " \\\n & "}
     begun["further"] = " \\\n & quad " if len(sides) > 1 else " \\\n quad "
     found, widest, margin = "", 0.0, 0.0
-    for line in set_lines([formula(side) for side in sides], LINE, LEFT):
+    for line in set_lines(sides, LINE, LEFT):
         found += begun[line.place] + typst(line.row)
         margin = {"right": widest + 0.25, "below": 1.5}.get(line.place, margin)
         widest = max(widest, margin + width(line.row))

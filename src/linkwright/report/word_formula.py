@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from linkwright.report.formula import (
+from linkwright.equations.notation import (
     Accent,
     Atom,
     Bracket,
@@ -16,9 +16,8 @@ from linkwright.report.formula import (
     Root,
     Row,
     Script,
-    large,
-    relation,
 )
+from linkwright.report.formula_lines import large, relation
 from linkwright.report.formula_signs import ACCENTS, BRACES, INTEGRALS
 
 SPACE = "http://schemas.openxmlformats.org/officeDocument/2006/math"

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from itertools import count
 from typing import Any
 
+from linkwright.equations.notation import Atom, Row
 from linkwright.errors import LinkwrightError
 from linkwright.report.document import (
     Block,
@@ -29,7 +30,6 @@ from linkwright.report.document import (
     plain,
     spans,
 )
-from linkwright.report.formula import Atom, Row, formula
 from linkwright.report.formula_lines import set_lines
 from linkwright.report.word_formula import SPACE, equation
 from linkwright.report.word_parts import (
@@ -334,8 +334,8 @@ class _Writer:
 
     def _inline(self, line: Any, text: str) -> None:
         for span in spans(text):
-            if span.kind == "formula":
-                line._p.append(equation(formula(span.text)))
+            if span.formula:
+                line._p.append(equation(span.formula))
                 continue
             if span.kind == "break":
                 line.add_run().add_break()
@@ -403,7 +403,7 @@ class _Writer:
 def _lines(block: Formula) -> list[Row]:
     """Lines of an equation, moved to the right where they go on from the one before."""
     found: list[Row] = []
-    for line in set_lines([formula(side) for side in block.sides], LINE, LEFT):
+    for line in set_lines(block.sides, LINE, LEFT):
         if line.place == "right":
             found[-1] = Row((*found[-1].items, *line.row.items))
             continue

@@ -16,6 +16,8 @@ from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
+from linkwright.equations.steps import Equation, Step
+from linkwright.equations.text import page
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
@@ -24,8 +26,6 @@ from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import Message, Say, has
 from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import Sentence, in_language
-from linkwright.worked.page import Equation, Step
-from linkwright.worked.text import page
 
 #: Share of the longest length, or of a radian, below which a deviation is rounding.
 ROUNDING = 1e-12

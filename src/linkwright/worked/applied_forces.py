@@ -6,12 +6,12 @@ import math
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import owners_of
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, cosine, sine, symbol
 from linkwright.kinetostatics.applied_wrenches import AppliedWrench, applied_wrenches
 from linkwright.kinetostatics.forces import Forces
 from linkwright.worked.load_formulas import LoadFormulas, turns_with, worked_couple, worked_force
-from linkwright.worked.page import Step
-from linkwright.worked.symbols import Book, Spot, tex
-from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, cosine, sine, symbol
+from linkwright.worked.symbols import Book, Spot
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class KnownForces:
         book, part = self.book, self.book.mechanism.links[link]
         n = book.numbers[link]
         moving = not self.forces.static and bool(book.mechanism.drivers)
-        mass, inertia = symbol(f"m{n}", f"m_{{{n}}}", part.mass), symbol(f"J{n}", f"J_{{{n}}}", part.inertia)
+        mass, inertia = symbol(f"m{n}", part.mass), symbol(f"J{n}", part.inertia)
         alpha = book.alpha(link) if moving else ZERO
         if part.mass:
             spot = book.spot(link, "@centre")
@@ -65,20 +65,20 @@ class KnownForces:
                 "xy", self._gravity(), (spot.acceleration.x, spot.acceleration.y), strict=True
             ):
                 formula = mass * (pull - rush) if moving else mass * pull
-                parts.append(self._named(step, f"K_{n}{c}", f"K_{{{n}{c}}}", formula, "N"))
+                parts.append(self._named(step, f"K_{n}{c}", formula, "N"))
             self.on[link].append(Known(Pair(*parts), spot.place, spot.velocity))
         if part.inertia and not alpha.is_zero:
-            couple = self._named(step, f"M_J{n}", f"M_{{J{n}}}", -(inertia * alpha), "N·m")
+            couple = self._named(step, f"M_J{n}", -(inertia * alpha), "N·m")
             self.on[link].append(Known(NOWHERE, NOWHERE, NOWHERE, couple))
 
-    def _named(self, step: Step, plain: str, latex: str, formula: Term, unit: str) -> Term:
+    def _named(self, step: Step, name: str, formula: Term, unit: str) -> Term:
         if formula.is_zero:
             return ZERO
-        return step.find(symbol(plain, latex, formula.value), formula, unit)
+        return step.find(symbol(name, formula.value), formula, unit)
 
     def _gravity(self) -> list[Term]:
         named = zip("xy", self.book.mechanism.gravity, strict=True)
-        return [symbol(f"g_{c}", f"g_{c}", value) if value else ZERO for c, value in named]
+        return [symbol(f"g_{c}", value) if value else ZERO for c, value in named]
 
     def _loads(self, step: Step) -> None:
         self._found = applied_wrenches(self.forces, self.book.index)
@@ -111,7 +111,7 @@ class KnownForces:
             step.say(text)
 
     def _couple(self, step: Step, name: str, label: str, link: str, torque: float) -> Term:
-        couple = symbol(f"M_{label}", f"M_{{{tex(label)}}}", torque)
+        couple = symbol(f"M_{label}", torque)
         load = self.book.mechanism.loads.get(name)
         formula = None if load is None else worked_couple(load, self.formulas, step, link, torque)
         if formula is None:
@@ -125,8 +125,7 @@ class KnownForces:
         spot = self._spot(link, place)
         if spot is None:
             at = [
-                step.give(symbol(f"{c}_{label}", f"{c}_{{{tex(label)}}}", v), "m")
-                for c, v in (("x", place.real), ("y", place.imag))
+                step.give(symbol(f"{c}_{label}", v), "m") for c, v in (("x", place.real), ("y", place.imag))
             ]
             where = Pair(*at)
             base = next(book.spot(link, point) for point in book.mechanism.links[link].points)
@@ -135,9 +134,7 @@ class KnownForces:
             where, velocity = spot.place, spot.velocity
         formula = self._formula(step, name, label, link, force)
         parts = [
-            ZERO
-            if part.is_zero
-            else step.find(symbol(f"F_{label},{c}", f"F_{{{tex(label)},{c}}}", v), part, "N")
+            ZERO if part.is_zero else step.find(symbol(f"F_{label},{c}", v), part, "N")
             for c, v, part in (("x", force.real, formula.x), ("y", force.imag, formula.y))
         ]
         return Known(Pair(*parts), where, velocity)
@@ -148,9 +145,9 @@ class KnownForces:
         found = None if load is None else worked_force(load, self.formulas, step, link, force)
         if found is not None:
             return found
-        size = step.give(symbol(f"F_{label}", f"F_{{{tex(label)}}}", abs(force)), "N")
+        size = step.give(symbol(f"F_{label}", abs(force)), "N")
         way = math.degrees(math.atan2(force.imag, force.real))
-        angle = symbol(f"θ_{label}", rf"\theta_{{{tex(label)}}}", way, degrees=True)
+        angle = symbol(f"θ_{label}", way, degrees=True)
         self._direction(step, name, link, angle)
         return Pair(size * cosine(angle), size * sine(angle))
 

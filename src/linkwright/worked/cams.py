@@ -16,12 +16,8 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.joints.cam import CamJoint
-from linkwright.worked.lifts import Lift, LiftWriter
-from linkwright.worked.page import Step
-from linkwright.worked.places import Places
-from linkwright.worked.symbols import Book
-from linkwright.worked.terms import (
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import (
     FOUR,
     NOWHERE,
     ONE,
@@ -34,6 +30,10 @@ from linkwright.worked.terms import (
     root,
     sine,
 )
+from linkwright.joints.cam import CamJoint
+from linkwright.worked.lifts import Lift, LiftWriter
+from linkwright.worked.places import Places
+from linkwright.worked.symbols import Book
 
 
 def cam_pair(joint: CamJoint, book: Book) -> CamPair:
@@ -62,26 +62,24 @@ class CamPair(ABC):
         """σ times a term."""
         return term if self.joint.sense > 0 else -term
 
-    def _of(self, plain: str, latex: str, value: float, *, degrees: bool = False) -> Term:
-        return self.lifts.named(plain, latex, value, degrees=degrees)
+    def _of(self, name: str, value: float, *, degrees: bool = False) -> Term:
+        return self.lifts.named(name, value, degrees=degrees)
 
-    def _found(
-        self, step: Step, names: tuple[str, str], formula: Term, unit: str, *, degrees: bool = False
-    ) -> Term:
+    def _found(self, step: Step, name: str, formula: Term, unit: str, *, degrees: bool = False) -> Term:
         """A quantity of the cam's own with its formula; a plain zero stays one."""
         if formula.is_zero:
             return ZERO
-        return step.find(self._of(*names, formula.value, degrees=degrees), formula, unit)
+        return step.find(self._of(name, formula.value, degrees=degrees), formula, unit)
 
     @cached_property
     def base(self) -> Term:
         """Radius of the base circle."""
-        return self._of("r_b", "r_b", self.joint.base_radius)
+        return self._of("r_b", self.joint.base_radius)
 
     @cached_property
     def roller(self) -> Term:
         """Radius of the roller; nothing without one."""
-        return self._of("r_r", "r_r", self.joint.roller_radius) if self.joint.touch == "roller" else ZERO
+        return self._of("r_r", self.joint.roller_radius) if self.joint.touch == "roller" else ZERO
 
     def _radii(self, step: Step) -> Term:
         """Notes the radii; their sum."""
@@ -137,27 +135,27 @@ class CamPair(ABC):
         else:
             step.say(self.book.say("worked.cam_pitch"))
             point = Pair(
-                self._found(step, ("x_p", "x_p"), place.x, "m"),
-                self._found(step, ("y_p", "y_p"), place.y, "m"),
+                self._found(step, "x_p", place.x, "m"),
+                self._found(step, "y_p", place.y, "m"),
             )
         step.say(self.book.say("worked.cam_profile"))
         point = point - normal.times(self.roller)
-        self._found(step, ("x_n", "x_n"), point.x, "m")
-        self._found(step, ("y_n", "y_n"), point.y, "m")
+        self._found(step, "x_n", point.x, "m")
+        self._found(step, "y_n", point.y, "m")
 
     def _radius(self, step: Step, square: Term, turn: Term) -> None:
         """Radius of curvature of pitch curve and profile, from |p'|² and p' × p''."""
         step.say(self.book.say("worked.cam_radius"))
-        q = self._found(step, ("q", "q"), square, "m²")
-        k = self._found(step, ("k", "k"), turn, "m²")
+        q = self._found(step, "q", square, "m²")
+        k = self._found(step, "k", turn, "m²")
         if not k.value:
             return
         curve = q * root(q) / k
         if self.roller.is_zero:
-            self._found(step, ("ρ", r"\rho"), curve, "m")
+            self._found(step, "ρ", curve, "m")
             return
-        pitch = self._found(step, ("ρ_p", r"\rho_p"), curve, "m")
-        self._found(step, ("ρ", r"\rho"), pitch - self.roller, "m")
+        pitch = self._found(step, "ρ_p", curve, "m")
+        self._found(step, "ρ", pitch - self.roller, "m")
 
 
 class Guided(CamPair):
@@ -173,12 +171,12 @@ class Guided(CamPair):
     def offset(self) -> Term:
         """e, nothing for a follower through the cam's centre and for a flat face."""
         e = self._geometry[2]
-        return ZERO if abs(e) < 1e-15 or self.joint.touch == "flat" else self._of("e", "e", e)
+        return ZERO if abs(e) < 1e-15 or self.joint.touch == "flat" else self._of("e", e)
 
     @property
     def start(self) -> Term:
         """d; of a flat face the base circle's radius."""
-        return self.base if self.joint.touch == "flat" else self._of("d", "d", self._geometry[1])
+        return self.base if self.joint.touch == "flat" else self._of("d", self._geometry[1])
 
     @property
     def height(self) -> Term:
@@ -195,7 +193,7 @@ class Guided(CamPair):
         if self.joint.touch != "flat":
             formula = radius if self.offset.is_zero else root(radius.squared - self.offset.squared)
             step.find(self.start, formula, "m")
-        ahead = self._of("b", "b", self._geometry[3])
+        ahead = self._of("b", self._geometry[3])
         behind = ZERO if abs(ahead.amount) < 1e-15 else step.give(ahead, "m")
         slide = places.guide(step, name)
         places.displacement(step, slide, self.height - behind)
@@ -208,25 +206,23 @@ class Guided(CamPair):
     def effort(self, step: Step, right: Term) -> Term:
         """V, the force along the follower's way."""
         step.say(self.book.say("worked.cam_push", joint=self.joint.name))
-        force = self._of("V", "V", right.value)
+        force = self._of("V", right.value)
         return step.give(force, "N") if right.is_zero else step.find(force, right, "N")
 
     def shape(self, step: Step) -> None:
         book, lift, flat = self.book, self.lift, self.joint.touch == "flat"
         step.say(book.say("worked.cam_heading"))
         along = book.turn(self.joint.carrier) + book.degrees(self._geometry[0]) - book.turn(self.joint.cam)
-        heading = self._found(step, ("ν", r"\nu"), along, "°", degrees=True)
+        heading = self._found(step, "ν", along, "°", degrees=True)
         c, s, first = cosine(heading), sine(heading), self.signed(lift.first)
         n, aside = Pair(c, s), Pair(-s, c)
         if flat:
             self._profile(step, n.times(self.height) - aside.times(first), NOWHERE)
             step.say(book.say("worked.cam_radius"))
-            self._found(step, ("ρ", r"\rho"), self.height + lift.second, "m")
+            self._found(step, "ρ", self.height + lift.second, "m")
             return
         step.say(book.say("worked.cam_pressure"))
-        alpha = self._found(
-            step, ("α", r"\alpha"), direction(first - self.offset, self.height), "°", degrees=True
-        )
+        alpha = self._found(step, "α", direction(first - self.offset, self.height), "°", degrees=True)
         place = n.times(self.height) - aside.times(self.offset)
         self._profile(step, place, Pair(cosine(heading + alpha), sine(heading + alpha)))
         a, g = self.height, lift.first - self.signed(self.offset)
@@ -275,12 +271,12 @@ class Swinging(CamPair):
         own = self.book.mechanism.link(self.joint.follower).points
         line = np.subtract(carrier[self.joint.centre], carrier[self.joint.holder])
         arm = np.subtract(own[self.joint.at], own[self.joint.holder])
-        return self._of("c", "c", float(np.hypot(*line))), self._of("l", "l", float(np.hypot(*arm)))
+        return self._of("c", float(np.hypot(*line))), self._of("l", float(np.hypot(*arm)))
 
     @property
     def psi(self) -> Term:
         """ψ₀ + S."""
-        return self._of("ψ0", r"\psi_0", self._angles[2], degrees=True) + self.lift.value
+        return self._of("ψ0", self._angles[2], degrees=True) + self.lift.value
 
     def place(self, step: Step, places: Places) -> None:
         book = self.book
@@ -294,9 +290,9 @@ class Swinging(CamPair):
         else:
             step.give(length, "m")
             part = c.squared + length.squared - radius.squared
-            k = step.find(self._of("k0", "k_0", part.value), part, "m²")
+            k = step.find(self._of("k0", part.value), part, "m²")
             start = direction(root(FOUR * c.squared * length.squared - k.squared), k)
-        step.find(self._of("ψ0", r"\psi_0", start.value, degrees=True), start, "°")
+        step.find(self._of("ψ0", start.value, degrees=True), start, "°")
         line, own, _ = self._angles
         turned = book.turn(self.joint.carrier) + line - own
         psi = self.psi
@@ -312,7 +308,7 @@ class Swinging(CamPair):
     def effort(self, step: Step, right: Term) -> Term:
         """M, the moment about the pivot, positive where it lifts."""
         step.say(self.book.say("worked.cam_turn", joint=self.joint.name))
-        moment = self._of("M", "M", self.side * right.value)
+        moment = self._of("M", self.side * right.value)
         return step.give(moment, "N·m") if right.is_zero else step.find(moment, self.sided(right), "N·m")
 
     def shape(self, step: Step) -> None:
@@ -321,9 +317,9 @@ class Swinging(CamPair):
         line, own, _ = self._angles
         arm_at = book.turn(joint.follower) + own - book.turn(joint.cam)
         line_at = book.turn(joint.carrier) + line - book.turn(joint.cam)
-        arm_at = self._found(step, ("ν", r"\nu"), arm_at, "°", degrees=True)
-        line_at = self._found(step, ("κ", r"\kappa"), line_at, "°", degrees=True)
-        psi = self._found(step, ("ψ", r"\psi"), self.psi, "°", degrees=True)
+        arm_at = self._found(step, "ν", arm_at, "°", degrees=True)
+        line_at = self._found(step, "κ", line_at, "°", degrees=True)
+        psi = self._found(step, "ψ", self.psi, "°", degrees=True)
         arm, axes = Pair(cosine(arm_at), sine(arm_at)), Pair(cosine(line_at), sine(line_at))
         (self._flat if joint.touch == "flat" else self._round)(step, arm, axes, psi)
 
@@ -334,10 +330,10 @@ class Swinging(CamPair):
         one = length * (ONE - first) - c * cosine(psi)
         two = c * sine(psi)
         step.say(self.book.say("worked.cam_components"))
-        one = self._found(step, ("m_1", "m_1"), one, "m")
-        two = self._found(step, ("m_2", "m_2"), two, "m")
+        one = self._found(step, "m_1", one, "m")
+        two = self._found(step, "m_2", two, "m")
         step.say(self.book.say("worked.cam_pressure"))
-        alpha = self._found(step, ("α", r"\alpha"), direction(one, two), "°", degrees=True)
+        alpha = self._found(step, "α", direction(one, two), "°", degrees=True)
         normal = arm.times(sine(alpha)) + arm.perp.times(self.sided(cosine(alpha)))
         self._profile(step, arm.times(length) - axes.times(c), normal)
         square = one.squared + two.squared
@@ -346,12 +342,12 @@ class Swinging(CamPair):
     def _flat(self, step: Step, arm: Pair, axes: Pair, psi: Term) -> None:
         """A face through the pivot: the contact lies under the instant centre of follower and cam."""
         c, lift = self.sizes[0], self.lift
-        w = self._found(step, ("w", "w"), ONE - self.sided(self.signed(lift.first)), "")
-        reach = self._found(step, ("t_f", "t_f"), c * cosine(psi) / w, "m")
+        w = self._found(step, "w", ONE - self.sided(self.signed(lift.first)), "")
+        reach = self._found(step, "t_f", c * cosine(psi) / w, "m")
         self._profile(step, arm.times(reach) - axes.times(c), NOWHERE)
         step.say(self.book.say("worked.cam_radius"))
         bent = c * cosine(psi) * lift.second - c * sine(psi) * lift.first.squared * w
-        self._found(step, ("ρ", r"\rho"), c * sine(psi) + bent / (w * w.squared), "m")
+        self._found(step, "ρ", c * sine(psi) + bent / (w * w.squared), "m")
 
     def contact(self, step: Step, force: Term) -> tuple[Pair, Pair, Term]:
         joint, book = self.joint, self.book
@@ -366,6 +362,6 @@ class Swinging(CamPair):
             return n.times((self.sided(ONE) - driven) * force / arm), pivot, self.sided(force)
         at = book.spot(joint.follower, joint.at).place
         a, b = at - pivot, at - centre
-        area = step.find(self._of("A", "A", a.cross(b).value), a.cross(b), "m²")
+        area = step.find(self._of("A", a.cross(b).value), a.cross(b), "m²")
         whole = (b if self.side > 0 else -b) - a.times(driven)
         return whole.times(force / area), at, ZERO

@@ -8,8 +8,8 @@ from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, Group, TreeJoint
+from linkwright.equations.terms import NOWHERE, TWO, ZERO, Pair, Term, cosine, number, sine, symbol
 from linkwright.worked.symbols import Book, Slide, Spot
-from linkwright.worked.terms import NOWHERE, TWO, ZERO, Pair, Term, cosine, number, sine, symbol
 
 
 @dataclass
@@ -332,7 +332,7 @@ def _slide(book: Book, step: TreeJoint, angle: Term, found: Trail, *, local: boo
         found.reach = found.reach + (shift if sign > 0 else -shift)
     if joint.offset:
         name = f"h_{step.joint}"
-        across = along.perp.times(symbol(name, name, joint.offset))
+        across = along.perp.times(symbol(name, joint.offset))
         found.reach = found.reach + across if sign > 0 else found.reach - across
 
 

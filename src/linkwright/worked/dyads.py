@@ -7,16 +7,16 @@ from functools import cached_property, singledispatch
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Group, TreeJoint
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import FOUR, NOWHERE, TWO, ZERO, Pair, Term, direction, root, symbol
 from linkwright.groups.prp import PRP
 from linkwright.groups.rpp import RPP
 from linkwright.groups.rpr import RPR
 from linkwright.groups.rrp import RRP
 from linkwright.groups.rrr import RRR
 from linkwright.worked.chains import Trail, attach, trail
-from linkwright.worked.page import Step
 from linkwright.worked.placing import Placing
-from linkwright.worked.symbols import Book, Spot, tex
-from linkwright.worked.terms import FOUR, NOWHERE, TWO, ZERO, Pair, Term, direction, root, symbol
+from linkwright.worked.symbols import Book, Spot
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class DyadWriter:
         """Distance from pin to cut and the angle under which the link's axes see it."""
         sub = f"{pivot.label}{self.tip.label}"
         ahead, aside = reach.x, reach.y
-        size = symbol(f"l_{sub}", f"l_{{{tex(sub)}}}", math.hypot(ahead.value, aside.value))
+        size = symbol(f"l_{sub}", math.hypot(ahead.value, aside.value))
         if aside.is_zero and ahead.op == "symbol":
             if ahead.plain[:2] in ("l_", "u_"):
                 self.step.give(size, "m")
@@ -68,27 +68,27 @@ class DyadWriter:
             if part.is_zero:
                 parts.append(ZERO)
                 continue
-            term = symbol(f"{name}_{sub}", f"{name}_{{{tex(sub)}}}", part.value)
+            term = symbol(f"{name}_{sub}", part.value)
             parts.append(
                 self.step.give(term, "m") if part.op == "symbol" else self.step.find(term, part, "m")
             )
         self.step.find(size, root(parts[0].squared + parts[1].squared), "m")
         lean = direction(parts[1], parts[0])
-        own = symbol(f"ε_{sub}", rf"\varepsilon_{{{tex(sub)}}}", lean.value, degrees=True)
+        own = symbol(f"ε_{sub}", lean.value, degrees=True)
         return size, self.step.find(own, lean, "°")
 
     def apart(self, p: Spot, q: Pair) -> tuple[Pair, Term]:
         """The vector d from P to Q and the square of its length."""
         d = q - p.place
-        named = Pair(symbol("d_x", "d_x", d.x.value), symbol("d_y", "d_y", d.y.value))
+        named = Pair(symbol("d_x", d.x.value), symbol("d_y", d.y.value))
         self.step.find(named.x, d.x, "m")
         self.step.find(named.y, d.y, "m")
         square = named.x.squared + named.y.squared
-        return named, self.step.find(symbol("d²", "d^2", square.value), square, "m²")
+        return named, self.step.find(symbol("d²", square.value), square, "m²")
 
     def root(self, square: Term, unit: str) -> Term:
         value = square.value
-        rho = symbol("ρ", r"\rho", math.sqrt(max(value, 0.0)))
+        rho = symbol("ρ", math.sqrt(max(value, 0.0)))
         return self.step.find(rho, root(square), unit)
 
     def note_mode(self, key: str, *spots: Spot) -> None:
@@ -108,8 +108,8 @@ class DyadWriter:
         base = self.book.spot(steps[0].parent, start)
         way = trail(self.book, steps, steps[0].parent, start, self.tip.key, local=False)
         zero = Pair(
-            symbol(f"x_{name}", f"x_{{{name}}}", (base.place.x + way.reach.x).value),
-            symbol(f"y_{name}", f"y_{{{name}}}", (base.place.y + way.reach.y).value),
+            symbol(f"x_{name}", (base.place.x + way.reach.x).value),
+            symbol(f"y_{name}", (base.place.y + way.reach.y).value),
         )
         if way.reach == NOWHERE:
             return base.place, way
@@ -133,7 +133,7 @@ def _(dyad: RRR, write: DyadWriter) -> bool:
     r2, lean_2 = write.length(q, way_2.reach)
     d, dd = write.apart(p, q.place)
     t_is = dd + r1.squared - r2.squared
-    t = step.find(symbol("t", "t", t_is.value), t_is, "m²")
+    t = step.find(symbol("t", t_is.value), t_is, "m²")
     rho = write.root(FOUR * r1.squared * dd - t.squared, "m²")
     write.note_mode("mode_rrr", p, q, tip)
     side = d.perp.times(rho)
@@ -154,8 +154,8 @@ def _(dyad: RRP, write: DyadWriter) -> bool:
     zero, way = write.frame_chain(write.ends[1], f"{tip.label}0")
     guide, n, _ = way.slides[0]
     f = p.place - zero
-    h = step.find(symbol("h", "h", n.cross(f).value), n.cross(f), "m")
-    along = step.find(symbol("f", "f", n.dot(f).value), n.dot(f), "m")
+    h = step.find(symbol("h", n.cross(f).value), n.cross(f), "m")
+    along = step.find(symbol("f", n.dot(f).value), n.dot(f), "m")
     rho = write.root(r.squared - h.squared, "m")
     write.note_mode("mode_rrp", p, p, tip)
     slide = write.book.slide(guide.joint)
@@ -173,8 +173,8 @@ def _(dyad: RPR, write: DyadWriter) -> bool:
     p, joint, way = write.arm(write.ends[0])
     guide, m, heading = way.slides[0]
     aside, ahead = m.cross(way.reach), m.dot(way.reach)
-    e = ZERO if aside.is_zero else step.find(symbol("e", "e", aside.value), aside, "m")
-    b = ZERO if ahead.is_zero else step.find(symbol("b", "b", ahead.value), ahead, "m")
+    e = ZERO if aside.is_zero else step.find(symbol("e", aside.value), aside, "m")
+    b = ZERO if ahead.is_zero else step.find(symbol("b", ahead.value), ahead, "m")
     d, dd = write.apart(p, tip.place)
     rho = write.root(dd - e.squared, "m")
     write.note_mode("mode_rpr", p, tip, tip)
@@ -182,8 +182,8 @@ def _(dyad: RPR, write: DyadWriter) -> bool:
     slide = write.book.slide(guide.joint)
     write.placing.displacement(step, slide, reach - b)
     cosine_is, sine_is = (reach * d.x + e * d.y) / dd, (reach * d.y - e * d.x) / dd
-    nx = step.find(symbol("n_x", "n_x", cosine_is.value), cosine_is, "")
-    ny = step.find(symbol("n_y", "n_y", sine_is.value), sine_is, "")
+    nx = step.find(symbol("n_x", cosine_is.value), cosine_is, "")
+    ny = step.find(symbol("n_y", sine_is.value), sine_is, "")
     write.placing.angle(step, joint.child, direction(ny, nx) - heading)
     return True
 
@@ -196,11 +196,11 @@ def _slides(write: DyadWriter, *, apart: bool) -> bool:
     (g1, n1, _), (g2, n2, _) = [*way_1.slides, *way_2.slides]
     f = zero_2 - zero_1
     f = Pair(
-        step.find(symbol("f_x", "f_x", f.x.value), f.x, "m"),
-        step.find(symbol("f_y", "f_y", f.y.value), f.y, "m"),
+        step.find(symbol("f_x", f.x.value), f.x, "m"),
+        step.find(symbol("f_y", f.y.value), f.y, "m"),
     )
     sine_is = n1.cross(n2)
-    det = step.find(symbol("k", "k", sine_is.value), sine_is, "")
+    det = step.find(symbol("k", sine_is.value), sine_is, "")
     write.placing.displacement(step, write.book.slide(g1.joint), f.cross(n2) / det)
     write.placing.displacement(
         step, write.book.slide(g2.joint), (f.cross(n1) if apart else n1.cross(f)) / det

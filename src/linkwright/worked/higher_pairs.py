@@ -7,15 +7,15 @@ from collections.abc import Callable, Iterator, Sequence
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, Group, TreeJoint
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, number, symbol, total
 from linkwright.joints.base import LackingError
 from linkwright.worked.chains import ChainClosure, Closure, chain_closures
 from linkwright.worked.contacts import contact_of
-from linkwright.worked.page import Step
-from linkwright.worked.symbols import Book, tex
-from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, number, symbol, total
+from linkwright.worked.symbols import Book
 
 #: Radians of a degree, as formulas show it.
-DEGREE = symbol("π", r"\pi", math.pi) / number(180.0)
+DEGREE = symbol("π", math.pi) / number(180.0)
 Values = Callable[[str], Term]
 
 
@@ -63,18 +63,18 @@ class PairClosure(Closure):
         """i: how the target turns with a link."""
         return _named(self.book, "i", self.cut.joint, part.link, -part.factor / target.factor)
 
-    def _constant(self, letter: str, latex: str, value: float, *, degrees: bool = False) -> Term:
+    def _constant(self, letter: str, value: float, *, degrees: bool = False) -> Term:
         joint = self.cut.joint
         if value == 0.0:
             return ZERO
-        return symbol(f"{letter}_{joint}", f"{latex}_{{{tex(joint)}}}", value, degrees=degrees)
+        return symbol(f"{letter}_{joint}", value, degrees=degrees)
 
     # positions --------------------------------------------------------------------------------
     def sum(self, turn: Values, slide: Values) -> Term:
         """The row itself, m; angles in degrees."""
         turned = [self.arm(part) * turn(part.link) * DEGREE for part in self.turns]
         shifts = [_times(part.factor, slide(part.guide)) for part in self.slides]
-        return total([*turned, *shifts, self._constant("c", "c", self.rest)])
+        return total([*turned, *shifts, self._constant("c", self.rest)])
 
     def solved_for(self, target: Turned | Slid, turn: Values, slide: Values) -> Term:
         """An angle (degrees) or a displacement from those of the others."""
@@ -82,13 +82,13 @@ class PairClosure(Closure):
         shifts = [_times(part.factor, slide(part.guide)) for part in self.slides if part is not target]
         if isinstance(target, Slid):
             turned = [self.arm(part) * turn(part.link) * DEGREE for part in others]
-            left = total([*turned, *shifts, self._constant("c", "c", self.rest)])
+            left = total([*turned, *shifts, self._constant("c", self.rest)])
             return _over(left, target.factor)
         found = total([self.ratio(part, target) * turn(part.link) for part in others])
         if not self.slides:
             lean = math.degrees(-self.rest / target.factor)
-            return found + self._constant("β", r"\beta", lean, degrees=True)
-        left = total([*shifts, self._constant("c", "c", self.rest)])
+            return found + self._constant("β", lean, degrees=True)
+        left = total([*shifts, self._constant("c", self.rest)])
         return found - left / (self.arm(target) * DEGREE)
 
     def rate_of(self, target: Turned | Slid, rate: Values, speed: Values) -> Term:
@@ -110,9 +110,9 @@ class PairClosure(Closure):
                 self._once(step, self.arm(part), "m")
         if isinstance(target, Turned) and not self.slides:
             lean = math.degrees(-self.rest / target.factor)
-            self._once(step, self._constant("β", r"\beta", lean, degrees=True), "°")
+            self._once(step, self._constant("β", lean, degrees=True), "°")
         else:
-            self._once(step, self._constant("c", "c", self.rest), "m")
+            self._once(step, self._constant("c", self.rest), "m")
 
     def _once(self, step: Step, term: Term, unit: str) -> None:
         if not term.is_zero and term.plain not in self.book.given:
@@ -196,7 +196,7 @@ def lever(book: Book, joint: str, link: str, value: float) -> Term:
 
 def _named(book: Book, letter: str, joint: str, link: str, value: float) -> Term:
     n = book.numbers[link]
-    return symbol(f"{letter}_{joint},{n}", rf"{letter}_{{{tex(joint)},{n}}}", value)
+    return symbol(f"{letter}_{joint},{n}", value)
 
 
 def closures(book: Book, group: Group) -> list[Closure]:

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
-import re
 from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import ZERO, Term, number, symbol
 from linkwright.joints.cam import CamJoint
 from linkwright.laws.program import MotionProgram
 from linkwright.words import has
-from linkwright.worked.page import Step
-from linkwright.worked.symbols import Book, tex
-from linkwright.worked.terms import ZERO, Term, number, symbol
+from linkwright.worked.symbols import Book
 
 
 @dataclass(frozen=True)
@@ -38,14 +37,11 @@ class LiftWriter:
         self.factor = math.degrees(1.0) if joint.side else 1.0
         self.unit = "°" if joint.side else "m"
 
-    def named(self, plain: str, latex: str, value: float, *, degrees: bool = False) -> Term:
+    def named(self, name: str, value: float, *, degrees: bool = False) -> Term:
         """A symbol of this cam."""
         if self.sub:
-            plain = f"{plain},{self.sub}" if "_" in plain else f"{plain}_{self.sub}"
-            head, _, low = latex.partition("_")
-            low = low.strip("{}")
-            latex = f"{head}_{{{low + ',' if low else ''}{tex(self.sub)}}}"
-        return symbol(plain, latex, value, degrees=degrees)
+            name = f"{name},{self.sub}" if "_" in name else f"{name}_{self.sub}"
+        return symbol(name, value, degrees=degrees)
 
     @cached_property
     def turned(self) -> float:
@@ -61,10 +57,10 @@ class LiftWriter:
         swings = bool(self.joint.side)
         rest = self._law_at[1] is None if self.joint.program is not None else not self._row[1:].any()
         return Lift(
-            self.named("θ", r"\theta", math.degrees(self.turned), degrees=True),
-            self.named("S", "S", self.factor * value, degrees=swings),
-            ZERO if rest else self.named("S'", "S'", first),
-            ZERO if rest else self.named("S''", "S''", second),
+            self.named("θ", math.degrees(self.turned), degrees=True),
+            self.named("S", self.factor * value, degrees=swings),
+            ZERO if rest else self.named("S'", first),
+            ZERO if rest else self.named("S''", second),
         )
 
     @cached_property
@@ -116,23 +112,21 @@ class LiftWriter:
         word = f"report.law_{law.key}"
         step.say(say("worked.cam_segment", number=k + 1, law=say(word) if has(word) else law.key))
         low, width = float(program.edges[k]), float(program.edges[k + 1] - program.edges[k])
-        begin = step.give(self.named("θ_a", r"\theta_a", math.degrees(low), degrees=True), "°")
-        over = step.give(self.named("β", r"\beta", math.degrees(width), degrees=True), "°")
-        arc = step.give(self.named("β_r", r"\beta_r", width), "rad")
-        base = self.named("S_a", "S_a", start, degrees=swings)
-        rise = step.give(self.named("h", "h", self.factor * scale, degrees=swings), self.unit)
+        begin = step.give(self.named("θ_a", math.degrees(low), degrees=True), "°")
+        over = step.give(self.named("β", math.degrees(width), degrees=True), "°")
+        arc = step.give(self.named("β_r", width), "rad")
+        base = self.named("S_a", start, degrees=swings)
+        rise = step.give(self.named("h", self.factor * scale, degrees=swings), self.unit)
         base = step.give(base, self.unit) if start else ZERO
         u_is = (self.now.angle - begin) / over
-        u = step.find(self.named("u", "u", u_is.value), u_is, "")
+        u = step.find(self.named("u", u_is.value), u_is, "")
         if law.formula:
-            step.relate(symbol("s(u)", "s(u)", 0.0), symbol(_plain(law.formula), law.formula, 0.0))
+            step.relate(symbol("s(u)", 0.0), symbol(law.formula, 0.0))
         s, v, a, _ = (float(each[0]) for each in law.curves(np.array([u.amount])))
-        names = (("s(u)", "s(u)"), ("s'(u)", "s'(u)"), ("s''(u)", "s''(u)"))
-        shape = [
-            step.give(self.named(*name, value), "") for name, value in zip(names, (s, v, a), strict=True)
-        ]
+        names = ("s(u)", "s'(u)", "s''(u)")
+        shape = [step.give(self.named(name, value), "") for name, value in zip(names, (s, v, a), strict=True)]
         step.find(self.now.value, base + rise * shape[0], self.unit)
-        lift = self.named("h_r", "h_r", scale) if swings else rise
+        lift = self.named("h_r", scale) if swings else rise
         if swings:
             step.give(lift, "rad")
         step.find(self.now.first, lift * shape[1] / arc, "" if swings else "m/rad")
@@ -149,41 +143,23 @@ class LiftWriter:
             return
         step.say(say("worked.cam_points", **ends))
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
-        centre = step.give(self.named("θ_m", r"\theta_m", math.degrees(middle), degrees=True), "°")
-        wide = step.give(self.named("δ", r"\delta", math.degrees(half), degrees=True), "°")
-        arc = step.give(self.named("δ_r", r"\delta_r", half), "rad")
-        factors = [step.give(self.named(f"c_{k}", f"c_{k}", 1e3 * each), "mm") for k, each in enumerate(row)]
+        centre = step.give(self.named("θ_m", math.degrees(middle), degrees=True), "°")
+        wide = step.give(self.named("δ", math.degrees(half), degrees=True), "°")
+        arc = step.give(self.named("δ_r", half), "rad")
+        factors = [step.give(self.named(f"c_{k}", 1e3 * each), "mm") for k, each in enumerate(row)]
         t_is = (self.now.angle - centre) / wide
-        t = step.find(self.named("t", "t", t_is.value), t_is, "")
+        t = step.find(self.named("t", t_is.value), t_is, "")
         once = [number(float(k)) * each if k > 1 else each for k, each in enumerate(factors)][1:]
         twice = [number(float(k * (k - 1))) * each for k, each in enumerate(factors)][2:]
         thousand = number(1000.0)
-        marks = (("P", "P"), ("P'", "P'"), ("P''", "P''"))
         parts = [_powers(factors, t), _powers(once, t), _powers(twice, t)]
         found = [
-            step.find(self.named(*name, part.value), part, "mm")
-            for name, part in zip(marks, parts, strict=True)
+            step.find(self.named(name, part.value), part, "mm")
+            for name, part in zip(("P", "P'", "P''"), parts, strict=True)
         ]
         step.find(self.now.value, found[0] / thousand, "m")
         step.find(self.now.first, found[1] / (thousand * arc), "m/rad")
         step.find(self.now.second, found[2] / (thousand * arc.squared), "m/rad²")
-
-
-def _plain(latex: str) -> str:
-    """A law's formula without LaTeX."""
-    text = re.sub(r"\\frac\{(.*?)\}\{(.*?)\}", r"(\1)/(\2)", latex)
-    text = re.sub(r"\((\d+)\)", r"\1", text)
-    text = re.sub(r"\^(\d)", lambda found: "⁰¹²³⁴⁵⁶⁷⁸⁹"[int(found[1])], text)
-    for old, new in (
-        (r"\left", ""),
-        (r"\right", ""),
-        (r"\pi", "π"),
-        (r"\,", ""),
-        (r"\cdot ", "·"),
-        ("\\", ""),
-    ):
-        text = text.replace(old, new)
-    return text
 
 
 def _powers(factors: list[Term], t: Term) -> Term:

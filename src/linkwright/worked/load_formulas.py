@@ -6,6 +6,8 @@ import math
 from collections.abc import Callable
 from functools import singledispatch
 
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import FOUR, NOWHERE, Pair, Term, root, symbol
 from linkwright.fields.references import LinkPoint
 from linkwright.loads.base import Load
 from linkwright.loads.damper import Damper
@@ -14,9 +16,7 @@ from linkwright.loads.pressure import Pressure
 from linkwright.loads.spring import Spring
 from linkwright.loads.torsion_damper import TorsionDamper
 from linkwright.loads.torsion_spring import TorsionSpring
-from linkwright.worked.page import Step
-from linkwright.worked.symbols import Book, tex
-from linkwright.worked.terms import FOUR, NOWHERE, Pair, Term, root, symbol
+from linkwright.worked.symbols import Book
 
 #: Shorter than this (m) a spring or damper has no direction.
 SHORTEST = 1e-9
@@ -31,11 +31,11 @@ class LoadFormulas:
 
     def named(self, letter: str, load: Load, amount: float) -> Term:
         """A number of a load (SI) with its symbol."""
-        return symbol(f"{letter}_{load.name}", f"{letter}_{{{tex(load.name)}}}", amount)
+        return symbol(f"{letter}_{load.name}", amount)
 
     def circle(self, diameter: Term) -> Term:
         """The area of a circle, m²."""
-        return symbol("π", r"\pi", math.pi) * diameter.squared / FOUR
+        return symbol("π", math.pi) * diameter.squared / FOUR
 
     def size(
         self, step: Step, load: Load, letter: str, unit: str, formula: Callable[[], Term | None]

@@ -7,15 +7,8 @@ from collections.abc import Sequence
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Group, TreeJoint
-from linkwright.groups.base import Dyad
-from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
-from linkwright.worked.chains import ChainClosure, attach, chain_closures, trail
-from linkwright.worked.dyads import DyadWriter, write_dyad
-from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, is_unknown, pair_closures
-from linkwright.worked.page import Step
-from linkwright.worked.placing import Placing
-from linkwright.worked.symbols import tex
-from linkwright.worked.terms import (
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import (
     ZERO,
     Pair,
     Term,
@@ -24,6 +17,12 @@ from linkwright.worked.terms import (
     sine,
     symbol,
 )
+from linkwright.groups.base import Dyad
+from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
+from linkwright.worked.chains import ChainClosure, attach, chain_closures, trail
+from linkwright.worked.dyads import DyadWriter, write_dyad
+from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, is_unknown, pair_closures
+from linkwright.worked.placing import Placing
 
 
 class Places(Placing):
@@ -151,7 +150,7 @@ class Places(Placing):
         a, b = (
             self._reach(group, end, name, name) for end, name in ((cut.a, joint.through), (cut.b, joint.at))
         )
-        offset = symbol(f"h_{cut.joint}", f"h_{{{tex(cut.joint)}}}", joint.offset) if joint.offset else ZERO
+        offset = symbol(f"h_{cut.joint}", joint.offset) if joint.offset else ZERO
         step.relate(ZERO, minus(closure.across.along.cross(b - a).put(known), offset))
 
     def _reach(self, group: Group, end: str, solved: str, tip: str) -> Pair:
@@ -172,4 +171,4 @@ class Places(Placing):
             row.give(step, None)
             left = row.sum(self.book.rotation, lambda guide: self.book.slide(guide).s)
             name = row.cut.joint
-            step.find(symbol(f"Δ_{name}", rf"\Delta_{{{tex(name)}}}", 0.0), left, "m")
+            step.find(symbol(f"Δ_{name}", 0.0), left, "m")

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import TreeJoint
-from linkwright.worked.page import Step
-from linkwright.worked.symbols import Book, Slide, Spot
-from linkwright.worked.terms import (
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import (
     Pair,
     Term,
     cosine,
     number,
     sine,
 )
+from linkwright.worked.symbols import Book, Slide, Spot
 
 
 class Placing:

@@ -6,12 +6,12 @@ from collections.abc import Iterator
 
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Group, TreeJoint
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import TWO, Pair, Term, number, symbol
 from linkwright.worked.chains import attach, turned
 from linkwright.worked.higher_pairs import pair_closures
-from linkwright.worked.page import Step
 from linkwright.worked.places import Places
-from linkwright.worked.symbols import Book, Slide, Spot, tex
-from linkwright.worked.terms import TWO, Pair, Term, number, symbol
+from linkwright.worked.symbols import Book, Slide, Spot
 
 
 def named_points(book: Book, link: str) -> Iterator[tuple[str, Spot]]:
@@ -54,7 +54,7 @@ def _slid(book: Book, joint: TreeJoint, held: Spot) -> Pair:
     shift = slide.along.times(slide.s)
     if prismatic.offset:
         name = f"h_{joint.joint}"
-        shift = shift + slide.along.perp.times(symbol(name, name, prismatic.offset))
+        shift = shift + slide.along.perp.times(symbol(name, prismatic.offset))
     return held.place + shift if joint.child == prismatic.block else held.place - shift
 
 
@@ -91,10 +91,10 @@ def check_closure(book: Book, places: Places, step: Step, group: Group) -> None:
             rows = (("x", gap.x), ("y", gap.y))
         else:
             slide, joint = book.slide(cut.joint), book.mechanism.guides[cut.joint]
-            off = symbol(f"h_{cut.joint}", f"h_{cut.joint}", joint.offset) if joint.offset else number(0.0)
+            off = symbol(f"h_{cut.joint}", joint.offset) if joint.offset else number(0.0)
             rows = (("n", slide.along.cross(-gap) - off),)  # type: ignore[assignment]
         for c, row in rows:
-            zero = symbol(f"Δ{c}_{cut.joint}", rf"\Delta {c}_{{{tex(cut.joint)}}}", 0.0)
+            zero = symbol(f"Δ{c}_{cut.joint}", 0.0)
             step.find(zero, row, "m")
     places.check_pairs(step, pair_closures(book, group, ()))
 

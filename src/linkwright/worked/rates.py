@@ -7,11 +7,14 @@ from collections.abc import Sequence
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Connection, Group
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, symbol, total
 from linkwright.worked.chains import ChainClosure, Closure, Drift, bends, matrix, unknown_names
 from linkwright.worked.higher_pairs import PairClosure
-from linkwright.worked.page import Step
-from linkwright.worked.symbols import Book, tex
-from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, symbol, total
+from linkwright.worked.symbols import Book
+
+#: Marks of parts of an acceleration as they are printed above its letter.
+RAISED = {"n": "ⁿ", "t": "ᵗ", "k": "ᵏ", "d": "ᵈ"}
 
 
 @dataclass
@@ -29,7 +32,7 @@ def name_matrix(step: Step, group: Group, cuts: Sequence[Closure]) -> System:
     for i, row in enumerate(formulas, 1):
         named = []
         for j, entry in enumerate(row, 1):
-            term = symbol(f"J{i}{j}", f"J_{{{i}{j}}}", entry.value)
+            term = symbol(f"J{i}{j}", entry.value)
             unit = "m" if group.unknowns[j - 1].turns else ""
             named.append(ZERO if entry.is_zero else step.find(term, entry, unit))
         entries.append(named)
@@ -37,7 +40,7 @@ def name_matrix(step: Step, group: Group, cuts: Sequence[Closure]) -> System:
         return System(entries, None)
     (a, b), (c, d) = entries
     value = a * d - b * c
-    det = symbol("det J", r"\det J", value.value)
+    det = symbol("det J", value.value)
     turning = sum(each.turns for each in group.unknowns)
     return System(entries, step.find(det, value, ("", "m", "m²")[turning]))
 
@@ -64,7 +67,7 @@ def solve(
     for row, goal in zip(rows, right, strict=True):
         left = total([entry * term for entry, term in zip(row, unknowns, strict=True)])
         if goal.is_zero:
-            goal = symbol("0", "0", 0.0)
+            goal = symbol("0", 0.0)
         step.find(goal, left, "")
 
 
@@ -125,18 +128,15 @@ class RateWriter:
                     closure.give(step, None)
         letter = "c" if second else "b"
         for i, row in enumerate(matrix(group, cuts), 1):
-            entries = [
-                ZERO if entry.is_zero else symbol(f"J{i}{j}", f"J_{{{i}{j}}}", 0.0)
-                for j, entry in enumerate(row, 1)
-            ]
+            entries = [ZERO if entry.is_zero else symbol(f"J{i}{j}", 0.0) for j, entry in enumerate(row, 1)]
             left = total([entry * name for entry, name in zip(entries, names, strict=True)])
-            step.relate(left, symbol(f"{letter}{i}", f"{letter}_{{{i}}}", 0.0))
+            step.relate(left, symbol(f"{letter}{i}", 0.0))
 
     def _right(self, step: Step, gaps: list[Term], letter: str, unit: str) -> list[Term]:
         found = []
         step.say(self.book.say("worked.right_sides"))
         for i, gap in enumerate(gaps, 1):
-            term = symbol(f"{letter}{i}", f"{letter}_{{{i}}}", gap.value)
+            term = symbol(f"{letter}{i}", gap.value)
             if gap.is_zero:
                 step.find(term, gap, unit)
                 found.append(ZERO)
@@ -161,8 +161,8 @@ class RateWriter:
         begun = False
         found = []
         for c, formula in (("x", part.vector.x), ("y", part.vector.y)):
-            plain, latex = f"a{mark}_{part.label},{c}", f"a^{{{mark}}}_{{{tex(part.label)},{c}}}"
-            term = ZERO if formula.is_zero else symbol(plain, latex, formula.value)
+            plain, look = (f"a{each}_{part.label},{c}" for each in (mark, RAISED[mark]))
+            term = ZERO if formula.is_zero else symbol(plain, formula.value, look=look)
             if not term.is_zero and plain not in noted:
                 if not begun:
                     step.say(self.book.say(f"worked.part_{part.kind}", label=part.label))

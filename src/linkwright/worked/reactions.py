@@ -11,15 +11,15 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Connection, Group, TreeJoint
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, direction, root, symbol, total
 from linkwright.kinematics.groups import in_one_step
 from linkwright.kinetostatics.forces import Forces
 from linkwright.worked.applied_forces import Known, KnownForces
 from linkwright.worked.chains import ChainClosure, Closure, attach
 from linkwright.worked.higher_pairs import closures
-from linkwright.worked.page import Step
 from linkwright.worked.rates import System, name_matrix, solve
-from linkwright.worked.symbols import Book, tex
-from linkwright.worked.terms import NOWHERE, ZERO, Pair, Term, direction, root, symbol, total
+from linkwright.worked.symbols import Book
 from linkwright.worked.wheels import Wheels, tangential
 
 #: Unknowns of a system with their outputs, or units.
@@ -174,8 +174,7 @@ class Reactions:
         for name in names:
             on = next(k for k in self.book.mechanism.joints[name].joined if k != "frame")
             n = self.book.numbers[on]
-            plain = (f"F_{name},{n}", f"F_{{{tex(name)},{n}")
-            step.find_pair(plain, 0j, NOWHERE, Output("reaction", name, on=on))
+            step.find_pair(f"F_{name},{n}", 0j, NOWHERE, Output("reaction", name, on=on))
         return step
 
     def _reversed(self, step: Step, cut: Connection, force: Pair) -> Pair:
@@ -196,15 +195,15 @@ class Reactions:
         for place, (cut, axis) in enumerate(_rows(group)):
             value = float(values[place])
             if cut.higher:
-                rest = symbol(f"ΔT_{cut.joint}", rf"\Delta T_{{{tex(cut.joint)}}}", 0.0)
+                rest = symbol(f"ΔT_{cut.joint}", 0.0)
                 found.append((tangential(cut, value) if pairs else rest, "N"))
             elif cut.slides:
-                found.append((symbol(f"N_{cut.joint}", f"N_{{{tex(cut.joint)}}}", value), "N"))
+                found.append((symbol(f"N_{cut.joint}", value), "N"))
             else:
                 name, output = self._names(cut, cut.a)
                 force = self._solver_force(cut, cut.a, complex(value, value))
                 value = force.real if axis == "x" else force.imag
-                term = symbol(f"{name[0]}{axis}", f"{name[1]}{axis}}}", value)
+                term = symbol(f"{name}{axis}", value)
                 found.append((term, replace(output, component=axis) if output else "N"))
         return found
 
@@ -212,8 +211,7 @@ class Reactions:
         """The same where only the pairs' forces are complete: λ of the rows of the other cuts."""
         found: Unknowns = []
         for (cut, axis), value in zip(_rows(group), values.tolist(), strict=True):
-            plain, latex = (f"{form(cut.joint)}{axis and ','}{axis}" for form in (str, tex))
-            own = symbol(f"λ_{plain}", rf"\lambda_{{{latex}}}", value)
+            own = symbol(f"λ_{cut.joint}{axis and ','}{axis}", value)
             found.append((tangential(cut, value) if cut.higher else own, "N"))
         return found
 
@@ -238,7 +236,7 @@ class Reactions:
                     at = book.spot(hung.parent, hung.joint)
                     parts.append((at.place - pivot.place).cross(self._resultant(list(subtree(group, hung)))))
             formula, unit = -total(parts), "N·m"
-        term = symbol(f"Q{number}", f"Q_{{{number}}}", formula.value)
+        term = symbol(f"Q{number}", formula.value)
         step.find(term, formula, unit)
         return ZERO if formula.is_zero else term
 
@@ -282,7 +280,7 @@ class Reactions:
         slide = self.book.slide(joint.joint)
         block = joint.child == joint.connection.b
         forward = slide.along.dot(needed)
-        term = symbol(f"F_{joint.driver}", f"F_{{{tex(joint.driver)}}}", self._effort(joint.driver))
+        term = symbol(f"F_{joint.driver}", self._effort(joint.driver))
         step.find(term, -forward if block else forward, Output("effort", joint.driver, slides=True))
         push = slide.along.times(term)
         return push if block else -push
@@ -296,7 +294,7 @@ class Reactions:
                 return place, ZERO
             own = joint.child == book.mechanism.drivers[joint.driver].link
             found = total([each.moment(place) for each in acting])
-            term = symbol(f"M_{joint.driver}", f"M_{{{tex(joint.driver)}}}", self._effort(joint.driver))
+            term = symbol(f"M_{joint.driver}", self._effort(joint.driver))
             step.say(book.say("worked.driver_torque", point=joint.joint))
             step.find(term, -found if own else found, Output("effort", joint.driver))
             return place, term if own else -term
@@ -304,7 +302,7 @@ class Reactions:
         formula = -total([each.moment(place) for each in acting])
         n = book.numbers[joint.child]
         value = float(self.forces.couple(joint.joint, on=joint.child)[book.index])
-        term = symbol(f"M_{joint.joint},{n}", f"M_{{{tex(joint.joint)},{n}}}", value)
+        term = symbol(f"M_{joint.joint},{n}", value)
         step.find(term, formula, Output("couple", joint.joint, on=joint.child))
         return place, ZERO if formula.is_zero else term
 
@@ -322,14 +320,14 @@ class Reactions:
     def _simple(self, connection: Connection) -> bool:
         return len(self.book.mechanism.joints[connection.joint].joined) == 2
 
-    def _names(self, connection: Connection, link: str) -> tuple[tuple[str, str], Output | None]:
-        """Symbol (plain, LaTeX without its end) of a joint force on a link, and which output it is."""
+    def _names(self, connection: Connection, link: str) -> tuple[str, Output | None]:
+        """Symbol of a joint force on a link, and which output it is."""
         joint, n = connection.joint, self.book.numbers[link]
         if self._simple(connection):
             output = None if link == "frame" else Output("reaction", joint, on=link)
-            return (f"F_{joint},{n}", f"F_{{{tex(joint)},{n}"), output
+            return f"F_{joint},{n}", output
         other = self.book.numbers[connection.other(link)]
-        return (f"F_{joint},{other}→{n}", rf"F_{{{tex(joint)},{other}\to {n}"), None
+        return f"F_{joint},{other}→{n}", None
 
     def _solver_force(self, connection: Connection, link: str, value: complex) -> complex:
         """The solver's number where the joint has two links."""
@@ -340,15 +338,14 @@ class Reactions:
     def _size(self, step: Step, connection: Connection, link: str, force: Pair) -> None:
         self._polar(step, force, *self._names(connection, link))
 
-    def _polar(self, step: Step, force: Pair, name: tuple[str, str], output: Output | None) -> None:
+    def _polar(self, step: Step, force: Pair, name: str, output: Output | None) -> None:
         """Magnitude and direction of a force that is not zero."""
         size = root(force.x.squared + force.y.squared)
         if force.x.is_zero or force.y.is_zero or not size.value:
             return
-        end = name[1] + "}"
-        step.find(symbol(name[0], end, size.value), size, output or "N")
+        step.find(symbol(name, size.value), size, output or "N")
         turn = direction(force.y, force.x)
-        step.find(symbol(f"∠{name[0]}", rf"\angle {end}", turn.value, degrees=True), turn, "°")
+        step.find(symbol(f"∠{name}", turn.value, degrees=True), turn, "°")
 
     def shares(self, number: int) -> Step | None:
         """What every link carries on pins of several links."""
@@ -371,9 +368,9 @@ class Reactions:
     def _share(self, step: Step, joint: str, link: str, formula: Pair) -> None:
         n, output = self.book.numbers[link], Output("reaction", joint, on=link)
         values = self.forces.reaction(joint, on=link)[self.book.index]
-        names = (f"F_{joint},{n}", f"F_{{{tex(joint)},{n}")
-        force = step.find_pair(names, complex(*values), formula, output)
-        self._polar(step, force, names, output)
+        name = f"F_{joint},{n}"
+        force = step.find_pair(name, complex(*values), formula, output)
+        self._polar(step, force, name, output)
 
 
 def segment(group: Group, joint: TreeJoint) -> Iterator[str]:

@@ -8,6 +8,10 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require, whole
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Group
+from linkwright.equations.reading import of_file, read_name
+from linkwright.equations.steps import Equation, Step, Written
+from linkwright.equations.terms import NOTHING, ZERO, Term, symbol, total
+from linkwright.equations.text import page
 from linkwright.errors import LinkwrightError, RequestError, require_language, speaker
 from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.kinematics.motion import Motion
@@ -18,16 +22,12 @@ from linkwright.words import language_of
 from linkwright.words.sentence import link_said, links_said
 from linkwright.worked.applied_forces import KnownForces
 from linkwright.worked.higher_pairs import closures
-from linkwright.worked.page import Equation, Step, Written
 from linkwright.worked.places import Places
 from linkwright.worked.points import Movers, check_closure, cut_displacements, place_points
 from linkwright.worked.rates import RateWriter, System
 from linkwright.worked.reactions import Reactions
-from linkwright.worked.symbols import Book, tex
-from linkwright.worked.terms import NOTHING, ZERO, Term, symbol, total
-from linkwright.worked.text import page
+from linkwright.worked.symbols import Book
 from linkwright.worked.wheels import Wheels
-from linkwright.worked.written import latex_symbol, of_file
 
 
 def force_steps(forces: Forces, book: Book, before: int) -> list[Step]:
@@ -56,11 +56,11 @@ def named_step(book: Book, number: int) -> Step:
     step = Step(str(number), book.say("worked.named"))
     for name, named in book.mechanism.outputs.items():
         text = of_file(named.expression.text)
-        step.items.append(Written(f"{name} = {text}", (latex_symbol(name), latex_symbol(text))))
+        step.items.append(Written(f"{name} = {text}", (read_name(name), read_name(text))))
         for output in named.outputs:
             value = float(book.motion.read(output)[book.index])
             if np.isfinite(value):
-                step.give(symbol(output.name, latex_symbol(output.name), value), output)
+                step.give(symbol(output.name, value), output)
     return step
 
 
@@ -74,9 +74,9 @@ def power_step(forces: Forces, book: Book, known: KnownForces, number: int) -> S
         parts = [each.force.dot(each.velocity) + each.couple * book.omega(link) for each in acting]
         formula = total(parts)
         if not formula.is_zero:
-            powers.append(step.find(symbol(f"P{n}", f"P_{{{n}}}", formula.value), formula, "W"))
+            powers.append(step.find(symbol(f"P{n}", formula.value), formula, "W"))
     whole = total(powers)
-    sum_of = step.find(symbol("ΣP", r"\sum P", whole.value), whole, "W") if powers else ZERO
+    sum_of = step.find(symbol("ΣP", whole.value), whole, "W") if powers else ZERO
     _drivers(step, forces, book, sum_of)
     return step
 
@@ -88,7 +88,7 @@ def _drivers(step: Step, forces: Forces, book: Book, sum_of: Term) -> None:
         rate = book.drive(name)[1]
         letter = "F" if book.mechanism.joints[driver.joint].coordinate == "slide" else "M"
         value = float(forces.driver_effort(name)[book.index])
-        terms.append((symbol(f"{letter}_{name}", f"{letter}_{{{tex(name)}}}", value), rate))
+        terms.append((symbol(f"{letter}_{name}", value), rate))
     if len(terms) == 1 and abs(terms[0][1].amount) > NOTHING and not sum_of.is_zero:
         effort, rate = terms[0]
         step.say(book.say("worked.power_effort"))
@@ -96,7 +96,7 @@ def _drivers(step: Step, forces: Forces, book: Book, sum_of: Term) -> None:
         step.find(effort, -(sum_of / rate), unit)
         return
     step.say(book.say("worked.power_balance"))
-    gap = symbol("ΔP", r"\Delta P", 0.0)
+    gap = symbol("ΔP", 0.0)
     step.find(gap, sum_of + total([effort * rate for effort, rate in terms]), "W")
 
 

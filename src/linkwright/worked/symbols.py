@@ -9,12 +9,12 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import TreeJoint
+from linkwright.equations.terms import NOWHERE, ONE, ZERO, Pair, Term, number, symbol
 from linkwright.joints.base import Joint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.link import Link
 from linkwright.words import Say
-from linkwright.worked.terms import NOWHERE, ONE, ZERO, Pair, Term, number, symbol
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class Book:
         if link == "frame":
             return ZERO
         n = self.numbers[link]
-        return symbol(f"φ{n}", rf"\varphi_{{{n}}}", self.angle_of(link), degrees=True)
+        return symbol(f"φ{n}", self.angle_of(link), degrees=True)
 
     def rotation(self, link: str) -> Term:
         """φ of a link and the turns that pairs count with it."""
@@ -78,18 +78,18 @@ class Book:
 
     def omega(self, link: str) -> Term:
         """ω of a link."""
-        return self._rate(link, "ω", r"\omega", "angular_velocity")
+        return self._rate(link, "ω", "angular_velocity")
 
     def alpha(self, link: str) -> Term:
         """α of a link; nothing where a constant speed drives it."""
-        return ZERO if link in self.steady else self._rate(link, "α", r"\alpha", "angular_acceleration")
+        return ZERO if link in self.steady else self._rate(link, "α", "angular_acceleration")
 
-    def _rate(self, link: str, plain: str, latex: str, name: str) -> Term:
+    def _rate(self, link: str, letter: str, name: str) -> Term:
         if link in self.resting:
             return ZERO
         n = self.numbers[link]
         value = float(getattr(self.motion.link(link), name)[self.index])
-        return symbol(f"{plain}{n}", f"{latex}_{{{n}}}", value)
+        return symbol(f"{letter}{n}", value)
 
     @cached_property
     def resting(self) -> frozenset[str]:
@@ -147,16 +147,13 @@ class Book:
 
     @staticmethod
     def _components(letter: str, label: str, x: float, y: float) -> Pair:
-        named = (
-            symbol(f"{letter}_{label}{c}", f"{letter}_{{{tex(label)}{c}}}", float(v))
-            for c, v in (("x", x), ("y", y))
-        )
+        named = (symbol(f"{letter}_{label}{c}", float(v)) for c, v in (("x", x), ("y", y)))
         return Pair(*named)
 
     @staticmethod
     def _coordinates(label: str, x: float, y: float) -> list[Term]:
         named = zip("xy", (float(x), float(y)), strict=True)
-        return [symbol(f"{c}_{label}", rf"{c}_{{{tex(label)}}}", value) for c, value in named]
+        return [symbol(f"{c}_{label}", value) for c, value in named]
 
     def _label(self, key: str, link: str, point: str) -> str:
         if point == "@centre":
@@ -185,9 +182,7 @@ class Book:
         straight = abs(d.imag) <= 1e-14 * size and d.real > 0.0
         for letter, value in (("l" if straight else "u", d.real), ("w", d.imag)):
             zero = abs(value) <= 1e-14 * size
-            found.append(
-                ZERO if zero else symbol(f"{letter}_{a}{b}", rf"{letter}_{{{tex(a)}{tex(b)}}}", value)
-            )
+            found.append(ZERO if zero else symbol(f"{letter}_{a}{b}", value))
         return Pair(*found)
 
     # guides and drivers -------------------------------------------------------------------
@@ -203,13 +198,13 @@ class Book:
             if prismatic.guide in self.resting and value == 1.0:
                 terms.append(ONE)
                 continue
-            terms.append(ZERO if level else symbol(f"n_{joint},{c}", rf"n_{{{tex(joint)},{c}}}", value))
+            terms.append(ZERO if level else symbol(f"n_{joint},{c}", value))
         moves = bool(self.mechanism.drivers)
         rates = [
-            symbol(f"s{mark}_{joint}", rf"{accent}{{s}}_{{{tex(joint)}}}", float(values[self.index]))
-            for mark, accent, values in (("'", r"\dot", at.velocity), ("''", r"\ddot", at.acceleration))
+            symbol(f"s{mark}_{joint}", float(values[self.index]), look=f"s{accent}_{joint}")
+            for mark, accent, values in (("'", "\u0307", at.velocity), ("''", "\u0308", at.acceleration))
         ]
-        s = symbol(f"s_{joint}", f"s_{{{tex(joint)}}}", float(at.displacement[self.index]))
+        s = symbol(f"s_{joint}", float(at.displacement[self.index]))
         return Slide(joint, Pair(*terms), s, *(rates if moves else [ZERO, ZERO]))
 
     def guide_angle(self, step: TreeJoint) -> Term:
@@ -222,12 +217,11 @@ class Book:
         q, rate, second = (float(row[self.index]) for row in self.motion.positions.coordinates[name])
         turning = self.motion.positions.rotary[name]
         mark = "" if len(self.mechanism.drivers) == 1 else f"_{name}"
-        sub = "" if not mark else f"_{{{tex(name)}}}"
         shown = math.degrees(q) if turning else q
         return (
-            symbol(f"q{mark}", f"q{sub}", shown, degrees=turning),
-            symbol(f"q'{mark}", rf"\dot{{q}}{sub}", rate),
-            ZERO if second == 0.0 else symbol(f"q''{mark}", rf"\ddot{{q}}{sub}", second),
+            symbol(f"q{mark}", shown, degrees=turning),
+            symbol(f"q'{mark}", rate, look=f"q̇{mark}"),
+            ZERO if second == 0.0 else symbol(f"q''{mark}", second, look=f"q̈{mark}"),
         )
 
     def turned(self, step: TreeJoint) -> Term:
@@ -248,9 +242,3 @@ def _followers(joint: Joint, known: set[str]) -> set[str]:
     if joint.rotations_only and len(set(joint.turning) - known) == 1:
         return set(joint.turning)
     return set()
-
-
-def tex(name: str) -> str:
-    """A name inside a formula."""
-    plain = name.replace("_", r"\_")
-    return plain if len(name) == 1 else rf"\mathrm{{{plain}}}"

@@ -12,15 +12,27 @@ import numpy as np
 
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Connection, Group, TreeJoint
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import (
+    TWO,
+    ZERO,
+    Pair,
+    Term,
+    cosine,
+    number,
+    sine,
+    size,
+    symbol,
+    tangent,
+    total,
+)
 from linkwright.joints.base import Joint
 from linkwright.joints.cam import CamJoint
 from linkwright.worked.cams import cam_pair
 from linkwright.worked.contacts import Contact, contact_of
 from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, lever, one_by_one, pair_closures
-from linkwright.worked.page import Step
 from linkwright.worked.places import Places
-from linkwright.worked.symbols import Book, tex
-from linkwright.worked.terms import TWO, ZERO, Pair, Term, cosine, number, sine, size, symbol, tangent, total
+from linkwright.worked.symbols import Book
 
 
 class OwnForm(Protocol):
@@ -143,7 +155,7 @@ class Wheels:
             ]
             formula = total([*left, known])
             if not formula.is_zero:
-                step.find(symbol("0", "0", 0.0), formula, "")
+                step.find(symbol("0", 0.0), formula, "")
 
     def _speed(self, guide: str) -> Term:
         return self.book.slide(guide).rate
@@ -182,7 +194,7 @@ class Wheels:
             step.give(term, "N")
         for line, goal in zip(entries, right, strict=True):
             left = total([entry * force for entry, force in zip(line, named, strict=True)])
-            step.find(symbol("0", "0", 0.0) if goal.is_zero else goal, left, "")
+            step.find(symbol("0", 0.0) if goal.is_zero else goal, left, "")
         return named
 
     def contact(self, step: Step, cut: Connection, force: Term) -> tuple[Pair, Pair, Term]:
@@ -197,7 +209,7 @@ class Wheels:
         across, pressed = self._parts(step, cut, contact, force)
         pushed = along.perp.times(across)
         if not pressed.is_zero:
-            named = symbol(f"S_{cut.joint}", f"S_{{{tex(cut.joint)}}}", pressed.value)
+            named = symbol(f"S_{cut.joint}", pressed.value)
             pushed = pushed + along.times(step.find(named, pressed, "N"))
         arm = self._arm(step, cut, contact)
         if contact.strands:
@@ -217,16 +229,15 @@ class Wheels:
 
     def _parts(self, step: Step, cut: Connection, contact: Contact, force: Term) -> tuple[Term, Term]:
         """The force square to e and along it."""
-        letter, latex = ("ψ", r"\psi") if contact.strands else ("α", r"\alpha")
         lean = ZERO
         if contact.lean:
-            name = symbol(f"{letter}_{cut.joint}", f"{latex}_{{{tex(cut.joint)}}}", 0.0)
+            name = symbol(f"{'ψ' if contact.strands else 'α'}_{cut.joint}", 0.0)
             lean = step.give(replace(name, amount=math.degrees(contact.lean), degrees=True), "°")
         press = {0.0: ZERO, 1.0: size(force), -1.0: -size(force)}[contact.press]
         if not contact.strands:
             return force, press * tangent(lean)
         if contact.pull:
-            pull = symbol(f"F0_{cut.joint}", f"F_{{0,{tex(cut.joint)}}}", contact.pull)
+            pull = symbol(f"F0_{cut.joint}", contact.pull)
             press = press + TWO * step.give(pull, "N")
         return force * sine(lean), press * cosine(lean)
 
@@ -237,7 +248,7 @@ class Wheels:
         if turn.is_zero or turn.op == "symbol":
             return Pair(cosine(turn), sine(turn))
         value = (turn.value + 180.0) % 360.0 - 180.0
-        name = symbol(f"γ_{cut.joint}", rf"\gamma_{{{tex(cut.joint)}}}", value, degrees=True)
+        name = symbol(f"γ_{cut.joint}", value, degrees=True)
         if own == turn:
             step.give(name, "°")
         else:
@@ -248,7 +259,7 @@ class Wheels:
 
 def tangential(cut: Connection, value: float) -> Term:
     """T, the tangential force of a pair."""
-    return symbol(f"T_{cut.joint}", f"T_{{{tex(cut.joint)}}}", value)
+    return symbol(f"T_{cut.joint}", value)
 
 
 def _names(group: Group) -> str:

@@ -8,10 +8,11 @@ from tests.every import every
 from tests.refusals import refused
 
 import linkwright as lw
+from linkwright.equations.notation import Atom, Row
 from linkwright.errors import speaker
 from linkwright.report.document import Document, Formula
-from linkwright.report.formula import Atom, Row, formula, width
-from linkwright.report.formula_lines import lines, set_lines
+from linkwright.report.formula import formula
+from linkwright.report.formula_lines import lines, set_lines, width
 from linkwright.report.typst_formula import typst
 from linkwright.report.word_formula import SPACE, equation
 from linkwright.report.word_pages import word
@@ -85,8 +86,10 @@ def test_word_has_the_rows_of_a_matrix_its_delimiters_and_the_limits_of_sums() -
 def test_every_line_of_a_worked_solution_can_be_printed(name: str) -> None:
     page = lw.worked(store.forces(name, 7), 1)
     for line in every(page.equations, least=50):
-        for latex in (line.latex_symbol, line.latex_formula, line.latex_numbers):
-            formula(latex)
+        for side, text in zip(
+            line.sides, (line.latex_symbol, line.latex_formula, line.latex_numbers), strict=False
+        ):
+            assert typst(side) and formula(text) is not None
 
 
 @pytest.mark.parametrize("latex", [
@@ -125,7 +128,7 @@ def test_equations_too_wide_for_a_line_are_set_below_each_other_and_lose_nothing
 
 def test_lines_of_word_hold_the_whole_equation_behind_breaks() -> None:
     docx = pytest.importorskip("docx")
-    sides = ("x", " + ".join("a_{B}" for _ in range(30)), "5")
+    sides = tuple(map(formula, ("x", " + ".join("a_{B}" for _ in range(30)), "5")))
     document = Document("t", speaker("en"), blocks=[Formula(sides)])
     file = docx.Document(io.BytesIO(word(document)))
     (line,) = (each for each in file.paragraphs if each._p.findall(f"{{{SPACE}}}oMath"))

@@ -15,7 +15,7 @@ from tests.refusals import faulty
 
 import linkwright as lw
 from linkwright.cli import main
-from linkwright.report.document import Paragraph, Table
+from linkwright.report.document import Paragraph, Table, plain
 
 #: The limit positions that the conveyor's report prints, degrees.
 LIMITS = (231.6500775, 348.743)
@@ -54,7 +54,7 @@ def column(found: list[Table], head: str) -> list[float]:
     """The numbers of the first column whose head begins so."""
     for table in found:
         for k, each in enumerate(table.head):
-            if each.startswith(head):
+            if plain(each).startswith(head):
                 return [float(row[k].replace("−", "-")) if row[k] != "–" else math.nan for row in table.rows]
     raise AssertionError([table.head for table in found])
 
@@ -63,22 +63,20 @@ def test_the_conveyors_table_with_both_limit_positions() -> None:
     """Positions and rows as the source prints them; velocities are zero in the limit positions."""
     listed = ["0 deg", "60 deg", "120 deg", "180 deg", "240 deg", "300 deg", "rocker max", "rocker min"]
     found = tables("gallery:swing_conveyor", listed)
-    assert column(found, "$q$") == pytest.approx([0, 60, 120, 180, 240, 300, 231.65, 348.74])
+    assert column(found, "q ") == pytest.approx([0, 60, 120, 180, 240, 300, 231.65, 348.74])
     printed = [1.22361, 1.14343, 0.90679, 0.71922, 0.664279, 0.918551, 0.662387]
-    assert np.array(column(found, "$s_")[:7]) / 1e3 == pytest.approx(printed, abs=0.51e-5)
-    assert column(found, r"$\dot{s}_")[6:] == [0.0, 0.0]
-    assert column(found, "$\\omega_{3}")[6:] == [0.0, 0.0]
+    assert np.array(column(found, "s_")[:7]) / 1e3 == pytest.approx(printed, abs=0.51e-5)
+    assert column(found, "ṡ_")[6:] == [0.0, 0.0]
+    assert column(found, "ω_3")[6:] == [0.0, 0.0]
 
 
 def test_the_crushers_steps_backwards() -> None:
     """0, -15, … -360 degrees, forces and directions as the source prints them."""
     steps = {"from": "0 deg", "step": "-15 deg", "to": "-360 deg"}
     found = tables("gallery:jaw_crusher_sixbar_as_reported", steps)
-    assert column(found, "$q$") == list(range(0, -361, -15))
-    assert column(found, r"$F_{\mathrm{O5},5}$")[0] == pytest.approx(9904.580, abs=0.051)
-    assert column(found, r"$\beta_{\mathrm{O5},5}$")[:3] == pytest.approx(
-        [77.690, 82.670, 89.576], abs=0.51e-3
-    )
+    assert column(found, "q ") == list(range(0, -361, -15))
+    assert column(found, "F_O5,5")[0] == pytest.approx(9904.580, abs=0.051)
+    assert column(found, "β_O5,5")[:3] == pytest.approx([77.690, 82.670, 89.576], abs=0.51e-3)
 
 
 @pytest.mark.parametrize(
@@ -96,12 +94,12 @@ def test_the_crushers_steps_backwards() -> None:
 )
 def test_lists_starts_and_steps(listed: object, degrees: list[float]) -> None:
     found = tables("gallery:crank_rocker", listed)
-    assert column(found, "$q$") == pytest.approx(degrees, abs=0.0051)
+    assert column(found, "q ") == pytest.approx(degrees, abs=0.0051)
 
 
 def test_one_meaning_for_report_solve_and_export(tmp_path: Path) -> None:
     text = "60 deg, limits, 0..-30deg:-15, rocker max"
-    shown = column(tables("gallery:crank_rocker", text), "$q$")
+    shown = column(tables("gallery:crank_rocker", text), "q ")
     solved = data("solve", "gallery:crank_rocker", "--at", text)["columns"]
     assert np.degrees(solved["driver [rad]"]) == pytest.approx(shown, abs=0.0051)
     for ending in ("csv", "json", "parquet", "xlsx"):
@@ -137,20 +135,20 @@ def read(path: Path, name: str) -> list[float]:
 def test_positions_of_laws_in_time_and_of_several_drivers() -> None:
     """Times, and limit positions by their times; every driver's input once."""
     found = tables("gallery:excavator", ["0 s", "1 s", "boom max", "boom min"])
-    assert column(found, "$t$") == pytest.approx([0, 1, 2, 6], abs=1e-6)
+    assert column(found, "t") == pytest.approx([0, 1, 2, 6], abs=1e-6)
     lift = column(found, "boom_lift")
     motion = store.motion("excavator", 24)
     assert lift[2] == pytest.approx(1e3 * motion.inputs["boom_lift"].max(), abs=0.01)
     assert lift[3] == pytest.approx(1e3 * motion.inputs["boom_lift"].min(), abs=0.01)
-    assert column(found, r"$\omega_{1}")[2:] == [0.0, 0.0]
+    assert column(found, "ω_1")[2:] == [0.0, 0.0]
 
 
 def test_positions_of_a_sliding_driver() -> None:
     """A block at constant speed: strokes in the order asked for, and the times at which they are reached."""
     listed = ["200 mm", "0..50 mm:25 mm", "0.1 s"]
     found = tables(lw.loads(RAM), listed)
-    assert column(found, "$q$") == [200.0, 0.0, 25.0, 50.0, 10.0]
-    assert column(found, "$x_{B}$") == [200.0, 0.0, 25.0, 50.0, 10.0]
+    assert column(found, "q ") == [200.0, 0.0, 25.0, 50.0, 10.0]
+    assert column(found, "x_B") == [200.0, 0.0, 25.0, 50.0, 10.0]
 
 
 def test_positions_out_of_reach_have_a_sentence_and_no_number(tmp_path: Path) -> None:
@@ -158,9 +156,7 @@ def test_positions_out_of_reach_have_a_sentence_and_no_number(tmp_path: Path) ->
     report = lw.report(lw.loads(ARMS), sections=["tables"], positions=listed)
     found = [block for block in report.document.blocks if isinstance(block, Table)]
     said = [b.text for b in report.document.blocks if isinstance(b, Paragraph) and b.kind == "missing"]
-    assert math.isnan(column(found, r"$\varphi_{2}$")[2]) and not math.isnan(
-        column(found, r"$\varphi_{2}$")[1]
-    )
+    assert math.isnan(column(found, "φ_2")[2]) and not math.isnan(column(found, "φ_2")[1])
     assert any("180°" in each or "6 m" in each for each in said)
     path, model = tmp_path / "a.csv", tmp_path / "arms.yaml"
     model.write_text(ARMS, "utf-8")

@@ -20,6 +20,7 @@ from linkwright.report.document import (
     plain,
     spans,
 )
+from linkwright.report.formula import formula
 from linkwright.report.markdown import Beside, own_text
 
 pytest.importorskip("markdown_it")
@@ -110,8 +111,8 @@ def test_code_has_its_language_and_caption() -> None:
 
 
 def test_formulas_of_their_own_are_numbered_where_they_have_a_label() -> None:
-    assert one("$$\na =\nb\n$$") == Formula(("a = b",), number=False)
-    assert one("$$ a $$ (eq)") == Formula(("a",), "eq")
+    assert one("$$\na =\nb\n$$") == Formula((formula("a = b"),), number=False)
+    assert one("$$ a $$ (eq)") == Formula((formula("a"),), "eq")
     found = one(r"\begin{align} a &= b \\ c &= d \end{align}")
     assert isinstance(found, Formula) and not found.number
     assert [type(each) for each in read("so $$a$$ it is")[0]] == [Paragraph, Formula, Paragraph]

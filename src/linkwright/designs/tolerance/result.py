@@ -19,12 +19,12 @@ from linkwright.designs.tolerance.pins_in_motion import FollowedPins, follow
 from linkwright.designs.tolerance.pressed_pins import is_position, require_forces, shifts
 from linkwright.designs.tolerance.problem import Limit, Tolerances
 from linkwright.designs.varied_dimensions import design_values
+from linkwright.equations.steps import Step
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.by_name import wanted
 from linkwright.parts.base import PERCENT, Block, Result, Row, fault, put
 from linkwright.words import Say
-from linkwright.worked.page import Step
 
 #: Linear and Monte Carlo spread agree within this share.
 AGREE = 0.005

@@ -14,6 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number, shown
 from linkwright.core.search import first_largest
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantities, Quantity, Schema, Word, given, quantity_schema
 from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put, signed
@@ -25,7 +26,6 @@ from linkwright.parts.fields import Flag, Listed, Named, Table
 from linkwright.parts.motions import plain_motions
 from linkwright.words import Message, Say
 from linkwright.words.sentence import Sentence
-from linkwright.worked.page import Step
 
 #: Acceleration of free fall for the beam's own weight, m/s².
 GRAVITY = 9.80665

@@ -12,6 +12,7 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross
 from linkwright.core.quantity import shown
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, SelfCheckError
 from linkwright.fields.base import Quantity, Text, given
 from linkwright.kinetostatics.forces import Forces
@@ -28,7 +29,6 @@ from linkwright.parts.beams.sections import Section, require_modulus, section_fi
 from linkwright.parts.fields import Listed, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.words import Say
-from linkwright.worked.page import Step
 
 #: Points of a link lie on a line within this share of its length.
 STRAIGHT = 1e-6

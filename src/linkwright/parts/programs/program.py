@@ -14,6 +14,9 @@ from linkwright.core import expressions
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import in_kind, unit_of_kind
+from linkwright.equations.notation import Atom, row, sign, upright
+from linkwright.equations.reading import filled, measured, of_file, plain, sides
+from linkwright.equations.steps import Step, Written
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
 from linkwright.fields.base import Field, given
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -43,8 +46,6 @@ from linkwright.parts.programs.nonlinear import (
 from linkwright.parts.programs.problem import Model, Variable
 from linkwright.words import Say
 from linkwright.words.sentence import Sentence
-from linkwright.worked.page import Step, Written
-from linkwright.worked.written import filled, measured, of_file, plain, sides, upright
 
 #: A constraint is active within this share of the size of its sides.
 ACTIVE = 1e-6
@@ -405,7 +406,8 @@ class Optimum(Result):
         except LinkwrightError:
             step.say(label + shown_text)
             return
-        first = f"{upright(name)}:\\quad {set_sides[0]}" if name else set_sides[0]
+        before = (upright(name), sign(":"), Atom("space", "quad")) if name else ()
+        first = row((*before, set_sides[0]))
         step.items.append(Written(label + shown_text, (first, *set_sides[1:])))
 
     def steps(self, say: Say) -> list[Step]:

@@ -8,9 +8,9 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.equations.matrix import ROUNDING
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import applied_rows
-from linkwright.worked.matrix import ROUNDING
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,11 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
 from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put
 from linkwright.words import Say
-from linkwright.worked.page import Step
 
 #: Largest μ θ: e^(μθ) stays a number, with all of its digits.
 GRIP = 300.0

@@ -13,6 +13,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
+from linkwright.equations.matrix import Matrices
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile, Word, given, quantity_schema
 from linkwright.fields.nodes import Node
@@ -24,8 +26,6 @@ from linkwright.parts.motions import plain_motions
 from linkwright.parts.statics.forces import COUPLES, DIRECTION, FORCES, Components, Force, ForceField, spatial
 from linkwright.words import Message, Say
 from linkwright.words.sentence import Sentence
-from linkwright.worked.matrix import Matrices
-from linkwright.worked.page import Step
 
 #: Singular values below this share of the largest count as zero.
 ZERO = 1e-10

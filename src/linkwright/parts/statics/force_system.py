@@ -12,6 +12,9 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number, shown
+from linkwright.equations.matrix import Matrices
+from linkwright.equations.reading import measured
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import given
 from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put, signed
@@ -28,9 +31,6 @@ from linkwright.parts.statics.forces import (
     spatial,
 )  # fmt: skip
 from linkwright.words import Say
-from linkwright.worked.matrix import Matrices
-from linkwright.worked.page import Step
-from linkwright.worked.written import measured
 
 #: Singular values, and sums that stay, below this share of the largest count as zero.
 SINGULAR = 1e-10

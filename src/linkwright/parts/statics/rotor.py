@@ -8,12 +8,12 @@ from functools import cached_property
 from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
 from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put, signed
 from linkwright.parts.fields import Named, Table
 from linkwright.words import Say
-from linkwright.worked.page import Step
 
 #: What is left of the unbalances of a rotor that is balanced, as share of their sizes.
 ROUNDING = 1e-12

@@ -9,6 +9,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.equations.matrix import Matrices
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError
 from linkwright.kinematics.constraint_equations import ConstraintEquations
 from linkwright.kinematics.solve import solve_motion
@@ -21,8 +23,6 @@ from linkwright.parts.statics.body import describe
 from linkwright.structure import StructureError, structure
 from linkwright.words import Message, Say, language_of
 from linkwright.words.sentence import Sentence
-from linkwright.worked.matrix import Matrices
-from linkwright.worked.page import Step
 
 #: Starts of the search for a position, and the gap below which the joints close.
 STARTS, CLOSED = 24, 1e-10

@@ -13,6 +13,8 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
+from linkwright.equations.reading import measured
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, Text, Word, given
 from linkwright.parts.base import (
@@ -44,8 +46,6 @@ from linkwright.parts.statistics.describe import (
 )
 from linkwright.parts.statistics.hypotheses import AGAINST, TESTS, TOGETHER, Outcome
 from linkwright.words import Say
-from linkwright.worked.page import Step
-from linkwright.worked.written import measured
 
 #: A probability below this one is not told apart from nothing.
 TINY = 1e-12

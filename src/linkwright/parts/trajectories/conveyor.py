@@ -11,6 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.fields.base import Quantity, Text, given
 from linkwright.kinematics.motion import Motion
@@ -21,7 +22,6 @@ from linkwright.parts.fields import Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
 from linkwright.words import Say
-from linkwright.worked.page import Step
 
 
 @dataclass(frozen=True)

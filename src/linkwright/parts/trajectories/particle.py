@@ -12,6 +12,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.kinematics.solve import solve_motion
@@ -19,7 +20,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put
 from linkwright.parts.mechanism_field import load_beside
 from linkwright.words import Say
-from linkwright.worked.page import Step
 
 GRAVITY = 9.80665
 #: Accuracy of the integration with quadratic drag, and points of the curve.

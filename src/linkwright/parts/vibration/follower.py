@@ -14,6 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
 from linkwright.core.quantity import number
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding, QuantityError, RequestError
 from linkwright.fields.base import Quantity, given
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -26,7 +27,6 @@ from linkwright.laws.residual import residual
 from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put
 from linkwright.parts.vibration.linear import Linear, largest_between
 from linkwright.words import Say
-from linkwright.worked.page import Step
 
 #: Points of curves; distance from a break at which a law has the value of its side.
 POINTS, BESIDE = 801, 1e-13

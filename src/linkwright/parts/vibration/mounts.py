@@ -12,6 +12,7 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number, shown
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.kinetostatics.forces import Forces
@@ -22,7 +23,6 @@ from linkwright.parts.fields import Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.vibration.linear import largest_between
 from linkwright.words import Say
-from linkwright.worked.page import Step
 
 #: Columns and dimensions of shaking force, motion and force on the ground, by axis.
 TITLES = {

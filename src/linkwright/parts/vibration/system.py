@@ -14,6 +14,8 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
+from linkwright.equations.matrix import Matrices
+from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.fields.nodes import Node
@@ -32,8 +34,6 @@ from linkwright.parts.vibration.excitation import (
 from linkwright.parts.vibration.linear import Linear, largest_between, tuned
 from linkwright.units import DIMENSIONS, SMALLEST
 from linkwright.words import Say
-from linkwright.worked.matrix import Matrices
-from linkwright.worked.page import Step
 
 GROUND = "ground"
 #: Curves of frequency and time have so many points.

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.core.quantity import number, shown_unit
+from linkwright.equations.notation import quantity, row, sign
+from linkwright.equations.reading import read, read_name
 from linkwright.errors import LinkwrightError
 from linkwright.machine.running import SteadyRunning
 from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal
@@ -24,11 +26,11 @@ def blocks(case: Case) -> Iterator[Block]:
     for remark in running.remarks:
         yield Paragraph(literal(remark.say(case.language)))
     speed, energy, mean = running.equivalent.speed, running.energy.value, running.equivalent.mean_inertia
-    numbers = rf"\frac{{{_plain(energy)}}}{{{running.required:g}\cdot {_plain(speed)}^2}} - {_plain(mean)}"
-    symbols = r"\frac{\Delta E}{\delta\,\omega_{\mathrm{m}}^2} - J_{\mathrm{e,m}}"
-    result = rf"{_plain(running.flywheel)}\,\mathrm{{kg·m²}}"
-    sides = ("J_F", symbols, numbers, result) if running.flywheel else ("J_F", symbols)
-    yield Formula(sides, "flywheel-formula")
+    shown = [read("J_F"), row((read("ΔE/(δ ω_m²)"), sign("-"), read_name("J_e,m")))]
+    if running.flywheel:
+        numbers = f"{energy:.6g}/({running.required:g}·{speed:.6g}²) − {mean:.6g}"
+        shown += [read(numbers), row(quantity(f"{running.flywheel:.6g}", "kg·m²"))]
+    yield Formula(tuple(shown), "flywheel-formula")
     if not running.flywheel:
         yield Paragraph(say("report.flywheel_none", most=f"{running.required:g}"))
     rows = tuple(
@@ -58,8 +60,3 @@ def _speed(case: Case) -> Iterator[Block]:
         yield Paragraph(literal(case.told(error)), "missing")
         return
     yield Figure(case.say("report.caption_speed"), ((shown, 0.92),), "speed")
-
-
-def _plain(value: float) -> str:
-    base, e, power = f"{value:.6g}".partition("e")
-    return rf"{base}\cdot 10^{{{int(power)}}}" if e else base

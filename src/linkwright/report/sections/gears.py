@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
+from linkwright.equations.notation import Fraction, Row, row, sign
+from linkwright.equations.reading import read, read_name
 from linkwright.errors import LinkwrightError
 from linkwright.gears.gear import Gear
 from linkwright.gears.pair import GearPair, gear_pair
@@ -14,7 +16,6 @@ from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.structure.trains import GearTrain, written
 from linkwright.words.sentence import link_said
-from linkwright.worked.symbols import tex
 
 
 @section("gears", 8.5, optional=True)
@@ -75,24 +76,17 @@ def _train(case: Case, train: GearTrain) -> Iterator[Block]:
     head = (say("report.motion"), *wheels, *carrier)
     yield Table(literal(caption), tuple(map(literal, head)),
                 tuple(tuple(map(literal, row)) for row in rows), "<" + ">" * (len(head) - 1))  # fmt: skip
-    omega = {name: rf"\omega_{{{number}}}" for name, number in case.heads.numbers.items()}
+    omega = {name: read_name(f"ω{number}") for name, number in case.heads.numbers.items()}
     first = omega[train.first]
     for wheel, ratio in list(train.ratios.items())[1:]:
         own = omega[wheel]
         if train.planetary:
-            c = omega[train.carrier]
-            yield Formula((rf"\frac{{{own} - {c}}}{{{first} - {c}}}", _latex(ratio)))
+            less = (sign("-"), omega[train.carrier])
+            yield Formula((Row((Fraction(row((own, *less)), row((first, *less))),)), read(written(ratio))))
         else:
-            yield Formula((f"i_{{{tex(wheel)}}}", rf"\frac{{{own}}}{{{first}}}", _latex(ratio)))
+            yield Formula((read_name(f"i_{wheel}"), Row((Fraction(own, first),)), read(written(ratio))))
     if train.blocked:
         yield Paragraph(literal(say("report.blocked", pairs=", ".join(train.blocked))), "note")
-
-
-def _latex(ratio: float) -> str:
-    text = written(ratio)
-    above, bar, below = text.partition("/")
-    sign = "-" if above.startswith("-") else ""
-    return rf"{sign}\frac{{{above.removeprefix('-')}}}{{{below}}}" if bar else text
 
 
 def _alike(pairs: Mapping[str, WheelSizes]) -> list[list[str]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.core.quantity import number
+from linkwright.equations.reading import sides
 from linkwright.metrics.base import MetricValue
 from linkwright.metrics.table import told
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
@@ -43,10 +44,7 @@ def _quick_return(case: Case, rows: list[MetricValue]) -> Iterator[Block]:
         ratio = ratios.get(row.subject)
         if ratio is None:
             continue
-        theta = f"{number(row.value, 'angle')}^\\circ"
-        fraction = rf"\frac{{180^\circ + {theta}}}{{180^\circ - {theta}}}"
+        fraction = "(180° + {0})/(180° − {0})"
+        symbols, numbers = fraction.format("θ"), fraction.format(f"{number(row.value, 'angle')}°")
         yield Paragraph(case.say("report.quick_return", subject=literal(row.subject)))
-        yield Formula(
-            ("K", r"\frac{180^\circ + \theta}{180^\circ - \theta}", fraction, f"{ratio.value:.5g}"),
-            number=True,
-        )
+        yield Formula(sides(f"K = {symbols} = {numbers} = {ratio.value:.5g}"))

@@ -6,15 +6,32 @@ from collections.abc import Iterator
 from itertools import chain
 
 from linkwright.elements.topology import Group
+from linkwright.equations.notation import (
+    COMMA,
+    EQUAL,
+    THIN,
+    TIMES,
+    Accent,
+    Atom,
+    Bracket,
+    Node,
+    Row,
+    Script,
+    label,
+    letter,
+    row,
+    sign,
+)
+from linkwright.equations.steps import Equation, Note, Relation, Step, Tabulated, Written
 from linkwright.errors import LinkwrightError
 from linkwright.report.document import Block, Formula, Heading, Paragraph, literal, strong, symbols
-from linkwright.report.formula import formula, width
+from linkwright.report.formula_lines import width
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.worked.chains import Chain, chain_closures
-from linkwright.worked.page import Equation, Note, Relation, Step, Tabulated, Written
-from linkwright.worked.symbols import Book, tex
+from linkwright.worked.symbols import Book
 
+VECTOR_N = Accent("vec", letter("n"))
 #: Width of a line of formulas, em.
 LINE = 36.0
 
@@ -64,37 +81,34 @@ def formulas(step: Step) -> Iterator[Block]:
     if not any(isinstance(item, Equation | Relation | Written) for item in shown):
         return
     yield Paragraph(strong(symbols(step.title)), "lead")
-    held: list[str] = []
+    held: list[Row] = []
     for item in shown:
         if isinstance(item, Equation):
-            held.append(f"{item.latex_symbol} = {item.latex_formula}")
+            held.append(row((item.printed_symbol, EQUAL, item.printed_formula)))
             continue
         yield from side_by_side(held)
         held = []
         if isinstance(item, Note):
             yield Paragraph(symbols(item.text))
         else:
-            yield Formula(item.latex_sides)
+            yield Formula(item.sides)
     yield from side_by_side(held)
 
 
-def side_by_side(formulas: list[str]) -> Iterator[Formula]:
+def side_by_side(formulas: list[Row]) -> Iterator[Formula]:
     """Formulas that are short enough share a line."""
-    line: list[str] = []
-    used = 0.0
+    line: list[Node] = []
     for each in formulas:
-        wide = width(formula(each)) + 2.5
-        if line and used + wide > LINE:
-            yield Formula((r" ,\quad ".join(line),), number=False)
-            line, used = [], 0.0
-        line.append(each)
-        used += wide
+        if line and width(Row((*line, *each.items))) > LINE:
+            yield Formula((Row(tuple(line)),), number=False)
+            line = []
+        line += [*((COMMA, Atom("space", "quad")) if line else ()), *each.items]
     if line:
-        yield Formula((r" ,\quad ".join(line),), number=False)
+        yield Formula((Row(tuple(line)),), number=False)
 
 
-def loops(case: Case, group: Group) -> list[tuple[str, str]]:
-    """Left and right side of every loop, LaTeX; for the cut at a guide the component across it.
+def loops(case: Case, group: Group) -> list[tuple[Row, Row]]:
+    """Left and right side of every loop; for the cut at a guide the component across it.
 
     Rows of gears and racks are no loops: they stand among the formulas.
     """
@@ -103,24 +117,23 @@ def loops(case: Case, group: Group) -> list[tuple[str, str]]:
     for closure in chain_closures(book, group):
         first, second = (_sum(chain) for chain in closure.chains)
         if closure.across is not None:
-            name = tex(closure.cut.joint)
-            first, second = (
-                rf"\vec{{n}}_{{\perp {name}}}\cdot \left({each}\right)" for each in (first, second)
-            )
-            joint = case.mechanism.joints[closure.cut.joint]
-            if getattr(joint, "offset", 0.0):
-                first = rf"{first} + h_{{{name}}}"
+            name = closure.cut.joint
+            across = Script(VECTOR_N, row((sign("⊥"), label(name))))
+            first, second = (Row((across, TIMES, Bracket(each))) for each in (first, second))
+            if getattr(case.mechanism.joints[name], "offset", 0.0):
+                first = row((first, sign("+"), Script(letter("h"), label(name))))
         found.append((first, second))
     return found
 
 
-def _sum(chain: Chain) -> str:
+def _sum(chain: Chain) -> Row:
     """Vectors along a chain, from its base to its tip."""
-    found = rf"\vec{{r}}_{{{tex(chain.base.label)}}}"
+    found: list[Node] = [Script(Accent("vec", letter("r")), label(chain.base.label))]
     for piece in chain.pieces:
         if piece.start.key != piece.end.key:
-            found += rf" + \overrightarrow{{{tex(piece.start.label)}{tex(piece.end.label)}}}"
-        for step, _, sign in piece.slides:
-            name = tex(step.joint)
-            found += rf" {'+' if sign > 0 else '-'} s_{{{name}}}\,\vec{{n}}_{{{name}}}"
-    return found
+            ends = Row((label(piece.start.label), label(piece.end.label)))
+            found += [sign("+"), Accent("overrightarrow", ends)]
+        for step, _, way in piece.slides:
+            at = label(step.joint)
+            found += [sign("+" if way > 0 else "-"), Script(letter("s"), at), THIN, Script(VECTOR_N, at)]
+    return Row(tuple(found))

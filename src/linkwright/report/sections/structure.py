@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkwright.equations.reading import sides
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import JOINTS
 from linkwright.kinematics.rank_of_motion import rank_sentence
@@ -57,13 +58,12 @@ def _mobility(case: Case) -> Formula:
     n, (turning, sliding, w) = counts["links"], lower_pairs(counts)
     p = turning + sliding
     higher = sum(count for kind, count in counts.items() if kind in JOINTS and JOINTS[kind].higher)
-    lower = "p_{L}" if higher else "p"
-    symbols, numbers = f"3\\,n - 2\\,{lower}", f"3\\cdot {n} - 2\\cdot {p}"
+    symbols, numbers = f"3 n − 2 {'p_L' if higher else 'p'}", f"3·{n} − 2·{p}"
     if higher:
-        symbols, numbers = f"{symbols} - p_{{H}}", f"{numbers} - {higher}"
+        symbols, numbers = f"{symbols} − p_H", f"{numbers} − {higher}"
     if w:
-        symbols, numbers = f"{symbols} - 3\\,w", f"{numbers} - 3\\cdot {w}"
-    return Formula(("F", symbols, numbers, str(case.structure.grubler)), "mobility")
+        symbols, numbers = f"{symbols} − 3 w", f"{numbers} − 3·{w}"
+    return Formula(sides(f"F = {symbols} = {numbers} = {case.structure.grubler}"), "mobility")
 
 
 def _groups(case: Case) -> Table:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.cycle.summary import Summary
+from linkwright.equations.reading import sides
 from linkwright.metrics.analysis import Analysis
 from linkwright.report.document import Block, Formula, Paragraph, Table
 from linkwright.report.machine_results import Case, Missing
@@ -26,10 +27,8 @@ def blocks(case: Case) -> Iterator[Block]:
     letter = "M" if case.rotary else "F"
     yield Paragraph(say("report.torque_text"))
     if len(case.mechanism.drivers) == 1:
-        yield Formula(
-            (rf"{letter}_{{\mathrm{{d}}}}\,\dot{{q}} + \sum \left(\vec{{K}}\cdot \vec{{v}}_G + M_J\,\omega\right)"
-             r" + \sum \vec{F}\cdot \vec{v}", "0"), "virtual-power",
-        )  # fmt: skip
+        virtual = f"{letter}_d q\u0307 + Σ(K\u20d7·v\u20d7_G + M_J ω) + ΣF\u20d7·v\u20d7 = 0"
+        yield Formula(sides(virtual), "virtual-power")
         at = case.numbered_forces
         rows = list(numbered.rows)
         joint, power = at.input_torque[rows], at.input_torque_from_power[rows]

@@ -4,17 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkwright.equations.notation import EQUAL, Row, row
+from linkwright.equations.steps import Equation, Note, Step, Tabulated, Written
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.pictures.svg.render import natural_size
 from linkwright.plot.diagrams.force_polygon import link_forces
-from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, Table, literal, symbols
+from linkwright.report.document import (
+    Block,
+    Figure,
+    Formula,
+    Heading,
+    Paragraph,
+    Table,
+    literal,
+    noted,
+    symbols,
+)
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.report.sections.method import side_by_side
-from linkwright.worked.page import Equation, Note, Relation, Step, Tabulated, Written
 from linkwright.worked.solution import Worked
-from linkwright.worked.written import latex_symbol, upright
 
 #: A point, the width of the text and the tallest polygon, mm.
 POINT, TEXT, TALLEST = 25.4 / 72.0, 170.0, 225.0
@@ -48,10 +58,11 @@ def _solution(solution: Worked) -> Iterator[Block]:
 
 def with_numbers(step: Step) -> Iterator[Block]:
     """Sentences and equations of a step; given values side by side."""
-    given: list[str] = []
+    given: list[Row] = []
     for item in step.items:
-        if isinstance(item, Equation) and not item.formula and not item.numbers:
-            given.append(f"{item.latex_symbol} = {_result(item)}")
+        if isinstance(item, Equation) and not item.formula and not item.filled:
+            symbol, result = item.sides
+            given.append(row((symbol, EQUAL, result)))
             continue
         yield from side_by_side(given)
         given = []
@@ -59,33 +70,24 @@ def with_numbers(step: Step) -> Iterator[Block]:
             yield Paragraph(symbols(item.text))
         elif isinstance(item, Written) and item.cells:
             yield _system(item)
-        elif isinstance(item, Relation | Written):
-            yield Formula(item.latex_sides, number=False)
         elif isinstance(item, Tabulated):
-            rows = tuple(tuple(map(symbols, row)) for row in item.rows)
+            rows = tuple(tuple(map(symbols, cells)) for cells in item.rows)
             yield Table(symbols(item.title), tuple(map(symbols, item.head)), rows, item.align)
         else:
-            sides = [item.latex_symbol, item.latex_formula, item.latex_numbers, _result(item)]
-            yield Formula(tuple(side for side in sides if side))
+            yield Formula(item.sides, number=isinstance(item, Equation))
     yield from side_by_side(given)
 
 
 def _system(item: Written) -> Table:
     """A system of equations that is too wide for a formula, as a table."""
     head, *rows = item.cells
-    names = tuple(f"${latex_symbol(each)}$" if each else "" for each in head)
+    names = tuple(noted(each) if each else "" for each in head)
     return Table(
-        r"$A\,X=B$", names, tuple((literal(row[0]), *row[1:]) for row in rows), "<" + ">" * (len(head) - 1)
+        noted("A X = B"),
+        names,
+        tuple((literal(first), *others) for first, *others in rows),
+        "<" + ">" * (len(head) - 1),
     )
-
-
-def _result(item: Equation) -> str:
-    """The result with its unit."""
-    base, e, power = item.result.partition("e")
-    number = rf"{base}\cdot 10^{{{power}}}" if e else base
-    if item.unit == "°":
-        return number + r"^\circ"
-    return rf"{number}\,{upright(item.unit)}" if item.unit else number
 
 
 def _polygons(case: Case) -> Iterator[Block]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
+from linkwright.equations.steps import Step
 from linkwright.synthesis.result import defects_text, error_texts, merits, name_said
 from linkwright.synthesis.steps.writing import Writer, decimals, numbers
-from linkwright.worked.page import Step
 
 #: Tasks whose demands leave one linkage.
 DETERMINED = ("slider_crank", "quick_return", "toggle")

@@ -7,12 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from linkwright.synthesis.requirements.crank_rocker import QuickReturnDerivation
-from linkwright.synthesis.requirements.slider_crank import SliderCrankDerivation
-from linkwright.synthesis.requirements.toggle import ToggleDerivation
-from linkwright.synthesis.steps.writing import Writer, decimals, degrees
-from linkwright.worked.page import Step
-from linkwright.worked.terms import (
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import (
     FOUR,
     ONE,
     TWO,
@@ -27,6 +23,10 @@ from linkwright.worked.terms import (
     sine,
     tangent,
 )
+from linkwright.synthesis.requirements.crank_rocker import QuickReturnDerivation
+from linkwright.synthesis.requirements.slider_crank import SliderCrankDerivation
+from linkwright.synthesis.requirements.toggle import ToggleDerivation
+from linkwright.synthesis.steps.writing import Writer, decimals, degrees
 
 HALF_TURN = number(180.0, degrees=True)
 #: Angles of a toggle that its table shows, in parts of the stroke.

@@ -8,10 +8,10 @@ from collections.abc import Iterable
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import TWO, Term, arccosine
 from linkwright.synthesis.result import Candidate
 from linkwright.synthesis.steps.writing import Writer, decimals, degrees, numbers
-from linkwright.worked.page import Step
-from linkwright.worked.terms import TWO, Term, arccosine
 
 
 def four_bar_lengths(w: Writer, each: Candidate) -> tuple[Term, Term, Term, Term]:

@@ -10,6 +10,9 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.equations.matrix import Entries
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import TWO, Term, cosine, root, sine, symbol
 from linkwright.synthesis.function_generation.exact import Freudenstein
 from linkwright.synthesis.function_generation.generate import FunctionDerivation
 from linkwright.synthesis.steps.closed_forms import rounded
@@ -20,18 +23,14 @@ from linkwright.synthesis.steps.writing import (
     degrees,
     entries,
     matrix,
-    named,
     numbers,
     product,
     small,
 )
-from linkwright.worked.matrix import Matrix
-from linkwright.worked.page import Step
-from linkwright.worked.terms import TWO, Term, cosine, root, sine, symbol
 
 #: Pairs up to which every equation is printed.
 ALL_ROWS = 8
-P = tuple(named("P", str(i)) for i in range(3))
+P = ("P_0", "P_1", "P_2")
 
 
 def function(w: Writer, d: FunctionDerivation) -> None:
@@ -70,8 +69,7 @@ def _given(w: Writer, d: FunctionDerivation) -> None:
         elif of_slider:
             step.give(w.length("s", zero, "0"), w.unit)
         else:
-            name = (f"ζ_{index}", rf"\zeta_{{{named(index)[1]}}}")
-            step.give(symbol(*name, math.degrees(zero), degrees=True), "°")
+            step.give(w.angle("ζ", zero, index), "°")
 
 
 # Freudenstein's equation ------------------------------------------------------------------------
@@ -79,7 +77,7 @@ def _equation(w: Writer, d: FunctionDerivation) -> None:
     step = w.step("freudenstein")
     step.say(w.words("function.freudenstein"))
     a, b, c, frame = _free_symbols(w)
-    p = [symbol(*name, 0.5) for name in P]
+    p = [symbol(name, 0.5) for name in P]
     phi, psi, gamma = (w.angle(name, 1.0) for name in ("φ", "ψ", "γ"))
     step.relate(cosine(phi), p[0] * cosine(psi) + p[1] * cosine(gamma) + p[2])
     step.relate(gamma, psi - phi)
@@ -97,7 +95,7 @@ def _equation(w: Writer, d: FunctionDerivation) -> None:
 
 
 def _free_symbols(w: Writer) -> tuple[Term, ...]:
-    return tuple(symbol(name, name, 1.0) for name in "abcd")
+    return tuple(symbol(name, 1.0) for name in "abcd")
 
 
 def _cosines(w: Writer, equation: Freudenstein, moved: bool) -> None:
@@ -124,8 +122,8 @@ def _solved(w: Writer, d: FunctionDerivation) -> None:
     unknown, count = entries([each] for each in P), len(equation.phi)
     step = w.step("system")
     if count <= ALL_ROWS:
-        rows = [[_cos("ψ", i), _cos("γ", i), ("1", "1")] for i in range(1, count + 1)]
-        product(step, entries(rows), unknown, "=", entries([_cos("φ", i)] for i in range(1, count + 1)))
+        rows = [[f"cos ψ_{i}", f"cos γ_{i}", "1"] for i in range(1, count + 1)]
+        product(step, entries(rows), unknown, "=", entries([f"cos φ_{i}"] for i in range(1, count + 1)))
         product(step, matrix(equation.rows), unknown, "=", matrix(equation.right))
     if d.method == "equation" and count > 3:
         step.say(w.words("function.normal"))
@@ -136,27 +134,20 @@ def _solved(w: Writer, d: FunctionDerivation) -> None:
     product(step, unknown, "=", matrix(equation.p))
 
 
-def _cos(name: str, i: int) -> tuple[str, str]:
-    plain, tex = named(name, str(i))
-    return f"cos {plain}", rf"\cos {tex}"
-
-
-def _sum(*names: str) -> tuple[str, str]:
+def _sum(*names: str) -> str:
     """A sum over all pairs of a product of cosines."""
     if len(names) == 2 and names[0] == names[1]:
-        return f"Σcos²{names[0]}", rf"\sum\cos^2 {named(names[0])[1]}"
-    plain = " ".join(f"cos {name}" for name in names)
-    tex = r"\,".join(r"\cos " + named(name)[1] for name in names)
-    return f"Σ{plain}", rf"\sum {tex}"
+        return f"Σcos²{names[0]}"
+    return "Σ" + " ".join(f"cos {name}" for name in names)
 
 
-def _sums(count: int) -> Matrix:
+def _sums(count: int) -> Entries:
     names = ("ψ", "γ")
     rows = [[_sum(first, second) for second in names] + [_sum(first)] for first in names]
-    return entries([*rows, [*(_sum(name) for name in names), (str(count), str(count))]])
+    return entries([*rows, [*(_sum(name) for name in names), str(count)]])
 
 
-def _sums_right() -> list[tuple[str, str]]:
+def _sums_right() -> list[str]:
     return [_sum("φ", "ψ"), _sum("φ", "γ"), _sum("φ")]
 
 
@@ -165,7 +156,7 @@ def _from_coefficients(w: Writer, d: FunctionDerivation) -> None:
     equation = d.equation
     assert equation is not None
     step = w.step("lengths")
-    p = [symbol(*name, float(value)) for name, value in zip(P, equation.p, strict=True)]
+    p = [symbol(name, float(value)) for name, value in zip(P, equation.p, strict=True)]
     frame = w.length("d", d.frame)
     c = step.find(w.length("c", float(equation.lengths[2]) * d.frame), -(p[1] * frame), w.unit)
     a = step.find(w.length("a", float(equation.lengths[0]) * d.frame), c / p[0], w.unit)
@@ -194,7 +185,7 @@ def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
         step.give(fixed, "°")
     step.give(zeta, "°")
     step.say(w.words("function.root"))
-    step.find(symbol("D", "D", 0.0), value, "")
+    step.find(symbol("D", 0.0), value, "")
 
 
 def _five_pairs(w: Writer, d: FunctionDerivation) -> None:
@@ -202,13 +193,12 @@ def _five_pairs(w: Writer, d: FunctionDerivation) -> None:
     step = w.step("five_pairs")
     step.say(w.words("function.burmester", count=w.found.counts.get("solutions", len(w.found))))
     for index, zero in zip(("φ", "ψ"), d.zeros, strict=True):
-        name = (f"ζ_{index}", rf"\zeta_{{{named(index)[1]}}}")
-        step.give(symbol(*name, math.degrees(zero), degrees=True), "°")
+        step.give(w.angle("ζ", zero, index), "°")
     a, b, c, frame = _lengths(w, d)
     for term in (a, b, c):
         step.give(term, w.unit)
     for name, formula in zip(P, _coefficients((a, b, c, frame)), strict=True):
-        step.find(symbol(*name, formula.value), formula, "")
+        step.find(symbol(name, formula.value), formula, "")
 
 
 def _lengths(w: Writer, d: FunctionDerivation) -> tuple[Term, Term, Term, Term]:
@@ -234,8 +224,7 @@ def _search(w: Writer, d: FunctionDerivation) -> None:
     names = w.say(f"synthesize.type.{d.kind}")
     step.say(w.words("function.search", linkage=names, unknowns=d.unknowns, starts=d.starts, optima=d.optima))
     best = w.found.best
-    zero = math.degrees(best.values["input_zero [rad]"])
-    step.give(symbol("ζ_φ", r"\zeta_{\varphi}", zero, degrees=True), "°")
+    step.give(w.angle("ζ", best.values["input_zero [rad]"], "φ"), "°")
     constant, scale = best.values["output_constant"], best.values["scale"]
     places = w.found.error_name == "length"
     told = {

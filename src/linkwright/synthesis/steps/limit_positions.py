@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import ONE, TWO, Pair, Term, arccosine, cosine, root, sine, tangent
 from linkwright.synthesis.requirements.crank_rocker import CrankRockerDerivation
 from linkwright.synthesis.requirements.drag_link import DragLinkDerivation
 from linkwright.synthesis.steps.closed_forms import HALF_TURN, extreme_position_angle
 from linkwright.synthesis.steps.four_bars import examine, four_bar_lengths
 from linkwright.synthesis.steps.writing import Writer
-from linkwright.worked.page import Step
-from linkwright.worked.terms import ONE, TWO, Pair, Term, arccosine, cosine, root, sine, tangent
 
 
 def crank_rocker(w: Writer, d: CrankRockerDerivation) -> None:

@@ -12,6 +12,8 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Complexes
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import Term, root, symbol
 from linkwright.synthesis.motion_generation.families import POWERS
 from linkwright.synthesis.motion_generation.generate import MotionDerivation
 from linkwright.synthesis.steps.four_bars import coordinates, examine
@@ -21,13 +23,10 @@ from linkwright.synthesis.steps.writing import (
     degrees,
     entries,
     matrix,
-    named,
     numbers,
     product,
     small,
 )
-from linkwright.worked.page import Step
-from linkwright.worked.terms import Term, root, symbol
 
 #: Most poses of which every pole is printed.
 MOST_POLES = 5
@@ -176,7 +175,7 @@ def _centre(w: Writer, step: Step, positions: Complexes, names: tuple[str, str])
     centre = w.found.best.linkage.points[pivot] * w.scale
     far = np.abs(places - centre)
     met = np.abs(far - far[0]).max() <= MET * far[0]
-    unknown = [named("x", pivot), named("y", pivot)]
+    unknown = [f"x_{pivot}", f"y_{pivot}"]
     if met:
         rows = 2 * (places[1:] - places[0])
         right = np.abs(places[1:]) ** 2 - np.abs(places[0]) ** 2
@@ -186,17 +185,17 @@ def _centre(w: Writer, step: Step, positions: Complexes, names: tuple[str, str])
     else:
         step.say(w.words("motion.bisectors_off", pin=pin, pivot=pivot))
     x, y = (
-        symbol(*name, value if abs(value) > MET * far[0] else 0.0)
+        symbol(name, value if abs(value) > MET * far[0] else 0.0)
         for name, value in zip(unknown, (centre.real, centre.imag), strict=True)
     )
     step.give(x, w.unit)
     step.give(y, w.unit)
     first = [
-        symbol(*named(axis, f"{pin}1"), value)
+        symbol(f"{axis}_{pin}1", value)
         for axis, value in (("x", float(places[0].real)), ("y", float(places[0].imag)))
     ]
     radius: Term = root((first[0] - x).squared + (first[1] - y).squared)
-    step.find(symbol(f"l_{pivot}{pin}", f"l_{{{pivot}{pin}}}", float(far[0])), radius, w.unit)
+    step.find(symbol(f"l_{pivot}{pin}", float(far[0])), radius, w.unit)
     off = 0.0 if met else float(np.abs(far - far[0]).max())
     radii = ", ".join(w.lengths(far / w.scale))
     step.say(w.words("motion.radii", pin=pin, pivot=pivot, radii=radii, unit=w.unit, off=f"{off:.4g}"))

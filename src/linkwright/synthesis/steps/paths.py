@@ -6,6 +6,8 @@ import math
 
 import numpy as np
 
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import Pair, symbol, total
 from linkwright.synthesis.free_curve.generate import FreeCurveDerivation
 from linkwright.synthesis.path_generation.exact import NinePointDerivation
 from linkwright.synthesis.path_generation.generate import PathDerivation
@@ -14,8 +16,6 @@ from linkwright.synthesis.requirements.straight_line import FOUR_BARS, StraightL
 from linkwright.synthesis.result import error_texts
 from linkwright.synthesis.steps.four_bars import coordinates, examine, four_bar_lengths
 from linkwright.synthesis.steps.writing import Writer, decimals, degrees, numbers, small
-from linkwright.worked.page import Step
-from linkwright.worked.terms import Pair, symbol, total
 
 #: Points of a free curve that are shown.
 SHOWN = 12
@@ -54,14 +54,14 @@ def _coupler_point(w: Writer) -> None:
     points = w.found.best.linkage.points
     for name in ("O1", "O2"):
         for axis, value in (("x", points[name].real), ("y", points[name].imag)):
-            step.give(symbol(f"{axis}_{name}", f"{axis}_{{{name}}}", value * w.scale), w.unit)
+            step.give(symbol(f"{axis}_{name}", value * w.scale), w.unit)
     for term in four_bar_lengths(w, w.found.best):
         step.give(term, w.unit)
     along = points["B"] - points["A"]
     local = (points["P"] - points["A"]) * along.conjugate() / abs(along)
     step.say(w.words("path.local"))
     for axis, value in (("ξ", local.real), ("η", local.imag)):
-        step.give(symbol(axis, {"ξ": r"\xi", "η": r"\eta"}[axis], value * w.scale), w.unit)
+        step.give(symbol(axis, value * w.scale), w.unit)
 
 
 def _points_met(w: Writer) -> None:
@@ -87,7 +87,7 @@ def _points_met(w: Writer) -> None:
     if off.max() * w.scale > 1e-9 * size and len(off) <= WRITTEN:
         terms = [w.length("e", float(each), str(i + 1)).squared for i, each in enumerate(off)]
         value = float((off**2).sum()) * w.scale**2
-        step.find(symbol("Σe²", r"\sum e^2", value), total(terms), f"{w.unit}²")
+        step.find(symbol("Σe²", value), total(terms), f"{w.unit}²")
     else:
         step.say(w.words("path.sum", squares=error_texts(best)[0]))
     w.picture("structural_error")
@@ -137,10 +137,10 @@ def straight_line(w: Writer, d: StraightLineDerivation) -> None:
 def _proportions(w: Writer, step: Step, kind: str) -> None:
     shape = FOUR_BARS[kind]
     sides = four_bar_lengths(w, w.found.best)
-    unit = symbol("m", "m", sides[3].amount / shape.frame)
+    unit = symbol("m", sides[3].amount / shape.frame)
     step.give(unit, w.unit)
     for term, share in zip(sides, (shape.crank, shape.coupler, shape.output, shape.frame), strict=True):
-        step.find(term, symbol(f"{share:.6g}", f"{share:.6g}", share) * unit, w.unit)
+        step.find(term, symbol(f"{share:.6g}", share) * unit, w.unit)
 
 
 def _along(w: Writer, places: np.ndarray, off: np.ndarray) -> None:

@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import fixed
+from linkwright.equations.matrix import Entries, side_by_side
+from linkwright.equations.steps import Step, Tabulated
+from linkwright.equations.terms import ZERO, Term, symbol
 from linkwright.synthesis.result import Synthesis
 from linkwright.words import Say
-from linkwright.worked.matrix import Matrix, side_by_side
-from linkwright.worked.page import Step, Tabulated
-from linkwright.worked.terms import ZERO, Term, symbol
 
 #: Lengths are printed in m where the longest link has this length or more, m.
 LARGE = 10.0
@@ -23,10 +23,6 @@ LARGE = 10.0
 ROUNDING = 1e-11
 #: Most rows of a table of positions.
 MOST_ROWS = 24
-GREEK = {
-    "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "varepsilon", "ζ": "zeta", "θ": "theta",
-    "λ": "lambda", "μ": "mu", "ρ": "rho", "φ": "varphi", "ψ": "psi", "Δ": "Delta",
-}  # fmt: skip
 
 
 @dataclass
@@ -70,15 +66,15 @@ class Writer:
     # symbols ------------------------------------------------------------------------------------
     def length(self, name: str, metres: float, index: str = "") -> Term:
         """A length by its letter and index; nothing where it is zero."""
-        return symbol(*named(name, index), metres * self.scale) if metres else ZERO
+        return symbol(named(name, index), metres * self.scale) if metres else ZERO
 
     def angle(self, name: str, radians: float, index: str = "") -> Term:
         """An angle, in degrees."""
-        return symbol(*named(name, index), math.degrees(radians), degrees=True)
+        return symbol(named(name, index), math.degrees(radians), degrees=True)
 
     def value(self, name: str, amount: float, index: str = "") -> Term:
         """A plain number."""
-        return symbol(*named(name, index), amount)
+        return symbol(named(name, index), amount)
 
     # texts --------------------------------------------------------------------------------------
     def lengths(self, metres: ArrayLike) -> list[str]:
@@ -105,10 +101,9 @@ class Writer:
         step.items.append(Tabulated(self.words(title), heads, tuple(rows), align or ">" * len(heads)))
 
 
-def named(name: str, index: str = "") -> tuple[str, str]:
-    """A symbol in plain text and in LaTeX."""
-    tex = rf"\{GREEK[name]}" if name in GREEK else name
-    return (f"{name}_{index}", f"{tex}_{{{index}}}") if index else (name, tex)
+def named(name: str, index: str = "") -> str:
+    """A symbol with its index."""
+    return f"{name}_{index}" if index else name
 
 
 def decimals(values: ArrayLike, places: int) -> list[str]:
@@ -132,18 +127,18 @@ def numbers(count: int) -> list[str]:
     return [str(i + 1) for i in range(count)]
 
 
-def matrix(values: ArrayLike, places: int = 6) -> Matrix:
+def matrix(values: ArrayLike, places: int = 6) -> Entries:
     """A matrix of numbers; a vector is a column."""
     rows = np.asarray(values, float)
     rows = rows[:, None] if rows.ndim == 1 else rows
-    return Matrix(tuple(tuple((text, text) for text in decimals(row, places)) for row in rows))
+    return entries(decimals(row, places) for row in rows)
 
 
-def entries(rows: Iterable[Iterable[tuple[str, str]]]) -> Matrix:
-    """A matrix of symbols, each as plain text and as LaTeX."""
-    return Matrix(tuple(tuple(row) for row in rows))
+def entries(rows: Iterable[Iterable[str]]) -> Entries:
+    """A matrix of symbols."""
+    return Entries(tuple(map(tuple, rows)))
 
 
-def product(step: Step, *parts: Matrix | str) -> None:
+def product(step: Step, *parts: Entries | str) -> None:
     """Adds an equation of matrices."""
     step.items.append(side_by_side(parts))

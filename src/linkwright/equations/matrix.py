@@ -1,16 +1,18 @@
-"""Equations of matrices as text and as LaTeX: ``K = [ … ]``, and A·X = B with the names of unknowns and rows."""
+"""Equations of matrices: ``K = [ … ]``, and A·X = B with the names of unknowns and rows."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.equations.notation import Matrix, Node, Row, number, row
+from linkwright.equations.reading import read_name
+from linkwright.equations.steps import Written
 from linkwright.words.characters import aligned, cells, padded
-from linkwright.worked.page import Written
-from linkwright.worked.written import latex_symbol, number
 
 #: Columns of a matrix up to which A·X = B is a formula of a report; a wider one is a table.
 WIDEST = 7
@@ -19,21 +21,20 @@ ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
-class Matrix:
-    """Entries of a matrix in rows, each as plain text and as LaTeX."""
+class Entries:
+    """Entries of a matrix in rows, as they are written on a line."""
 
-    rows: tuple[tuple[tuple[str, str], ...], ...]
+    rows: tuple[tuple[str, ...], ...]
 
     @classmethod
-    def of(cls, matrix: Floats | Sequence[str]) -> Matrix:
+    def of(cls, matrix: Floats | Sequence[str]) -> Entries:
         """Of numbers (m, n), or of names (a column); numbers that are rounding beside the largest are zero."""
-        texts = _texts(matrix)
-        return cls(tuple(tuple((text, _entry(text)) for text in row) for row in texts))
+        return cls(tuple(map(tuple, _texts(matrix))))
 
     @property
     def lines(self) -> list[str]:
         """Its rows in plain text, in brackets that go over all of them."""
-        inside = aligned([[text for text, _ in row] for row in self.rows], ">" * len(self.rows[0]))
+        inside = aligned(self.rows, ">" * len(self.rows[0]))
         if len(inside) == 1:
             return [f"[{inside[0]}]"]
         marks = ["⎡⎤", *["⎢⎥"] * (len(inside) - 2), "⎣⎦"]
@@ -43,18 +44,17 @@ class Matrix:
         ]
 
     @property
-    def latex(self) -> str:
-        """As LaTeX."""
-        rows = r" \\ ".join(" & ".join(tex for _, tex in row) for row in self.rows)
-        return rf"\begin{{bmatrix}} {rows} \end{{bmatrix}}"
+    def printed(self) -> Matrix:
+        """As it is printed."""
+        return Matrix(tuple(tuple(map(_entry, row)) for row in self.rows), "[", "]")
 
 
 def side_by_side(
-    parts: Sequence[Matrix | str], rows: Sequence[str] = (), table: Sequence[tuple[str, ...]] = ()
+    parts: Sequence[Entries | str], rows: Sequence[str] = (), table: Sequence[tuple[str, ...]] = ()
 ) -> Written:
     """An equation of matrices and the signs between them (``=``, a symbol, or empty for a product), the signs halfway
     up; ``rows``: names before the lines; ``table``: what reports print where a matrix is too wide."""
-    blocks = [part.lines if isinstance(part, Matrix) else [part or "·"] for part in parts]
+    blocks = [part.lines if isinstance(part, Entries) else [part or "·"] for part in parts]
     high = max(map(len, blocks))
     if rows:
         blocks.insert(0, [f"{name}:" for name in rows])
@@ -64,14 +64,14 @@ def side_by_side(
         filled = [""] * above + block + [""] * (high - len(block) - above)
         width = max(map(cells, block))
         columns.append([padded(line, width) for line in filled])
-    sides = [""]
+    sides: list[list[Node]] = [[]]
     for part in parts:
         if part == "=":
-            sides.append("")
-        else:
-            sides[-1] += part.latex if isinstance(part, Matrix) else latex_symbol(part) if part else ""
-    text = "\n".join(" ".join(row).rstrip() for row in zip(*columns, strict=True))
-    return Written(text, tuple(sides), tuple(table))
+            sides.append([])
+        elif part:
+            sides[-1] += [part.printed] if isinstance(part, Entries) else read_name(part).items
+    text = "\n".join(" ".join(line).rstrip() for line in zip(*columns, strict=True))
+    return Written(text, tuple(map(row, sides)), tuple(table))
 
 
 @dataclass(frozen=True)
@@ -84,16 +84,16 @@ class Matrices:
 
     def written(self) -> Written:
         """One matrix as ``K = [ … ]``; several as ``A·X = B``, the last one behind the equal sign."""
-        own = [Matrix.of(matrix) for _, matrix in (self.first, *self.rest)]
+        own = [Entries.of(matrix) for _, matrix in (self.first, *self.rest)]
         if not self.rest:
             return side_by_side([self.first[0], "=", own[0]], self.rows)
-        parts: list[Matrix | str] = [*own[:-1], "=", own[-1]]
+        parts: list[Entries | str] = [*own[:-1], "=", own[-1]]
         wide = len(own) == 3 and len(own[0].rows[0]) > WIDEST
         return side_by_side(parts, self.rows, self._cells(own) if wide else ())
 
-    def _cells(self, own: Sequence[Matrix]) -> tuple[tuple[str, ...], ...]:
+    def _cells(self, own: Sequence[Entries]) -> tuple[tuple[str, ...], ...]:
         """A·X = B as rows of a table: names of the unknowns over the columns of A, then B; zeros left out."""
-        a, x, b = ([[text for text, _ in row] for row in each.rows] for each in own)
+        a, x, b = (each.rows for each in own)
         head = ("", *(each[0] for each in x), self.rest[-1][0])
         body = (
             (name, *("" if each == "0" else each for each in row), *right)
@@ -113,7 +113,5 @@ def _texts(matrix: Floats | Sequence[str]) -> list[list[str]]:
     ]
 
 
-def _entry(text: str) -> str:
-    sign = "-" if text.startswith("-") else ""
-    bare = text.removeprefix("-")
-    return sign + number(bare) if bare[:1].isdigit() else latex_symbol(text)
+def _entry(text: str) -> Row:
+    return Row(number(text)) if re.fullmatch(r"-?\d[\d.]*(e[-+]?\d+)?", text) else read_name(text)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from linkwright.worked.terms import NOTHING, Term
+from linkwright.equations.terms import NOTHING, Term
 
 #: Significant digits of a result, and the least and most of a number put in.
 RESULT, LEAST, MOST = 6, 6, 15

@@ -27,7 +27,7 @@ class Term:
     args: tuple[Term, ...] = ()
     signs: tuple[int, ...] = ()
     plain: str = ""
-    latex: str = ""
+    look: str = ""
     amount: float = 0.0
     degrees: bool = False
 
@@ -141,9 +141,9 @@ def _factors(term: Term) -> tuple[Term, ...]:
     return term.args if term.op == "product" else (term,)
 
 
-def symbol(plain: str, latex: str, amount: float, *, degrees: bool = False) -> Term:
-    """A named quantity with its value."""
-    return Term("symbol", plain=plain, latex=latex, amount=amount, degrees=degrees)
+def symbol(plain: str, amount: float, *, degrees: bool = False, look: str = "") -> Term:
+    """A named quantity with its value; ``look``: the name as it is printed, where it is not ``plain``."""
+    return Term("symbol", plain=plain, look=look, amount=amount, degrees=degrees)
 
 
 def number(amount: float, *, degrees: bool = False) -> Term:

@@ -6,13 +6,15 @@ from dataclasses import field, replace
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.equations.digits import digits_needed, error_of, last_place, printed, put_in
+from linkwright.equations.latex import latex
+from linkwright.equations.notation import Atom, Row, quantity, upright
+from linkwright.equations.reading import plain as unmarked
+from linkwright.equations.reading import read, read_name, sides
+from linkwright.equations.terms import Pair, Term, symbol
+from linkwright.equations.typeset import plain, typeset
 from linkwright.errors import SelfCheckError
 from linkwright.words.characters import aligned
-from linkwright.worked.digits import digits_needed, error_of, last_place, printed, put_in
-from linkwright.worked.render import latex, plain
-from linkwright.worked.terms import Pair, Term, symbol
-from linkwright.worked.written import plain as shown_plain
-from linkwright.worked.written import sides, upright
 
 #: A result smaller than this (SI) whose formula gives nothing at all is zero but for rounding.
 FADED = 1e-9
@@ -44,13 +46,13 @@ class Relation:
         return f"{plain(self.left)} = {plain(self.right)}"
 
     @property
-    def latex_sides(self) -> tuple[str, str]:
-        """Left and right side as LaTeX."""
-        return latex(self.left), latex(self.right)
+    def sides(self) -> tuple[Row, ...]:
+        """Both sides as they are printed."""
+        return typeset(self.left), typeset(self.right)
 
     def data(self) -> dict[str, object]:
         """Plain data."""
-        return {"relation": self.text, "latex": " = ".join(self.latex_sides)}
+        return {"relation": self.text, "latex": " = ".join(map(latex, self.sides))}
 
 
 @dataclass(frozen=True)
@@ -58,59 +60,95 @@ class Equation:
     """One result: symbol, formula, the formula with its numbers put in, and the result with its unit.
 
     ``value`` is the result to full precision, SI, angles in degrees; ``output``: which of the machine's outputs it
-    is, if it is one; ``formula`` is empty for what is given; ``terms``: result and formula as they can be reckoned
-    again.
+    is, if it is one; ``formula`` is empty for what is given; ``filled``: the numbers, marked as formulas on a line
+    are; ``terms``: result and formula as they can be reckoned again, with so many ``digits`` of the numbers put in.
     """
 
     symbol: str
-    latex_symbol: str
     formula: str
-    latex_formula: str
-    numbers: str
-    latex_numbers: str
+    filled: str
     result: str
     unit: str
     value: float
     output: Output | None = None
     terms: tuple[Term, Term] | None = field(default=None, repr=False, compare=False)
+    digits: int = field(default=0, repr=False, compare=False)
+
+    @property
+    def numbers(self) -> str:
+        """The formula with its numbers put in."""
+        return unmarked(self.filled)
 
     @property
     def column(self) -> str:
         """The name of its column in the table of all results; empty for what is no output."""
         return self.output.heading if self.output else ""
 
+    @property
+    def printed_symbol(self) -> Row:
+        """The symbol as it is printed."""
+        return typeset(self.terms[0]) if self.terms else read_name(self.symbol)
+
+    @property
+    def printed_formula(self) -> Row:
+        """The formula as it is printed; empty for what is given."""
+        return self._printed(self.formula, None)
+
+    @property
+    def printed_numbers(self) -> Row:
+        """The formula with its numbers as it is printed."""
+        return self._printed(self.filled, self.digits)
+
+    def _printed(self, text: str, digits: int | None) -> Row:
+        if not text:
+            return Row()
+        return typeset(self.terms[1], digits) if self.terms else read(text)
+
+    @property
+    def sides(self) -> tuple[Row, ...]:
+        """Symbol, formula, numbers and result as they are printed, those that there are."""
+        value = Row(quantity(self.result, self.unit))
+        found = (self.printed_symbol, self.printed_formula, self.printed_numbers, value)
+        return tuple(side for side in found if side.items)
+
+    @property
+    def latex_symbol(self) -> str:
+        """The symbol as LaTeX."""
+        return latex(self.printed_symbol)
+
+    @property
+    def latex_formula(self) -> str:
+        """The formula as LaTeX."""
+        return latex(self.printed_formula)
+
+    @property
+    def latex_numbers(self) -> str:
+        """The formula with its numbers as LaTeX."""
+        return latex(self.printed_numbers)
+
     def data(self) -> dict[str, object]:
         """Plain data."""
+        names = ("symbol", "formula", "numbers")
         return {
-            "symbol": self.symbol,
-            "formula": self.formula,
-            "numbers": self.numbers,
-            "result": self.result,
-            "unit": self.unit,
-            "value": self.value,
-            "column": self.column,
-            "latex": {
-                "symbol": self.latex_symbol,
-                "formula": self.latex_formula,
-                "numbers": self.latex_numbers,
-            },
+            **{name: getattr(self, name) for name in (*names, "result", "unit", "value", "column")},
+            "latex": {name: getattr(self, f"latex_{name}") for name in names},
         }
 
 
 @dataclass(frozen=True)
 class Written:
-    """A formula without a result of its own: plain text, of a matrix in several lines, and LaTeX of its sides.
+    """A formula without a result of its own: plain text, of a matrix in several lines, and its sides as printed.
 
     ``cells``: rows of a table, headings first, which reports print in place of a system too wide for a formula.
     """
 
     text: str
-    latex_sides: tuple[str, ...]
+    sides: tuple[Row, ...]
     cells: tuple[tuple[str, ...], ...] = ()
 
     def data(self) -> dict[str, object]:
         """Plain data."""
-        return {"relation": self.text, "latex": " = ".join(self.latex_sides)}
+        return {"relation": self.text, "latex": " = ".join(map(latex, self.sides))}
 
 
 @dataclass(frozen=True)
@@ -157,8 +195,8 @@ class Step:
         """Adds formulas as they are written on a line, several apart by ``;``; ``unit`` of numbers."""
         for each in text.split("; "):
             *first, last = sides(each)
-            last += rf"\quad {upright(unit)}" if unit else ""
-            self.items.append(Written(f"{shown_plain(each.strip())} {unit}".rstrip(), (*first, last)))
+            last = Row((*last.items, Atom("space", "quad"), upright(unit))) if unit else last
+            self.items.append(Written(f"{unmarked(each.strip())} {unit}".rstrip(), (*first, last)))
 
     def relate(self, left: Term, right: Term) -> None:
         """Adds an equation that is solved further below."""
@@ -171,18 +209,18 @@ class Step:
         self.items.append(item)
         return replace(result, amount=0.0) if item.result == "0" else result
 
-    def find_pair(self, names: tuple[str, str], values: complex, formula: Pair, force: Output | None) -> Pair:
-        """Adds both components of a force; ``names``: plain, and LaTeX with its subscript still open."""
+    def find_pair(self, name: str, values: complex, formula: Pair, force: Output | None) -> Pair:
+        """Adds both components of a force."""
         found = []
         for c, value, part in (("x", values.real, formula.x), ("y", values.imag, formula.y)):
-            term = symbol(f"{names[0]}{c}", f"{names[1]}{c}}}", value)
+            term = symbol(f"{name}{c}", value)
             found.append(self.find(term, part, replace(force, component=c) if force else "N"))
         return Pair(found[0], found[1])
 
     def give(self, result: Term, what: str | Output) -> Term:
         """Adds what is known beforehand; ``what``: its unit, or the output that it is."""
-        names = (plain(result), latex(result), "", "", "", "", put_in(result, 6).rstrip("°"))
-        self.items.append(Equation(*names, *_measured(result, what), (result, result)))
+        shown = put_in(result, 6).rstrip("°")
+        self.items.append(Equation(plain(result), "", "", shown, *_measured(result, what), (result, result)))
         return result
 
     def data(self) -> dict[str, object]:
@@ -206,16 +244,14 @@ def _equation(result: Term, formula: Term, what: str | Output) -> Equation:
     place = last_place(value, error)
     text = "0" if formula.value == 0.0 and abs(value) < FADED else printed(value, place)
     digits = digits_needed(formula, text, place if text != "0" else max(place, -6))
-    shown = (plain(formula), latex(formula), plain(formula, digits), latex(formula, digits))
+    symbols, numbers = plain(formula), plain(formula, digits)
     if formula.op == "number":
-        shown = ("", "", "", "")
+        symbols = numbers = ""
     elif formula.op == "symbol" and put_in(formula, digits).rstrip("°") == text:
-        shown = (shown[0], shown[1], "", "")
-    elif shown[0] == shown[2]:
-        shown = ("", "", *shown[2:])
-    if shown[2] == text:
-        shown = (*shown[:2], "", "")
-    return Equation(
-        plain(result), latex(result), *shown, text,
-        *_measured(result, what), (result, formula),
-    )  # fmt: skip
+        numbers = ""
+    elif symbols == numbers:
+        symbols = ""
+    if numbers == text:
+        numbers = ""
+    measured = _measured(result, what)
+    return Equation(plain(result), symbols, numbers, text, *measured, (result, formula), digits)

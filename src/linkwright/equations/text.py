@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from unicodedata import east_asian_width
 
+from linkwright.equations.steps import Equation, Note, Relation, Step, Tabulated, Written
 from linkwright.words.characters import cells
-from linkwright.worked.page import Equation, Note, Relation, Step, Tabulated, Written
 
 WIDTH = 100
 
