@@ -48,7 +48,7 @@ def test_mp4(tmp_path: Path) -> None:
     ("options", "code", "values"),
     [
         (["--paths", "Q"], "names.no_such", {"name": "--paths", "noun": "point"}),
-        (["--curves", "jaw.angel"], "picture.no_result", {"offer": "jaw.angle"}),
+        (["--curves", "jaw.angel"], "study.no_such_output", {"offer": "jaw.angle"}),
         (["--seconds", "3 kg"], "wrong-dimension", {"name": "--seconds", "text": "3 kg"}),
         (["--frames", "many"], "cli.bad_whole", {"name": "--frames", "value": "many"}),
     ],

@@ -107,7 +107,7 @@ def test_png_and_pdf(tmp_path: Path) -> None:
         (["--dimensions", "jam"], "names.no_such", {"noun": "link", "offer": "jaw"}),
         (["--dimensions", "O1:Q"], "names.no_such", {"noun": "point"}),
         (["--forces", "Q"], "names.no_such", {"name": "--forces", "noun": "joint"}),
-        (["--overlay", "limits:jam"], "motion.no_output", {"name": "--overlay", "offer": "jaw"}),
+        (["--overlay", "limits:jam"], "study.no_such_output", {"name": "--overlay", "offer": "jaw"}),
         (["--at", "30"], "missing-unit", {"name": "--at", "text": "30"}),
         (["--at", "30 deg, 40 deg"], "draw.one_position", {"option": "--at"}),
         (["--at", "1 deg", "--time", "1 s"], "cli.not_together", {"name": "--time", "other": "--at"}),

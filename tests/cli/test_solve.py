@@ -170,7 +170,9 @@ def test_columns_are_picked_by_name_beginning_and_pattern() -> None:
         "time", "driver", "coupler.angle", "rocker.angle", "rocker.angular_velocity", "rocker.angular_acceleration",
         "A.velocity.x", "A.velocity.y",
     ]  # fmt: skip
-    is_refused(["solve", "gallery:crank_rocker", "--columns", "rocekr"], "solve.no_column", offer="rocker")
+    is_refused(
+        ["solve", "gallery:crank_rocker", "--columns", "rocekr"], "study.no_such_output", offer="rocker"
+    )
 
 
 def test_points_are_added_to_the_table(monkeypatch: pytest.MonkeyPatch) -> None:

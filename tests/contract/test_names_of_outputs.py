@@ -6,9 +6,12 @@ from pathlib import Path
 
 import pytest
 from tests import store
+from tests.refusals import refused
 
 import linkwright as lw
 from linkwright.cli import main
+from linkwright.plot.animation import animate
+from linkwright.plot.diagrams.diagram_by_name import plot
 
 
 def test_commands_take_one_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -17,8 +20,12 @@ def test_commands_take_one_name(tmp_path: Path, capsys: pytest.CaptureFixture[st
 
 @pytest.mark.rotating
 @pytest.mark.parametrize(
-    "name", ["driver.effort", "input_torque", "jaw", "jaw.angle", "reaction O5 on jaw", "C.x"]
-)
+    "name",
+    [
+        "driver.effort", "input_torque", "jaw", "jaw.angle", "reaction O5 on jaw", "C.x", "C.velocity", "power",
+        "jaw.D.velocity.x", "shaking_force", "transmission_angle B", "velocity_ratio jaw", "closeness",
+    ],
+)  # fmt: skip
 def test_commands_take_every_name(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     commands_take(name, tmp_path, capsys)
 
@@ -46,6 +53,25 @@ def commands_take(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str])
     ]
     for call in calls:
         assert main(call) == 0, (call, capsys.readouterr())
+
+
+def test_an_unknown_name_is_refused_by_one_sentence() -> None:
+    machine, motion = store.machine("jaw_crusher_sixbar"), store.motion("jaw_crusher_sixbar", 12)
+    vary = {"toggle.length": [1.15]}
+    calls: list[Callable[[str], object]] = [
+        lambda name: lw.sweep(machine, vary, outputs=[f"{name} max"], steps=12),
+        lambda name: lw.sensitivity(machine, of=[f"{name} max"], by=["toggle.length"], steps=12),
+        lambda name: lw.study(machine, {"toggle.length": [1.14, 1.16]}, metrics=[f"{name} max"], steps=12),
+        lambda name: lw.study(machine, {"toggle.length": [1.14, 1.16]}, output=name, steps=12),
+        lambda name: lw.compare([machine, machine], output=name, steps=12),
+        lambda name: lw.limit_positions(motion, name),
+        lambda name: plot(motion, "sva", of=name),
+        lambda name: plot(motion, "paths", of=name),
+        lambda name: animate(motion, curves=name, frames=4),
+    ]
+    for call in calls:
+        with refused("study.no_such_output", name="jw.angle", mechanism=machine.name):
+            call("jw.angle")
 
 
 SECTIONS: dict[str, Callable[[str], str]] = {

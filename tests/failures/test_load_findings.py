@@ -382,27 +382,37 @@ loads:
 """
 
 
-@pytest.mark.parametrize("phase", ["of: ram, from: min, to: max", "moving: ram, direction: increasing"])
+@pytest.mark.parametrize(
+    "phase", ["of: ram.angle, from: min, to: max", "moving: ram.angle, direction: increasing"]
+)
 def test_phase_of_a_link_that_only_slides(phase: str) -> None:
-    """A ram's angle never changes; what is meant is the displacement of its guide. While it moves is never."""
+    """A ram's angle never changes; what is meant is the displacement of its guide. While it moves is never. The ram
+    alone means the displacement."""
     word = phase.partition(":")[0]
     told = findings(PRESS.replace("PHASE", phase))
     found = said(told, "no-motion", f"loads.work.phase.{word}", link="ram", word=word, guide="slide")
     assert found.severity == ("error" if word == "of" else "warning")
     assert ":13:" in found.where
+    assert findings(PRESS.replace("PHASE", phase.replace("ram.angle", "ram"))) == []
 
 
 def test_table_over_a_block_in_lengths() -> None:
-    """The block's angle is not meant: the finding names its guide instead of asking for angles."""
+    """The block's angle is not meant: the finding names its guide instead of asking for angles. The block alone means
+    the displacement."""
     text = PRESS.replace(
-        "magnitude: 100 N, phase: {PHASE}", "table: {over: ram, x: [0 mm, 300 mm], y: [1 N, 2 N]}"
+        "magnitude: 100 N, phase: {PHASE}", "table: {over: ram.angle, x: [0 mm, 300 mm], y: [1 N, 2 N]}"
     )
     over = "loads.work.table.over"
     found = said(findings(text), "unit", over, message="model.over_angle", link="ram", guide="slide")
     assert ":13:" in found.where
-    assert findings(text.replace("over: ram", "over: slide")) == []
+    for output in ("slide", "ram"):
+        assert findings(text.replace("over: ram.angle", f"over: {output}")) == []
     said(
-        findings(text.replace("over: ram", "over: rod")), "unit", over, link="rod", remedy="model.over_point"
+        findings(text.replace("over: ram.angle", "over: rod")),
+        "unit",
+        over,
+        link="rod",
+        remedy="model.over_point",
     )
 
 
@@ -427,7 +437,7 @@ def test_check_names_loads_of_what_never_reverses(phase: str, output: str, tmp_p
         ("moving: crank, direction: decreasing", "crank"),
         ("moving: crank, direction: increasing", ""),
         ("moving: B.x, direction: decreasing", ""),
-        ("moving: ram, direction: increasing", '"ram"'),
+        ("moving: ram.angle, direction: increasing", '"ram"'),
     ],
 )
 def test_check_names_loads_that_never_act(phase: str, never: str, tmp_path: Path) -> None:

@@ -319,7 +319,7 @@ def test_alternatives_that_share_no_output() -> None:
         ),
         ({"metrics": ["flywheel"], "weights": {"flywheel": 0}}, "study.all_zero", {}),
         ({"metrics": ["travel"], "weights": {"travel": 2}}, "study.no_direction", {"name": "travel"}),
-        ({"output": "jwa"}, "study.no_output", {"offer": "jaw", "name": "jwa"}),
+        ({"output": "jwa"}, "study.no_such_output", {"offer": "jaw", "name": "jwa"}),
         (
             {"output": {"x": "jaw"}},
             "study.no_output_for",
@@ -423,7 +423,7 @@ def test_values_of_a_study_that_it_does_not_have() -> None:
         ({"sampling": "latin"}, "study.no_sampling", {"sampling": "latin"}),
         ({"sampling": "sobol", "samples": 0}, "study.bad_samples", {"samples": 0}),
         ({"sampling": "sobol", "seed": -1}, "study.bad_seed", {"seed": -1}),
-        ({"output": "rokcer"}, "study.no_output", {"offer": "rocker", "name": "rokcer"}),
+        ({"output": "rokcer"}, "study.no_such_output", {"offer": "rocker", "name": "rokcer"}),
         ({"fluctuation": 0.0}, "running.bad_coefficient", {"fluctuation": 0.0}),
     ],
 )

@@ -129,14 +129,15 @@ def test_limits_stay_within_the_reached_stretch() -> None:
 @pytest.mark.parametrize(
     ("text", "code", "values"),
     [
-        ("crnk", "motion.no_output", {"offer": "crank"}),
-        ("B", "motion.no_output", {"offer": "B.x"}),
-        ("B.z", "motion.no_output", {}),
-        ("frame", "motion.no_output", {}),
+        ("crnk", "study.no_such_output", {"name": "crnk", "offer": "crank"}),
+        ("B", "study.no_such_output", {"name": "B", "offer": "B.x"}),
+        ("B.z", "study.no_such_output", {"name": "B.z"}),
+        ("frame", "study.no_such_output", {"name": "frame"}),
+        ("rocker.angular_velocity", "motion.no_output", {"text": "rocker.angular_velocity"}),
     ],
 )
 def test_unknown_output(text: str, code: str, values: dict[str, object]) -> None:
-    with refused(code, text=text, **values):
+    with refused(code, **values):
         limit_positions(store.motion("crank_rocker"), text)
 
 

@@ -166,7 +166,7 @@ def test_refusals_say_what_there_is(forces: lw.Forces) -> None:
     assert "velocity_polygon" in unknown.value.values["names"]
     with refused("names.no_such", RequestError, name="O55", offer="O1"):
         plot(forces, "hodograph", joint="O55")
-    with refused("motion.no_output", RequestError, text="jow", offer="jaw"):
+    with refused("study.no_such_output", RequestError, name="jow", offer="jaw"):
         plot(forces, "sva", of="jow")
     with refused("missing-unit", LinkwrightError):
         plot(forces, "velocity_polygon", at="30")

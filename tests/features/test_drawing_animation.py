@@ -93,7 +93,7 @@ def test_traces_vectors_and_cursor(crusher: lw.Motion) -> None:
         ({"frames": 1}, "picture.bad_frames", {"frames": 1}),
         ({"seconds": 0.0}, "picture.bad_seconds", {"seconds": 0.0}),
         ({"paths": ("Q",)}, "names.no_such", {"name": "Q"}),
-        ({"curves": ("jaw.angel",)}, "picture.no_result", {"name": "jaw.angel", "offer": "jaw.angle"}),
+        ({"curves": ("jaw.angel",)}, "study.no_such_output", {"name": "jaw.angel", "offer": "jaw.angle"}),
     ],
 )
 def test_what_is_refused(

@@ -214,7 +214,7 @@ def test_path_of_a_point_closes(crusher: lw.Motion) -> None:
         ({"position": 72}, "picture.no_position", {"position": 72, "last": 71}),
         ({"paths": ("Bb",)}, "names.no_such", {"name": "Bb", "offer": "B"}),
         ({"overlay": "limit"}, "picture.bad_overlay", {"overlay": "limit"}),
-        ({"overlay": "limits:jam"}, "motion.no_output", {"text": "jam", "offer": "jaw"}),
+        ({"overlay": "limits:jam"}, "study.no_such_output", {"name": "jam", "offer": "jaw"}),
         ({"overlay": "limits:crank"}, "picture.no_limit_positions", {"name": "crank"}),
         ({"overlay": "faded:0"}, "picture.bad_overlay", {"overlay": "faded:0"}),
         ({"dimensions": ("jam",), "at": 0.1}, "names.no_such", {"name": "jam", "offer": "jaw"}),

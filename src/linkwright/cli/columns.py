@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-import fnmatch
 import math
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
-from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import did_you_mean
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.errors import RequestError
-from linkwright.kinematics.names import output_meant
-from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Say
 from linkwright.words.characters import GAP, cells, padded
-from linkwright.words.sentence import Sentence
 
 #: Digits of a column's largest value.
 DIGITS = 5
@@ -81,31 +73,6 @@ class Column:
         values = self.values[np.isfinite(self.values)]
         exact = (d for d in range(most) if np.abs(values - np.round(values, d)).max() < 1e-9 * self._largest)
         return next(exact, most)
-
-
-def pick(mechanism: Mechanism, columns: Mapping[str, Column], patterns: Sequence[str]) -> list[Column]:
-    """The columns that any pattern names: a name, the beginning of names up to a dot, with ``*`` and ``?``, or an
-    output in the user's words."""
-    found: dict[str, Column] = {}
-    for pattern in patterns:
-        hits = _hits(columns, pattern)
-        if not hits:
-            with suppress(RequestError):
-                hits = _hits(columns, output_meant(mechanism, pattern).column)
-        if not hits:
-            owners = dict.fromkeys(column.owner for column in columns.values() if column.owner)
-            said = Sentence("solve.no_column", pattern=pattern, owners=tuple(owners))
-            raise UsageError(did_you_mean(said, pattern, [*columns, *owners]))
-        found.update((column.name, column) for column in hits)
-    return list(found.values())
-
-
-def _hits(columns: Mapping[str, Column], pattern: str) -> list[Column]:
-    return [
-        column
-        for name, column in columns.items()
-        if name == pattern or name.startswith(f"{pattern}.") or fnmatch.fnmatchcase(name, pattern)
-    ]
 
 
 def fitting(

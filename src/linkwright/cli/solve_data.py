@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from linkwright.cli.columns import Column, pick
+from linkwright.cli.columns import Column
 from linkwright.cli.data import finding_data
 from linkwright.cli.files import csv_of
 from linkwright.cli.solve_columns import leading, point_keys
@@ -62,9 +62,5 @@ def chosen(solved: Solved, options: argparse.Namespace) -> list[Column]:
     if not patterns:
         return list(columns.values())
     first = {column.name: column for column in [columns["time"], *leading(solved, columns)]}
-    return list(
-        {
-            **first,
-            **{column.name: column for column in pick(solved.motion.mechanism, columns, patterns)},
-        }.values()
-    )
+    picked = (Column.of(*item) for item in solved.picked(patterns).items())
+    return list({**first, **{column.name: column for column in picked}}.values())

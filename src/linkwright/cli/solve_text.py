@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from linkwright.cli import solve_remarks
-from linkwright.cli.columns import Column, fitting, pick, table
+from linkwright.cli.columns import Column, fitting, table
 from linkwright.cli.session import Session
 from linkwright.cli.solve_columns import blocks, efforts, leading, point_keys
 from linkwright.cli.solving import Solved
@@ -56,7 +56,8 @@ def _chosen(solved: Solved, options: argparse.Namespace, session: Session) -> tu
     first = leading(solved, columns)
     if options.columns:
         points = point_keys(solved.motion, options.points)
-        picked = pick(solved.motion.mechanism, columns, [*options.columns, *points])
+        found = (Column.of(*item) for item in solved.picked([*options.columns, *points]).items())
+        picked = [column if options.si else column.in_degrees() for column in found]
         names = {column.name for column in picked}
         return [*(column for column in first if column.name not in names), *picked], ""
     return _fitted(solved, columns, first, options, session)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable
-from contextlib import suppress
+from collections.abc import Sequence
 from functools import cached_property
+from itertools import chain
 from math import ceil
 from typing import Literal
 
@@ -16,11 +16,11 @@ from linkwright.cli.positions import inputs, joined, places
 from linkwright.core.arrays import Floats, Indices, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.errors import Finding, LinkwrightError, RequestError
+from linkwright.errors import Finding, LinkwrightError, RequestError, about
 from linkwright.events.position_list import MOST
 from linkwright.kinematics.cycle import time_span
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import output_meant
+from linkwright.kinematics.names import no_output, of_forces, results_meant
 from linkwright.kinematics.proof import Proof, prove
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
@@ -93,14 +93,20 @@ class Solved:
         found = results_of(self.motion, self.forces)
         return {output: values[self.rows] for output, values in found.items()}
 
-
-def _of_forces(mechanism: Mechanism, names: Iterable[str]) -> bool:
-    """Whether one of some names means a result of the forces."""
-    for name in names:
-        with suppress(RequestError):
-            if not output_meant(mechanism, name).of_motion:
-                return True
-    return False
+    def picked(self, patterns: Sequence[str]) -> dict[Output, Floats]:
+        """The results at the shown rows that any pattern names: a column, the beginning of columns up to a dot, with
+        ``*`` and ``?``, or an output in the user's words."""
+        results, mechanism, found = self.results(), self.motion.mechanism, dict[Output, Floats]()
+        solved = self.motion if self.forces is None else self.forces
+        with about("--columns", UsageError, RequestError):
+            for output in chain.from_iterable(results_meant(mechanism, each, results) for each in patterns):
+                if output in results:
+                    found[output] = results[output]
+                elif output.of_motion or self.forces is not None:
+                    found[output] = self.analysis.signal(output.name)(solved)[self.rows]
+                elif self.trouble is None:
+                    no_output(mechanism, output.name)
+        return found
 
 
 def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Namespace) -> Solved:
@@ -108,7 +114,7 @@ def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Names
     motion, rows, turns = _motion(mechanism, options)
     wanted = options.forces
     if wanted is None:
-        wanted = mechanism.has_loads or options.static or _of_forces(mechanism, options.columns or ())
+        wanted = mechanism.has_loads or options.static or of_forces(mechanism, options.columns or ())
     forces, trouble = None, None
     if wanted:
         try:

@@ -109,6 +109,13 @@ _RATE_DIMENSIONS = {
 }  # fmt: skip
 
 
+#: Dimension of an output's rate over the input's, by the dimensions of output and input.
+RATIO = {
+    ("angle", "angle"): "dimensionless",
+    ("length", "length"): "dimensionless",
+    ("length", "angle"): "length_per_angle",
+    ("angle", "length"): "angle_per_length",
+}
 #: Where something is; a point's motion, and a guide's.
 PLACES = ("position", "angle", "displacement")
 POINT = ("position", "velocity", "acceleration")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
@@ -12,7 +13,7 @@ from linkwright.core.outputs import Output
 from linkwright.course.calculation_chain import Line
 from linkwright.course.mistakes import Sheet
 from linkwright.designs.ranges import dimension_of
-from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
+from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError, RequestError
 from linkwright.files.write import flow
 from linkwright.kinematics.names import result_meant
 from linkwright.mechanism.mechanism import Mechanism
@@ -168,10 +169,12 @@ class _Reading:
             return ()
         found = []
         for i, name in enumerate(given):
-            try:
-                found.append(Question(result_meant(self.mechanism, str(name), sheet.values)))
-            except LinkwrightError:
-                self._wrong(f"ask.{i}", "no_number", name=str(name), hint=offered(str(name), names))
+            with suppress(RequestError):
+                meant = result_meant(self.mechanism, str(name), sheet.values)
+                if meant in sheet.values:
+                    found.append(Question(meant))
+                    continue
+            self._wrong(f"ask.{i}", "no_number", name=str(name), hint=offered(str(name), names))
         return tuple(dict.fromkeys(found))
 
 

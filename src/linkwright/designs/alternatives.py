@@ -19,6 +19,7 @@ from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.model_file import load
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import place_meant
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
@@ -28,7 +29,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.of_output import Asked, pivot
 from linkwright.metrics.outputs import mechanism_outputs
-from linkwright.registry import offered
 from linkwright.words.sentence import Sentence
 
 #: A mean torque of this share of the largest one is zero but for rounding.
@@ -152,7 +152,7 @@ def alternatives(
     labels = _labels(machines)
     names = _outputs(machines, labels, sources, output)
     return [
-        Alternative(label, machine, output_of_machine(machine, name), steps, fluctuation)
+        Alternative(label, machine, place_meant(machine, name), steps, fluctuation)
         for label, machine, name in zip(labels, machines, names, strict=True)
     ]
 
@@ -215,21 +215,3 @@ def _nothing_shared(labels: Sequence[str], own: Sequence[Sequence[str]]) -> str:
         f"{label!r}: {(names or ['…'])[0]!r}" for label, names in zip(labels, own, strict=True)
     )
     return Sentence("study.no_common_output", told=told, example=example)
-
-
-def output_of_machine(machine: Mechanism, name: str) -> Output:
-    """An output by its name, that of a block on a frame's guide its displacement.
-
-    Raises LinkwrightError with the nearest one.
-    """
-    from linkwright.kinematics.names import output_of
-
-    for joint_name, joint in machine.guides.items():
-        if joint.guide == "frame" and joint.block == name:
-            name = joint_name
-    try:
-        return output_of(machine, name)
-    except LinkwrightError:
-        own = [str(each) for each in mechanism_outputs(machine)]
-        hint = offered(name, own, "names.it_has")
-        raise RequestError("study.no_output", machine=machine.name, name=name, hint=hint) from None

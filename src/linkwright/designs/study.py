@@ -18,7 +18,7 @@ from linkwright.core.given import require
 from linkwright.core.html import columns_html
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
-from linkwright.designs.alternatives import Alternative, output_of_machine
+from linkwright.designs.alternatives import Alternative
 from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import Criterion, criteria
 from linkwright.designs.design_numbers import side_by_side
@@ -32,6 +32,7 @@ from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.files.write import dump
 from linkwright.formula.machine_code import available
 from linkwright.formula.threads import chunks
+from linkwright.kinematics.names import place_meant
 from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.by_name import ask, is_summary
@@ -250,7 +251,7 @@ class _Work:
     ) -> None:
         self.mechanism, self.columns, self.asked = mechanism, columns, asked
         self.fluctuation, self.steps, self.progress = fluctuation, steps, progress or current_progress()
-        self.output = usual_output(mechanism) if output is None else output_of_machine(mechanism, output)
+        self.output = usual_output(mechanism) if output is None else place_meant(mechanism, output)
         self.count = len(next(iter(columns.values())))
         self.values = {each.name: np.full(self.count, np.nan) for each in asked}
         self.dimensions = {each.name: "dimensionless" for each in asked}

@@ -31,7 +31,7 @@ from linkwright.events.stretches import Span, Stretches
 from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.motion import TURN, Motion
-from linkwright.kinematics.names import output_of, program_names
+from linkwright.kinematics.names import place_meant, program_names
 from linkwright.kinematics.reached_stretches import Reach
 from linkwright.loads.signals import Limit, LimitKind
 
@@ -81,7 +81,7 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
         LinkwrightError: there is no such output, or the positions do not follow the drivers' laws in time.
     """
     require(motion, Motion)
-    found = output if isinstance(output, Output) else output_of(motion.mechanism, str(output))
+    found = output if isinstance(output, Output) else place_meant(motion.mechanism, str(output))
     if motion.steps < 3 or not motion.mechanism.drivers:
         return ()
     return motion.kept(("limits", found), lambda: _limits(motion, found))

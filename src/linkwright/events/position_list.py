@@ -15,7 +15,7 @@ from linkwright import units
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.errors import QuantityError, RequestError
-from linkwright.kinematics.names import output_of
+from linkwright.kinematics.names import place_meant
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 
@@ -213,7 +213,7 @@ def values_of(text: str, dimension: str) -> list[float]:
 def known_outputs(mechanism: Mechanism, listed: PositionList) -> None:
     """Raises RequestError for a limit position of what is no output, with the nearest one."""
     for name in listed.outputs:
-        output_of(mechanism, name)
+        place_meant(mechanism, name)
 
 
 def _word(part: str) -> AtLimit | None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import PLACES, Output
 from linkwright.export.results import Results
 from linkwright.export.tables import Column
 from linkwright.mechanism.force_names import reaction_pairs
@@ -96,17 +96,13 @@ class Charts:
     def _motion(self) -> Iterator[list[Chart]]:
         """A row of displacement, velocity and acceleration for every main output."""
         for output in main_outputs(self.results.motion)[:4]:
-            if isinstance(output, Output):
-                subject, owner = ("links" if output.kind == "angle" else "joints"), output.owner
-                course = output.course if output.kind in PLACES else ()
-                kinds: list[tuple[str, ...]] = [(each.quantity,) for each in course]
-            else:
-                subject, owner = "points", output
-                kinds = [(f"{kind}.x", f"{kind}.y") for kind in ("position", "velocity", "acceleration")]
+            subject = {"angle": "links", "position": "points"}.get(output.kind, "joints")
+            axes = "xy" if output.kind == "position" else ("",)
+            kinds = [[replace(each, component=axis).quantity for axis in axes] for each in output.course]
             yield [
                 chart
                 for each in kinds
-                if (chart := self._of_kind(subject, owner, each, str(output))) is not None
+                if (chart := self._of_kind(subject, output.owner, each, str(output))) is not None
             ]
 
     def _of_kind(self, subject: str, owner: str, quantities: Sequence[str], name: str) -> Chart | None:

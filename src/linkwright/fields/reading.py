@@ -43,16 +43,16 @@ class Names:
     """The names in a model, known before its values are read.
 
     ``links`` maps every link, the frame among them, to its points; ``joints`` every joint, the implied pins
-    among them, to its kind, ``sliding`` those with a displacement; ``pins`` every implied pin to its links,
-    ``blocks`` every block to its guide, ``welded`` a link to the one to which a weld ties it on a pin that it
-    would share.
+    among them, to its kind; ``sliding`` what means a displacement to its joint; ``pins`` every implied pin to its
+    links, ``blocks`` every block to its guide, ``welded`` a link to the one to which a weld ties it on a pin that
+    it would share.
     ``illegible`` are the links whose points cannot be read; ``listed`` where the links themselves can be,
     each under a name of its own.
     """
 
     links: dict[str, tuple[str, ...]] = field(default_factory=lambda: {"frame": ()})
     joints: dict[str, str] = field(default_factory=dict)
-    sliding: list[str] = field(default_factory=list)
+    sliding: dict[str, str] = field(default_factory=dict)
     pins: dict[str, tuple[str, ...]] = field(default_factory=dict)
     blocks: dict[str, str] = field(default_factory=dict)
     welded: dict[str, str] = field(default_factory=dict)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import field
 from typing import Any, ClassVar
 
@@ -242,14 +242,31 @@ class OutputName(Field):
         return str(value)
 
 
-def resolve_output(text: str, links: Mapping[str, Collection[str]], slides: Collection[str]) -> Output | None:
-    """The output that a text means, given each link's points and the joints with a displacement; None where it means
-    none. ``jaw`` or ``jaw.angle``, ``guide`` or ``guide.displacement``, ``C.x`` or ``C.position.x``."""
+def sliding(joints: Iterable[tuple[str, str, str]], links: Collection[str]) -> dict[str, str]:
+    """What means a displacement, to the joint that has it: joints that slide, given with guide and block, but for
+    those with the name of a link, and links that slide along the frame."""
+    found: dict[str, str] = {}
+    for name, guide, block in joints:
+        own = [link for link in (guide, block) if link != "frame"]
+        found |= dict.fromkeys({name} - set(links), name)
+        if len(own) == 1:
+            found.setdefault(own[0], name)
+    return found
+
+
+def resolve_output(
+    text: str, links: Mapping[str, Collection[str]], slides: Mapping[str, str]
+) -> Output | None:
+    """The place over the cycle that a text means, given each link's points and what means a displacement; None where
+    it means none. ``jaw`` or ``jaw.angle``, ``guide`` or ``guide.displacement``, ``C.x`` or ``C.position.x``."""
     owner, _, part = text.rpartition(".")
-    for kind, owners in (("angle", links), ("displacement", slides)):
-        name = owner if part == kind else text
-        if name in owners and name != "frame":
-            return Output(kind, name)
+    name = owner if part == "displacement" else text
+    if name in slides or (part == "displacement" and owner in slides.values()):
+        joint = slides.get(name, name)
+        return Output("displacement", joint, written="" if name == joint else name)
+    link = owner if part == "angle" else text
+    if link in links and link != "frame":
+        return Output("angle", link)
     if part not in ("x", "y"):
         return None
     owner = owner.removesuffix(".position")

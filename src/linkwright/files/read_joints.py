@@ -8,6 +8,7 @@ from dataclasses import replace
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.fields.reading import Names, Place
+from linkwright.fields.references import sliding
 from linkwright.files.node_reader import as_meant, meant_kind
 from linkwright.files.reader import Reader
 from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
@@ -25,13 +26,15 @@ def scan_joints(reader: Reader, node: Node | None) -> None:
     )
     reader.names.pins = _implied_pins(reader.names, [value for _, value in declared])
     reader.names.joints = dict.fromkeys(reader.names.pins, IMPLIED)
+    slides: list[tuple[str, str, str]] = []
     for key, value in declared:
         kind = meant_kind(value.get("kind"), JOINTS)
         if kind is not None and kind != IMPLIED:
             reader.names.joints[key] = kind
             reader.names.blocks.setdefault(_word(value, "block"), key)
-    kinds = reader.names.joints
-    reader.names.sliding = [name for name in kinds if JOINTS[kinds[name]].coordinate == "slide"]
+            if JOINTS[kind].coordinate == "slide":
+                slides.append((key, _word(value, "guide"), _word(value, "block")))
+    reader.names.sliding = sliding(slides, reader.names.links)
 
 
 def _word(node: MappingNode, key: str) -> str:

@@ -173,7 +173,7 @@ class Reader(PlainReader):
         found = {link: angle for link in self.names.links if link != "frame" and link not in taken}
         found |= {name: length for name in self.names.sliding if name not in taken}
         found |= {f"{link}.angle": angle for link in self.names.links if link != "frame"}
-        found |= {f"{name}.displacement": length for name in self.names.sliding}
+        found |= {f"{name}.displacement": length for name in self.names.sliding.values()}
         owned = {(link, point) for link, points in self.names.links.items() for point in points}
         places = {*(point for _, point in owned), *(f"{link}.{point}" for link, point in owned)}
         found |= {
@@ -305,8 +305,9 @@ class Reader(PlainReader):
             and isinstance(first, Scalar)
             and units.unit_fits(first.text, "length")
         ):
-            guide = self.names.blocks.get(text)
+            guide = self.names.blocks.get(found.owner)
             remedy = Sentence("model.over_guide", guide=guide) if guide else Sentence("model.over_point")
-            self.error(value, place.child("over"), Sentence("model.over_angle", link=text), remedy, "unit")
+            message = Sentence("model.over_angle", link=found.owner)
+            self.error(value, place.child("over"), message, remedy, "unit")
             return None, "length"
         return found, found.dimension if found else self.input_dimension()

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import fnmatch
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from typing import NoReturn
 
-from linkwright.core.outputs import KINDS, SLIDE, Output, row_names
+from linkwright.core.outputs import KINDS, NAMED, POINT, RATIO, RESIDUALS, SLIDE, Output, row_names
 from linkwright.errors import RequestError
-from linkwright.fields.references import resolve_output
+from linkwright.loads.signals import place_named
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.named_output import named_outputs
 from linkwright.registry import no_such, offered
@@ -87,21 +88,23 @@ def _unknown(noun: str, name: str, known: list[str]) -> RequestError:
     return RequestError(no_such(noun, name, known))
 
 
-def output_of(mechanism: Mechanism, text: str) -> Output:
+def place_meant(mechanism: Mechanism, text: str) -> Output:
     """The place over the cycle that a text means: a link's angle, a guide's displacement, a point's coordinate.
 
-    Raises LinkwrightError, with the nearest one, where it means none.
+    Raises RequestError, with the nearest one, where it means none.
     """
-    links = {name: link.points for name, link in mechanism.links.items()}
-    guides = tuple(mechanism.guides)
-    found = resolve_output(text, links, guides)
-    if found is not None:
-        return found
-    if text in named_outputs(mechanism.outputs):
+    meant, found = _output(mechanism, text), place_named(text, mechanism)
+    if meant is not None and meant.kind in NAMED:
         raise RequestError("motion.no_limits_of_formula", name=text)
-    points = [f"{point}.{axis}" for link in links.values() for point in link for axis in "xy"]
-    hint = offered(text, [*links, *guides, *points])
-    raise RequestError("motion.no_output", text=text, hint=hint)
+    if meant is None or found is None:
+        points = [
+            f"{point}.{axis}" for link in mechanism.links.values() for point in link.points for axis in "xy"
+        ]
+        known = [*mechanism.links, *mechanism.guides, *points]
+        if meant is None:
+            no_output(mechanism, text, known)
+        raise RequestError("motion.no_output", text=text, hint=offered(text, known))
+    return meant if found.kind == "displacement" else found
 
 
 def output_meant(mechanism: Mechanism, text: str) -> Output:
@@ -110,22 +113,41 @@ def output_meant(mechanism: Mechanism, text: str) -> Output:
 
     Raises RequestError with the nearest known names.
     """
-    words, named = text.split(), named_outputs(mechanism.outputs)
-    if text in named:
-        found: Output | None = named[text]
-    elif words and words[0] in PHRASES:
-        found = _phrase(mechanism, text, PHRASES[words[0]], words[1:])
-    elif len(words) == 3 and words[1] == "on":
-        found = _over_column(mechanism, text, *words[::2])
-    elif text in mechanism.links or text in mechanism.guides:
-        found = output_of(mechanism, text)
-    else:
-        found = _part(mechanism, text)
+    found = _output(mechanism, text)
     return no_output(mechanism, text) if found is None else found
 
 
+def output_or_point(mechanism: Mechanism, text: str) -> Output:
+    """The same, or the whole motion of a point that is named alone or by a vector of it: its position."""
+    found = _output(mechanism, text)
+    if found is not None:
+        whole = found.kind in POINT and not found.component
+        return Output("position", found.owner) if whole else found
+    if owners(mechanism, text):
+        return Output("position", point_key(mechanism, text))
+    if "." in text:
+        with suppress(RequestError):
+            return Output("position", point_key(mechanism, text))
+    return no_output(mechanism, text)
+
+
+def _output(mechanism: Mechanism, text: str) -> Output | None:
+    words, named = text.split(), named_outputs(mechanism.outputs)
+    if text in named:
+        return named[text]
+    if words and words[0] in PHRASES:
+        return _phrase(mechanism, text, PHRASES[words[0]], words[1:])
+    if len(words) == 3 and words[1] == "on":
+        return _over_column(mechanism, text, *words[::2])
+    place = place_named(text, mechanism)
+    if place is not None and place.kind != "position":
+        return replace(place, written="")
+    return _part(mechanism, text)
+
+
 def result_meant(mechanism: Mechanism, text: str, results: Iterable[Output]) -> Output:
-    """The one of some results that has a name, over its column with or without its unit, or in the user's words.
+    """The output that a text means: one of some results by its column, with or without its unit, or any other in the
+    user's words.
 
     Raises RequestError with the nearest names.
     """
@@ -133,16 +155,37 @@ def result_meant(mechanism: Mechanism, text: str, results: Iterable[Output]) -> 
     headings = {each.heading: each for each in known.values()}
     found = known.get(text) or headings.get(text)
     if found is None:
-        with suppress(RequestError):
-            found = known.get(output_meant(mechanism, text).column)
-    if found is None:
-        raise RequestError("picture.no_result", name=text, hint=offered(text, known))
+        found = output_meant(mechanism, text)
+        found = known.get(found.column, found)
     return found
 
 
-def no_output(mechanism: Mechanism, text: str) -> NoReturn:
-    """Raises RequestError with the names that come nearest to one that means nothing."""
-    hint = offered(text, list(output_names(mechanism)), "study.such_as", most=6)
+def results_meant(mechanism: Mechanism, text: str, results: Iterable[Output]) -> list[Output]:
+    """The same of a text that may mean several results: by the beginning of their columns up to a dot, or with ``*``
+    and ``?``."""
+    known = list(results)
+    found = [
+        each
+        for each in known
+        if each.column == text or each.column.startswith(f"{text}.") or fnmatch.fnmatchcase(each.column, text)
+    ]
+    return found or [result_meant(mechanism, text, known)]
+
+
+def of_forces(mechanism: Mechanism, names: Iterable[str]) -> bool:
+    """Whether one of some names means a result of the forces."""
+    for name in names:
+        with suppress(RequestError):
+            if name in RESIDUALS or not output_meant(mechanism, name).of_motion:
+                return True
+    return False
+
+
+def no_output(mechanism: Mechanism, text: str, known: Iterable[str] = ()) -> NoReturn:
+    """Raises RequestError with those of the known names that come nearest to one that means nothing; of all outputs
+    where none are given."""
+    alone = () if "." in text else (*mechanism.links, *mechanism.guides)
+    hint = offered(text, known or [*output_names(mechanism), *alone], "study.such_as", most=6)
     raise RequestError("study.no_such_output", name=text, mechanism=mechanism.name, hint=hint)
 
 
@@ -152,9 +195,14 @@ def _part(mechanism: Mechanism, text: str) -> Output | None:
     axis = last if last in ("x", "y") else ""
     if axis and base == "shaking_force":
         return Output(base, "", axis)
-    for of, owners in (("driver", mechanism.drivers), ("link", mechanism.links), ("guide", mechanism.guides)):
+    for of, owners in (("driver", mechanism.drivers), ("link", mechanism.links)):
         if base in owners and (of, last) in _PARTS:
             return Output(_PARTS[of, last], base, slides=of == "driver" and _slides(mechanism, base))
+    if ("guide", last) in _PARTS:
+        place = place_named(base, mechanism)
+        guide = base if place is None or place.kind != "displacement" else place.owner
+        if guide in mechanism.guides:
+            return Output(_PARTS["guide", last], guide)
     owner, part = base, last
     if axis:
         owner, _, part = base.rpartition(".")
@@ -174,7 +222,10 @@ def _phrase(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Outp
         return Output(kind, rest[0], on=rest[1]) if len(rest) == 2 else None
     if kind in HARMONIC:
         ordered = len(rest) > 1 and rest[-1] in ORDERS
-        return Output(kind, " ".join(rest[:-1]), on=rest[-1]) if ordered else None
+        if not ordered:
+            return None
+        inner = output_meant(mechanism, " ".join(rest[:-1]))
+        return Output(kind, inner.name, on=rest[-1], measured=inner.dimension)
     match KINDS[kind].of:
         case "machine":
             return None if rest else Output(kind)
@@ -185,6 +236,10 @@ def _phrase(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Outp
     known = {"link": {**mechanism.links, **mechanism.guides}, "load": mechanism.loads}.get(KINDS[kind].of)
     if len(rest) != 1 or (known is not None and rest[0] not in known):
         return None
+    if kind == "velocity_ratio":
+        place = output_meant(mechanism, rest[0])
+        measured = RATIO[place.dimension, "length" if first and _slides(mechanism, first) else "angle"]
+        return Output(kind, place.owner, measured=measured)
     return Output(kind, point_key(mechanism, rest[0]) if KINDS[kind].of == "point" else rest[0])
 
 

@@ -8,7 +8,7 @@ from linkwright.formula.vector import Vec
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.loads.base import Load
-from linkwright.loads.signals import BetweenLimits, output_named
+from linkwright.loads.signals import BetweenLimits, place_named
 from linkwright.loads.strokes import moving_of_turn, share_of, stroke_of_turn
 from linkwright.mechanism.mechanism import Mechanism
 
@@ -161,7 +161,7 @@ class TracedSite:
             return self.motion.dimensions(name)
         if name in ("t", "input"):
             return self.input if name == "input" else self.motion.trace.position("time")
-        found = output_named(name, self.motion.mechanism)
+        found = place_named(name, self.motion.mechanism)
         assert found is not None
         return self.output(found)
 

@@ -35,13 +35,6 @@ _ACCELERATIONS = {
     "angular_jerk": "angular_acceleration",
     "slide_jerk": "slide_acceleration",
 }
-#: Dimension of output rate over input rate, by the kinds of output and input.
-RATIO = {
-    ("angle", "angle"): "dimensionless",
-    ("length", "length"): "dimensionless",
-    ("length", "angle"): "length_per_angle",
-    ("angle", "length"): "angle_per_length",
-}
 
 
 @dataclass(frozen=True)
@@ -118,10 +111,10 @@ class Named:
             return Quantity(name, output, output.dimension, self._named(output)[NAMED.index(output.kind)])
         if output.kind in HARMONIC:
             inner = self.quantity(output.owner)
-            return Quantity(name, output, inner.dimension, inner.value * self._wave(name, output))
+            return Quantity(name, output, output.dimension, inner.value * self._wave(name, output))
         found = self._traced(name, output)
         value = _component(found, output.component) if isinstance(found, Vec) else found
-        return Quantity(name, output, output.dimension or self._ratio(output), value)
+        return Quantity(name, output, output.dimension, value)
 
     def _traced(self, name: str, output: Output) -> Scalar | Vec:
         if output.kind in _FORMULAS:
@@ -219,13 +212,6 @@ class Named:
         for _ in range(int(output.on) - 1):
             cosine, sine = cosine * turn.x - sine * turn.y, sine * turn.x + cosine * turn.y
         return cosine if output.kind == "cosine" else sine
-
-    def _ratio(self, output: Output) -> str:
-        """Dimension of a rate over the first driver's."""
-        driver = next(iter(self.mechanism.drivers.values()))
-        turns = self.mechanism.joints[driver.joint].coordinate == "turn"
-        slides = output.owner in self.mechanism.guides
-        return RATIO["length" if slides else "angle", "angle" if turns else "length"]
 
     # formulas -----------------------------------------------------------------------------
     def closeness(self, name: str, output: Output) -> Scalar:

@@ -11,7 +11,7 @@ from linkwright.core.outputs import Output
 from linkwright.core.quantity import reported
 from linkwright.errors import QuantityError
 from linkwright.formula.late_import import numpy as np
-from linkwright.loads.signals import Signals, column, input_dimension, named_column, output_named
+from linkwright.loads.signals import Signals, column, input_dimension, named_column, place_named
 from linkwright.loads.strokes import NEAR, TURN, StrokePart
 from linkwright.units import LARGEST
 from linkwright.words import Message
@@ -81,7 +81,7 @@ def _with_next(name: str, values: Floats, signals: Signals) -> Floats:
     assert signals.closes is not None
     period, drift = signals.closes
     gain = {"t": period, "input": drift}.get(name, 0.0)
-    found = None if name in ("t", "input") else output_named(name, signals.mechanism)
+    found = None if name in ("t", "input") else place_named(name, signals.mechanism)
     if found is not None and found.kind == "angle" and name not in signals.mechanism.parameters:
         gain = 2 * np.pi * np.round((values[-1] - values[0]) / (2 * np.pi))
     return np.append(values, values[0] + gain)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
-from linkwright.fields.references import resolve_output
+from linkwright.fields.references import resolve_output, sliding
 from linkwright.formula.late_import import numpy as np
 from linkwright.formula.trace import Mask, Scalar
 from linkwright.loads.site import Mechanism
@@ -153,17 +153,19 @@ def named_column(name: str, signals: Signals) -> Any:
         return mechanism.parameters[name]
     if name in ("t", "input"):
         return signals.time if name == "t" else signals.input
-    found = output_named(name, mechanism)
+    found = place_named(name, mechanism)
     if found is None:
         known = ["t", "input", *mechanism.parameters, *mechanism.links, *mechanism.joints]
         raise LinkwrightError("loads.unknown_in_magnitude", name=name, hint=offered(name, known))
     return signals.output(found)[0]
 
 
-def output_named(name: str, mechanism: Mechanism) -> Output | None:
-    """The output that a name in an expression means."""
+def place_named(name: str, mechanism: Mechanism) -> Output | None:
+    """The place over the cycle that a name means; None where it means none."""
     links = {"frame": mechanism.frame, **mechanism.links}
-    return resolve_output(name, {link: tuple(each.points) for link, each in links.items()}, mechanism.guides)
+    points = {link: tuple(each.points) for link, each in links.items()}
+    guides = ((each.name, each.guide, each.block) for each in mechanism.guides.values())
+    return resolve_output(name, points, sliding(guides, links))
 
 
 def times_of_inputs(inputs: Floats, signals: Signals) -> Floats | None:

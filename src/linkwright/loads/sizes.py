@@ -15,7 +15,7 @@ from linkwright.formula.late_import import numpy as np
 from linkwright.formula.table import Table as Curve
 from linkwright.formula.trace import Mask, Scalar, absolute, floor, maximum, select
 from linkwright.loads.faults import formula_fault, table_fault
-from linkwright.loads.signals import Course, Signals, output_named, times_of_inputs
+from linkwright.loads.signals import Course, Signals, place_named, times_of_inputs
 from linkwright.loads.site import Mechanism
 from linkwright.loads.strokes import TURN
 from linkwright.words import Message
@@ -106,7 +106,7 @@ class Formula(Size):
 
     def outputs(self, mechanism: Mechanism) -> tuple[Output | None, ...]:
         names = self.expression.names - {*mechanism.parameters, "t", "input"}
-        return tuple(output_named(name, mechanism) for name in names)
+        return tuple(place_named(name, mechanism) for name in names)
 
     @property
     def divides(self) -> bool:

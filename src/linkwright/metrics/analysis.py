@@ -168,7 +168,11 @@ class Analysis:
             kept.setdefault(name)
             together = isinstance(solved, Forces) or self.forces is None
             if name not in rows.index and name not in rows.extra:
-                rows.fetch(tuple(kept) if together else (name,), evaluate)
+                try:
+                    rows.fetch(tuple(kept) if together else (name,), evaluate)
+                except LinkwrightError:
+                    del kept[name]
+                    raise
             return rows.row(name, evaluate)
 
         return read

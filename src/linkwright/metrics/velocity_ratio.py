@@ -9,9 +9,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.core.outputs import RATIO
 from linkwright.cycle.summary import Summary, SummaryValue
 from linkwright.formula.trace import Scalar, absolute, select
-from linkwright.kinetostatics.named_outputs import RATIO
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
 

@@ -16,7 +16,7 @@ from linkwright.core.outputs import Output
 from linkwright.core.progress import Progress, current_progress
 from linkwright.errors import RequestError, require_language
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import point_key, result_meant
+from linkwright.kinematics.names import of_forces, point_key, result_meant
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
@@ -122,17 +122,13 @@ def curves_named(
 
     Raises LinkwrightError for an unknown name, and where forces are asked for that cannot be found.
     """
+    if forces is None and of_forces(motion.mechanism, names):
+        forces = solved(motion, True)
     results = results_of(motion, forces) if names else {}
-    found = {}
-    for name in names:
-        try:
-            output = result_meant(motion.mechanism, name, results)
-        except RequestError:
-            if forces is not None:
-                raise
-            return curves_named(motion, solved(motion, True), names)
-        found[output] = results[output]
-    return found, forces
+    source = Source(motion if forces is None else forces)
+    asked = dict.fromkeys(result_meant(motion.mechanism, name, results) for name in names)
+    courses = {output: source.course_of(output) for output in asked}
+    return {output: read(known) for output, (known, read, _) in courses.items()}, forces
 
 
 @dataclass(frozen=True)
@@ -318,17 +314,10 @@ class Animation:
 
     def _ends(self, output: Output) -> tuple[float, float]:
         """Smallest and largest value of a result: between the positions where it is found there."""
-        motion, values = self.scene.machine.motion, self.results[output]
-        source = Source(motion if self.forces is None else self.forces)
-        of = "motion" if self.forces is None else "forces"
-
-        def signal(solved: Motion | Forces) -> Floats:
-            parts = (solved, None) if isinstance(solved, Motion) else (solved.motion, solved)
-            return results_of(*parts)[output]
-
-        exact = (
-            source.angle_extremes(signal, values) if output.kind == "angle" else source.extremes(signal, of)
-        )
+        values = self.results[output]
+        source = Source(self.scene.machine.motion if self.forces is None else self.forces)
+        _, read, of = source.course_of(output)
+        exact = source.angle_extremes(read, values) if output.kind == "angle" else source.extremes(read, of)
         found = [exact(kind) if exact is not None else None for kind in ("min", "max")]
         samples = float(np.nanmin(values)), float(np.nanmax(values))
         low, high = (s if e is None else e.value for s, e in zip(samples, found, strict=True))

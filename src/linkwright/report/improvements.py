@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
@@ -56,7 +55,7 @@ def improvements(motion: Motion, metrics: MetricsTable) -> list[Improvement]:
         row for row in (_transmission(metrics), _effort(metrics, len(mechanism.links))) if row is not None
     ]
     lengths = [name for name in mechanism.dimensions() if name.endswith(".length") or ".lengths." in name]
-    if not rows or not lengths or not isinstance(output, Output):
+    if not rows or not lengths or output.kind == "position":
         return []
     travel = f"{output.name} range"
     slopes = _slopes(mechanism, [row.metric for row in rows], travel, lengths)

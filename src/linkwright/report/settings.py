@@ -12,7 +12,7 @@ from linkwright.core.expressions import amount
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError, RequestError
 from linkwright.events.position_list import PositionList, known_outputs, of_value
 from linkwright.files.write import flow
-from linkwright.kinematics.names import output_of
+from linkwright.kinematics.names import place_meant
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import listed, offered
@@ -319,7 +319,7 @@ class _Reading:
             self.wrong("report.numbered_from", "no_limit", text=text, limit=limit, name=name)
         elif name and self.mechanism is not None:
             try:
-                output_of(self.mechanism, name)
+                place_meant(self.mechanism, name)
             except RequestError as error:
                 place = "report.numbered_from"
                 self.findings[Finding("error", "", place, error.sentence, code=error.code)] = None

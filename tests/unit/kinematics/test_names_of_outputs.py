@@ -9,9 +9,8 @@ from tests.every import every
 import linkwright as lw
 from linkwright.core.outputs import PLACES, POINT, Output
 from linkwright.files.model_file import read_text
-from linkwright.kinematics.names import output_meant, output_names, output_of, result_meant
+from linkwright.kinematics.names import output_meant, output_names, output_or_point, place_meant, result_meant
 from linkwright.kinetostatics.table import results_of
-from linkwright.plot.diagrams.outputs import output_named
 
 MACHINES = ("jaw_crusher_sixbar", "slider_crank_offset", "swing_conveyor")
 
@@ -27,7 +26,7 @@ def every_name(machine: str) -> dict[str, Output]:
     """Names of outputs as studies, model files and tables have them, with what they mean."""
     mechanism = store.machine(machine)
     found = {name: output_meant(mechanism, name) for name in output_names(mechanism)}
-    found |= {link: Output("angle", link) for link in mechanism.links}
+    found |= {link: Output("angle", link) for link in mechanism.links if link != "slider"}
     found |= {guide: Output("displacement", guide) for guide in mechanism.guides}
     told = {each.column: each for each in found.values() if each.component or each.kind != "position"}
     return {**{column: each for column, each in told.items() if each.owner}, **found}
@@ -74,9 +73,9 @@ def test_tables_curves_and_diagrams_take_every_name(machine: str) -> None:
     motion, found = results(machine)
     for name in every((name for name in every_name(machine) if in_tables(machine, name)), least=40):
         output = meant(machine, name)
-        drawn = output_named(motion.mechanism, name)
-        slides = isinstance(drawn, Output) and drawn.kind == "displacement" and name in motion.mechanism.links
-        assert drawn in (output, output.owner) or slides, name
+        whole = output.kind in POINT and not output.component
+        drawn = Output("position", output.owner) if whole else output
+        assert output_or_point(motion.mechanism, name) == drawn, name
         if output.component or output.kind not in (
             "velocity",
             "acceleration",
@@ -94,7 +93,7 @@ def test_a_place_is_taken_by_phases_limits_and_expressions(machine: str) -> None
         text = "\n".join(f"  {key}: {load}" for key, load in own.items())
         read, told = read_text(f"{head}\nloads:\n{text}\n{rest}", "m.yaml")
         assert read is not None and {*own} <= {*read.loads}, [str(each) for each in told]
-        place = output_of(mechanism, name)
+        place = place_meant(mechanism, name)
         assert (place.kind, place.component) == (output.kind, output.component)
 
 
@@ -107,3 +106,23 @@ def loads_over(mechanism: lw.Mechanism, name: str, unit: str) -> dict[str, str]:
         "size": f'magnitude: "1 N·m*{name}/(1 {unit})"',
     }
     return {key: f"{{kind: torque, on: {link}, {way}}}" for key, way in ways.items()}
+
+
+def test_a_block_on_the_frame_means_its_displacement_everywhere() -> None:
+    machine = store.machine("slider_crank_offset")
+    motion, forces = store.motion("slider_crank_offset", 12), store.forces("slider_crank_offset", 12)
+    displacement = Output("displacement", "guide")
+    for find in (output_meant, place_meant, output_or_point):
+        assert find(machine, "slider") == displacement
+    assert output_meant(machine, "slider.velocity") == displacement.rate
+    assert output_meant(machine, "slider.angle") == Output("angle", "slider")
+    assert lw.limit_positions(motion, "slider") == lw.limit_positions(motion, "guide")
+    results = results_of(motion, forces)
+    assert result_meant(machine, "slider", results) == displacement
+    head, _, rest = lw.dump(machine).partition("\nloads:\n")
+    own = "\n".join(f"  {key}: {load}" for key, load in loads_over(machine, "slider", "m").items())
+    read, told = read_text(f"{head}\nloads:\n{own}\n{rest}", "m.yaml")
+    assert read is not None, [str(each) for each in told]
+    assert read.loads["phase"].magnitude.phase.outputs[0].owner == "guide"
+    again = lw.dump(read)
+    assert "moving: slider" in again and "over: slider" in again

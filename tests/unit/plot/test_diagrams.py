@@ -10,21 +10,21 @@ from tests import store
 from tests.every import every
 from tests.refusals import refused
 
+from linkwright.kinematics.names import output_meant
 from linkwright.pictures import diagram as picture
 from linkwright.plot import plot
 from linkwright.plot.diagrams.axes import round_up, significant, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS
-from linkwright.plot.diagrams.outputs import main_output, output_named
+from linkwright.plot.diagrams.outputs import main_output
 from linkwright.words import catalogue
 
 CRUSHER = store.machine("jaw_crusher_sixbar")
 
 
-def test_a_block_on_the_frame_means_its_displacement() -> None:
-    conveyor = store.machine("swing_conveyor")
-    output = output_named(conveyor, "slider")
-    assert getattr(output, "kind", None) == "displacement" and getattr(output, "owner", None) == "guide"
-    assert main_output(store.motion("swing_conveyor", 12)) == output_named(conveyor, "guide")
+def test_the_main_output_of_a_slider_crank_is_the_displacement() -> None:
+    assert main_output(store.motion("swing_conveyor", 12)) == output_meant(
+        store.machine("swing_conveyor"), "guide"
+    )
 
 
 def test_without_a_chinese_font_a_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

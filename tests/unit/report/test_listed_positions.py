@@ -178,7 +178,7 @@ def test_angles_of_positions_far_apart() -> None:
 @pytest.mark.parametrize(
     ("listed", "code", "values"),
     [
-        (["0 deg", "rokcer min"], "motion.no_output", {"text": "rokcer"}),
+        (["0 deg", "rokcer min"], "study.no_such_output", {"name": "rokcer"}),
         (["0 deg", "60"], "missing-unit", {"text": "60"}),
         ({"from": "0 deg", "step": "15 deg", "until": "1 deg"}, "solve.step_key", {"name": "until"}),
         ({"from": "0 deg", "step": "15 deg"}, "solve.step_keys", {}),
@@ -203,7 +203,9 @@ def test_inputs_of_laws_in_time_are_refused() -> None:
     is_refused(["solve", "gallery:crank_rocker", "--at", "0..90deg:-15"], "solve.step_away")
     is_refused(["solve", "gallery:dyad_rrr", "--at", "limits"], "solve.no_limits")
     is_refused(["solve", "gallery:parallelogram", "--at", "rocker min"], "picture.no_limit_positions")
-    is_refused(["export", "gallery:crank_rocker", "--at", "x min", "--output", "a.csv"], "motion.no_output")
+    is_refused(
+        ["export", "gallery:crank_rocker", "--at", "x min", "--output", "a.csv"], "study.no_such_output"
+    )
 
 
 def test_every_table_has_the_listed_positions() -> None:

@@ -130,7 +130,7 @@ def _dimensions(words: list[str] | None) -> list[Dimension] | bool:
 def _refuse_unknown_names(
     mechanism: Mechanism, options: argparse.Namespace, dimensions: list[Dimension] | bool
 ) -> None:
-    from linkwright.kinematics.names import find_point, output_of
+    from linkwright.kinematics.names import find_point, place_meant
 
     refuse_unknown_marks(mechanism, options)
     named = [] if isinstance(dimensions, bool) else dimensions
@@ -140,4 +140,4 @@ def _refuse_unknown_names(
     refuse_unknown(lambda name: find_point(mechanism, name), "--dimensions", ends)
     word, _, output = options.overlay.partition(":")
     if word == "limits" and output:
-        refuse_unknown(lambda name: output_of(mechanism, name), "--overlay", [output])
+        refuse_unknown(lambda name: place_meant(mechanism, name), "--overlay", [output])

@@ -23,7 +23,7 @@ class Angles(OverInput):
 
     options = ("of",)
 
-    def output(self, source: Source, request: Request) -> Output | str | None:
+    def output(self, source: Source, request: Request) -> Output | None:
         if len(request.of) == 1:
             return Output("angle", request.of[0])
         return None if request.of else main_output(source.motion)

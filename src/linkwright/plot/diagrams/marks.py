@@ -56,9 +56,9 @@ class PhaseMark:
     end: float
 
 
-def limit_marks(source: Source, output: Output | str | None) -> list[LimitMark]:
+def limit_marks(source: Source, output: Output | None) -> list[LimitMark]:
     """Limit positions of an output; none for points, or where the motion follows no law in time."""
-    if not isinstance(output, Output):
+    if output is None or (output.kind == "position" and not output.component):
         return []
     try:
         found = limit_positions(source.motion, output)

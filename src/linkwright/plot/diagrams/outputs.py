@@ -5,49 +5,24 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.arrays import largest
-from linkwright.core.outputs import POINT, Output
+from linkwright.core.outputs import Output
 from linkwright.core.search import first_largest
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import canonical, output_meant, output_of, owners
+from linkwright.kinematics.names import canonical
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.outputs import free_points, mechanism_outputs, output_link
 
 
-def output_named(mechanism: Mechanism, name: str) -> Output | str:
-    """An output, or the key of a point; a link that slides in a guide of the frame means its displacement, the
-    velocity of a point all of its motion.
-
-    Raises LinkwrightError for an unknown name.
-    """
-    if name in mechanism.links:
-        for joint in mechanism.joints.values():
-            if joint.coordinate == "slide" and set(joint.joined) - mechanism.grounded == {name}:
-                return Output("displacement", joint.name, written=name)
-        return Output("angle", name)
-    link, _, point = name.rpartition(".")
-    if link and link in mechanism.links and point in mechanism.links[link].points:
-        return canonical(mechanism, link, point)
-    found = [owner for owner in owners(mechanism, name) if owner != "frame"]
-    pin = name in mechanism.pins
-    if found and (pin or len(found) == 1) and name not in mechanism.guides:
-        return canonical(mechanism, found[0], name)
-    try:
-        meant = output_meant(mechanism, name)
-    except RequestError:
-        return output_of(mechanism, name)  # raises, and offers the nearest
-    return meant.owner if meant.kind in POINT and not meant.component else meant
-
-
-def main_output(motion: Motion) -> Output | str:
+def main_output(motion: Motion) -> Output:
     """The output that matters most: the last in solving order on the frame, else a free point, else a link; wheels
     that turn in a fixed ratio to a driver only where there is nothing else."""
     mechanism = motion.mechanism
     points = free_points(mechanism)
     if len(mechanism.drivers) > 1 and points:
-        return points[-1]
+        return Output("position", points[-1])
     outputs = mechanism_outputs(mechanism)
     order = [link for group in motion.structure.groups for link in group.links]
     slides, geared = [each for each in outputs if each.kind == "displacement"], _geared(motion)
@@ -55,16 +30,16 @@ def main_output(motion: Motion) -> Output | str:
         if found:
             return max(found, key=lambda each: order.index(output_link(mechanism, each)))
     if free := free_points(mechanism, geared):
-        return free[-1]
+        return Output("position", free[-1])
     moving = [link for link in reversed(order) if largest(motion.link(link).angular_velocity) > 1e-9]
     moving.sort(key=lambda link: link in geared)
     return Output("angle", moving[0]) if moving else Output("angle", order[-1])
 
 
-def main_outputs(motion: Motion) -> list[Output | str]:
+def main_outputs(motion: Motion) -> list[Output]:
     """The main output, among the last one on the frame of every group that moves no other group."""
     main, mechanism, geared = main_output(motion), motion.mechanism, _geared(motion)
-    groups, found = motion.structure.groups, dict[int, Output | str]()
+    groups, found = motion.structure.groups, dict[int, Output]()
     place = {link: number for number, group in enumerate(groups) for link in group.links}
     moving = {
         place[link]

@@ -97,7 +97,7 @@ class OverInput(Kind):
         """What the title names beside the mechanism."""
         return request.say(f"kind.{self.name}")
 
-    def output(self, source: Source, request: Request) -> Output | str | None:
+    def output(self, source: Source, request: Request) -> Output | None:
         """The output whose limit positions are marked."""
         return None
 
@@ -214,9 +214,7 @@ def _set_range(axes: Axes, panel: Panel, unit: Unit) -> None:
     axes.set_ylim(-0.02 * high if grounded else low - room, high + room)
 
 
-def _draw_marks(
-    axes: list[Axes], source: Source, output: Output | str | None, legend: Legend, say: Say
-) -> None:
+def _draw_marks(axes: list[Axes], source: Source, output: Output | None, legend: Legend, say: Say) -> None:
     factor = source.axis.unit.factor
     limits = limit_marks(source, output)
     for phase in phase_marks(source, limits):

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.outputs import Output
 from linkwright.errors import RequestError
+from linkwright.kinematics.names import output_or_point
 from linkwright.pictures.diagram import COLOURS, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request, framed
 from linkwright.plot.diagrams.curve_marks import draw_curve, mark_inputs
 from linkwright.plot.diagrams.names import Name, Names, write_names
-from linkwright.plot.diagrams.outputs import output_named, traced_points
+from linkwright.plot.diagrams.outputs import traced_points
 from linkwright.plot.diagrams.panels import DASHES
 from linkwright.plot.diagrams.position import LINK, SUPPORT, draw_position, reach
 from linkwright.plot.diagrams.source import Source
@@ -112,7 +112,7 @@ def _worth_marks(source: Source, curve: Floats) -> bool:
 
 
 def _point(source: Source, name: str) -> str:
-    found = output_named(source.mechanism, name)
-    if isinstance(found, Output):
+    found = output_or_point(source.mechanism, name)
+    if found.kind != "position" or found.component:
         raise RequestError("picture.no_path", name=name)
-    return found
+    return found.owner

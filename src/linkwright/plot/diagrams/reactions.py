@@ -30,7 +30,7 @@ class Reactions(OverInput):
 
     options = ("of", "joint", "on", "axes", "static")
 
-    def output(self, source: Source, request: Request) -> Output | str | None:
+    def output(self, source: Source, request: Request) -> Output | None:
         return main_output(source.motion)
 
     def subject(self, sources: Sequence[Source], request: Request) -> str:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, Literal, TypeAlias, TypeVar, cast
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.outputs import RESIDUALS, Output
 from linkwright.cycle.summary import SummaryValue
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
@@ -17,6 +18,7 @@ from linkwright.kinematics.positions import at_times
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
+from linkwright.kinetostatics.table import results_of
 from linkwright.machine.running import SteadyRunning, steady_running
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Kind
@@ -30,6 +32,12 @@ STEPS = 720
 TURN = 2 * np.pi
 T = TypeVar("T")
 Extremes: TypeAlias = Callable[[Kind], SummaryValue | None]
+
+
+def _listed(solved: Motion | Forces, output: Output) -> Floats:
+    """A result that only tables have, (n,)."""
+    motion, forces = (solved, None) if isinstance(solved, Motion) else (solved.motion, solved)
+    return results_of(motion, forces)[output]
 
 
 class Source:
@@ -141,6 +149,14 @@ class Source:
             )
 
         return found
+
+    def course_of(self, output: Output) -> tuple[Any, Callable[[Any], Floats], str]:
+        """The motion or the forces that give an output, how they do, (n,), and which of the two they are."""
+        loads = not output.of_motion or self._forces is not None
+        solved = self.forces if loads else self.motion
+        if output.kind in ("time", "input", *RESIDUALS):
+            return solved, partial(_listed, output=output), "forces" if loads else "motion"
+        return solved, Analysis.of(solved).signal(output.name), "forces" if loads else "motion"
 
     @property
     def has_motion(self) -> bool:

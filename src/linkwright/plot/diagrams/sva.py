@@ -12,12 +12,11 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import NAMED, PLACES, Output
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.names import result_meant
-from linkwright.kinetostatics.table import results_of
+from linkwright.kinematics.names import output_or_point
 from linkwright.pictures.diagram import COLOURS
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.marks import Curve
-from linkwright.plot.diagrams.outputs import main_output, output_named
+from linkwright.plot.diagrams.outputs import main_output
 from linkwright.plot.diagrams.panels import DASHES, OverInput, Panel
 from linkwright.plot.diagrams.source import Source
 from linkwright.words import Say
@@ -38,31 +37,28 @@ class Sva(OverInput):
 
     options = ("of",)
 
-    def output(self, source: Source, request: Request) -> Output | str | None:
+    def output(self, source: Source, request: Request) -> Output | None:
         first, *more = _asked(source, request)
-        marked = not isinstance(first, Output) or first.kind in PLACES
-        return first if marked and not more else None
+        return first if first.kind in PLACES and not more else None
 
     def subject(self, sources: Sequence[Source], request: Request) -> str:
         return request.say("motion_of", output=", ".join(map(str, _asked(sources[0], request))))
 
     def panels(self, source: Source, request: Request) -> list[Panel]:
         asked = _asked(source, request)
-        parts = [
-            _of_output(source, each, request.say)
-            if isinstance(each, Output)
-            else _of_point(source, each, request.say)
-            for each in asked
-        ]
+        parts = [_panels(source, each, request.say) for each in asked]
         if len(asked) == 1:
             return parts[0]
         return _together([(str(each), panels) for each, panels in zip(asked, parts, strict=True)])
 
 
-def _asked(source: Source, request: Request) -> list[Output | str]:
+def _asked(source: Source, request: Request) -> list[Output]:
     """The outputs and points that are named, each once; else the main output."""
-    named = (output_named(source.mechanism, name) for name in request.of)
-    return list(dict.fromkeys(named)) or [main_output(source.motion)]
+    mechanism, named = source.mechanism, dict[Output, Output]()
+    for name in request.of:
+        meant = output_or_point(mechanism, name)
+        named.setdefault(meant, replace(meant, written=name) if name in mechanism.links else meant)
+    return list(named.values()) or [main_output(source.motion)]
 
 
 def _together(parts: list[tuple[str, list[Panel]]]) -> list[Panel]:
@@ -79,11 +75,13 @@ def _together(parts: list[tuple[str, list[Panel]]]) -> list[Panel]:
     return list(found.values())
 
 
-def _of_output(source: Source, output: Output, say: Say) -> list[Panel]:
+def _panels(source: Source, output: Output, say: Say) -> list[Panel]:
     if output.kind in NAMED:
         return _of_named(source, output)
     if output.kind not in PLACES:
         return [_of_result(source, output)]
+    if output.kind == "position" and not output.component:
+        return _of_point(source, output.owner, say)
     named = ANGULAR if output.kind == "angle" else STRAIGHT
     found = []
     for (word, symbol, dimension), each in zip(named, output.course, strict=True):
@@ -111,13 +109,13 @@ def _size(motion: Motion, key: str, word: str) -> Floats:
 
 def _of_result(source: Source, output: Output) -> Panel:
     """A force, or a rate that is named alone."""
-    results = results_of(source.motion, None if output.of_motion else source.forces)
-    found = result_meant(source.mechanism, output.name, results)
-    values = source.closed(results[found])
-    if found.kind != "reaction_direction":
-        return Panel(found.name, found.dimension, (Curve("", values, "max"),))
+    solved, read, of = source.course_of(output)
+    values = source.closed(read(solved))
+    if output.kind != "reaction_direction":
+        curve = Curve("", values, "max", extremes=source.extremes(read, of))
+        return Panel(output.name, output.dimension, (curve,))
     over = np.abs(np.diff(values, prepend=values[0])) > np.pi  # from -180 to 180 degrees: no line is drawn
-    return Panel(found.name, found.dimension, (Curve("", np.where(over, np.nan, values)),))
+    return Panel(output.name, output.dimension, (Curve("", np.where(over, np.nan, values)),))
 
 
 def _of_point(source: Source, key: str, say: Say) -> list[Panel]:

@@ -22,7 +22,7 @@ class Torque(OverInput):
 
     options = ("static",)
 
-    def output(self, source: Source, request: Request) -> Output | str | None:
+    def output(self, source: Source, request: Request) -> Output | None:
         return main_output(source.motion)
 
     def panels(self, source: Source, request: Request) -> list[Panel]:
@@ -49,7 +49,7 @@ class Power(OverInput):
 
     options = ("static",)
 
-    def output(self, source: Source, request: Request) -> Output | str | None:
+    def output(self, source: Source, request: Request) -> Output | None:
         return main_output(source.motion)
 
     def panels(self, source: Source, request: Request) -> list[Panel]:

@@ -90,26 +90,18 @@ class _Conclusion:
         if not self.case.motion.whole:
             yield say("partly")
 
-    def _rates(self, output: Output | str) -> Iterator[str]:
+    def _rates(self, output: Output) -> Iterator[str]:
         """The largest velocity and acceleration of an output or of a point, with their places."""
-        analysis, turning = Analysis.of(self.case.result), False
-        names, dimensions = (
-            [f"{output}.{each}" for each in ("velocity", "acceleration")],
-            ["velocity", "acceleration"],
-        )
-        if isinstance(output, Output):
-            rates = (output.rate, output.rate.rate)
-            names, dimensions = [each.name for each in rates], [each.dimension for each in rates]
-            turning = output.kind == "angle"
-        first, second = (analysis.part(Summary(name, "peak")) for name in names)
+        analysis, rates = Analysis.of(self.case.result), output.course[1:]
+        first, second = (analysis.part(Summary(each.name, "peak")) for each in rates)
         if not (math.isfinite(first.value) and math.isfinite(second.value)):
             return
         places = [typeset(shown(each.input, analysis.input_dimension)) for each in (first, second)]
         yield self.say(
-            "rates_turning" if turning else "rates",
+            "rates_turning" if output.kind == "angle" else "rates",
             subject=literal(str(output)),
-            velocity=typeset(shown(first.value, dimensions[0])),
-            acceleration=typeset(shown(second.value, dimensions[1])),
+            velocity=typeset(shown(first.value, rates[0].dimension)),
+            acceleration=typeset(shown(second.value, rates[1].dimension)),
             first=places[0],
             second=places[1],
         )

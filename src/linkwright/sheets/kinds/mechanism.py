@@ -98,11 +98,10 @@ def _curves(positions: Positions) -> Iterator[Panel]:
         yield _curve(key, 4.5, subject.words(f"caption_curve_{word}"), source.axis, plotted)
 
 
-def _moving(mechanism: Mechanism, output: Output | str) -> str:
+def _moving(mechanism: Mechanism, output: Output) -> str:
     """What an output is of: the block of a guide, a link, a point."""
-    if isinstance(output, Output) and output.owner in mechanism.guides:
-        return mechanism.guides[output.owner].block
-    return output.owner if isinstance(output, Output) else output
+    guide = mechanism.guides.get(output.owner)
+    return output.owner if guide is None else guide.block
 
 
 def _curve(name: str, rank: float, caption: str, axis: InputAxis, plotted: Plotted) -> CurvePanel:
