@@ -5,8 +5,8 @@ from typing import Any
 
 import linkwright as lw
 from linkwright.pictures.drawing import bounds, document
+from linkwright.pictures.picture import Text, as_runs
 from linkwright.pictures.svg.element import group
-from linkwright.pictures.svg.text import text_element
 from linkwright.pictures.symbols.base import SYMBOLS
 from linkwright.plot.animation import animate
 from linkwright.plot.drawing import draw
@@ -43,7 +43,7 @@ def symbols(columns: int = 5, wide: float = 150.0, high: float = 120.0) -> str:
         x, y = (k % columns + 0.5) * wide, (k // columns + 0.42) * high
         shift = f"translate({x - (left + right) / 2:.2f} {y - (top + bottom) / 2:.2f})"
         content.append(group(shape.elements, transform=shift))
-        content.append(text_element(x, y + 0.46 * high, name.replace("_", " "), "lw-link", 12.0, "middle"))
+        content.append(Text((x, y + 0.46 * high), as_runs(name.replace("_", " ")), "lw-link", 12.0, "middle"))
     box = (0.0, 0.0, columns * wide, -(-len(names) // columns) * high)
     return document(content, box, "Symbols", None)
 

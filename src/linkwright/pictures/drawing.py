@@ -11,11 +11,10 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.errors import RequestError
-from linkwright.pictures.picture import SvgNode
+from linkwright.pictures.picture import SvgNode, Text, name_runs
 from linkwright.pictures.style import CSS
 from linkwright.pictures.svg.element import Element, element, number
 from linkwright.pictures.svg.render import png, save_picture
-from linkwright.pictures.svg.text import text_element
 from linkwright.pictures.svg.text import width as text_width
 from linkwright.whole_files import refuse_target
 
@@ -120,7 +119,7 @@ def document(
 def captioned(content: Sequence[SvgNode], box: Box, lines: Sequence[str], title: str) -> str:
     """A whole SVG document with lines of text below its box."""
     texts = [
-        text_element(box[0], box[3] + 24.0 + 20.0 * number, line, "lw-legend", SIZE)
+        Text((box[0], box[3] + 24.0 + 20.0 * number), name_runs(line), "lw-legend", SIZE)
         for number, line in enumerate(lines)
     ]
     wide = max(text_width(line, SIZE) for line in lines)

@@ -7,6 +7,7 @@ down, as SVG has it.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import field, replace
 from typing import Literal, TypeAlias
@@ -18,6 +19,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.pictures.svg.element import Attribute, Element, element, number, path_data
 from linkwright.pictures.svg.fonts import needs_chinese
+from linkwright.pictures.svg.text import split_index
 from linkwright.pictures.svg.text import width as text_width
 
 #: Kinds of lines after GB/T 4457.4 and ISO 128-2: ``frame`` and ``thick`` are wide, the others have half their width;
@@ -36,6 +38,8 @@ LEAST, TEXT, CAPTION = 2.5, 3.5, 5.0
 CAPITAL, DESCENT, INDEX = 0.72, 0.24, 0.72
 #: Height of a Chinese character in sizes of the font.
 CHARACTER = 0.92
+#: Symbols with indices in sentences.
+_SYMBOL = re.compile(r"(?<![A-Za-z0-9_])([FMμ])_([A-Za-z]+(?:,[^\s,，、；;]+)?)")
 #: Length and half width of arrow heads, mm.
 HEAD = (3.2, 0.55)
 
@@ -151,11 +155,11 @@ class Text:
     ``squeeze``: width of its letters as a share of their own.
     """
 
-    at: Floats
+    at: Floats | Vec
     runs: Runs
+    style: str
     size: float
     anchor: Anchor = "start"
-    style: str = ""
     turn: float = 0.0
     symbol: bool = False
     squeeze: float = 1.0
@@ -164,7 +168,10 @@ class Text:
         """The same scaled and shifted."""
         turn = self.turn if scale[0] * scale[1] > 0 else -self.turn
         return replace(
-            self, at=_placed(self.at, shift, 0.0, scale), size=self.size * abs(scale[0]), turn=turn
+            self,
+            at=_placed(np.asarray(self.at), shift, 0.0, scale),
+            size=self.size * abs(scale[0]),
+            turn=turn,
         )
 
     @property
@@ -175,7 +182,7 @@ class Text:
     @property
     def width(self) -> float:
         """Its width, estimated a little too large."""
-        return self.squeeze * _wide(self.runs, self.size)
+        return self.squeeze * line_width(self.runs, self.size)
 
     @property
     def cloud(self) -> Floats:
@@ -186,7 +193,7 @@ class Text:
         corners = np.array(
             [(start, low), (start + self.width, low), (start + self.width, high), (start, high)]
         )
-        return _placed(corners, self.at, math.radians(self.turn))
+        return _placed(corners, np.asarray(self.at), math.radians(self.turn))
 
     @property
     def outline(self) -> Floats:
@@ -202,7 +209,8 @@ class Text:
         given: dict[str, Attribute | None] = {
             "class": self.style or None, "x": x, "y": y, "font-size": self.size,
             "text-anchor": None if self.anchor == "start" else self.anchor,
-            "font-style": "italic" if self.symbol else None, "transform": turn, "xml:space": "preserve",
+            "font-style": "italic" if self.symbol else None, "transform": turn,
+            "xml:space": "preserve" if any(text != " ".join(text.split()) for text, _ in self.runs) else None,
         }  # fmt: skip
         return str(element("text", given, *self._spans()))
 
@@ -292,7 +300,7 @@ class Picture:
         if runs := as_runs(words):
             size = font_size(runs, height)
             self.items.append(
-                Text(np.asarray(at, dtype=float), runs, size, anchor, "", turn, symbol, squeeze)
+                Text(np.asarray(at, dtype=float), runs, "", size, anchor, turn, symbol, squeeze)
             )
 
     def add(self, other: Picture, shift: ArrayLike = (0.0, 0.0)) -> None:
@@ -327,6 +335,18 @@ def as_runs(words: Words) -> Runs:
     return tuple((text, level) for text, level in parts if text)
 
 
+def name_runs(name: str) -> Runs:
+    """A name whose trailing number is an index: O1 is O with the index 1."""
+    return indexed(*split_index(name))
+
+
+def sentence_runs(text: str) -> Runs:
+    """A text as it is, but for symbols such as ``M_d`` and ``μ_F``, whose indices are set low."""
+    parts = _SYMBOL.split(text)
+    levels = [level for _ in parts[::3] for level in (0, 0, -1)]
+    return as_runs(tuple(zip(parts, levels, strict=False)))
+
+
 def indexed(letter: str, below: str = "", above: str = "") -> Runs:
     """A letter with its indices."""
     return as_runs(((letter, 0), (above, 1), (below, -1)))
@@ -349,10 +369,10 @@ def _chinese(runs: Runs) -> bool:
 
 def runs_width(runs: Runs, height: float) -> float:
     """The width of a line of text whose capitals have a height."""
-    return _wide(runs, font_size(runs, height))
+    return line_width(runs, font_size(runs, height))
 
 
-def _wide(runs: Runs, size: float) -> float:
+def line_width(runs: Runs, size: float) -> float:
     """The width of a line of text at a size of its font; an index above stands over the one below."""
     wide = above = 0.0
     for text, level in runs:

@@ -21,18 +21,18 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.drawing import Box, bounds, document
+from linkwright.pictures.labels import Label, Obstacles, place_moving, written
 from linkwright.pictures.picture import Circle, SvgNode
 from linkwright.pictures.svg.element import group
 from linkwright.pictures.svg.render import png
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.drawing.draw import Names, all_arrows, solved
 from linkwright.plot.drawing.frames import frame_indices, key_indices, usual_seconds
-from linkwright.plot.drawing.labels import Label, Obstacles, place_moving, point_labels, written
 from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_marks, moving_springs
 from linkwright.plot.drawing.moving import moving_links, moving_torques, moving_vectors, shift_text, shifted
 from linkwright.plot.drawing.panel import Panel, panel
-from linkwright.plot.drawing.scene import Scene, laid_out
+from linkwright.plot.drawing.scene import Scene, laid_out, point_labels
 from linkwright.plot.drawing.vectors import Arrows, scale_of
 from linkwright.plot.drawing.video import gif, mp4
 from linkwright.whole_files import refuse_target, write_whole

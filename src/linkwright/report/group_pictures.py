@@ -10,10 +10,9 @@ from linkwright.pictures.drawing import bounds, document
 from linkwright.pictures.svg.element import group
 from linkwright.pictures.svg.render import natural_size
 from linkwright.plot.drawing.draw import Sheet, laid_out_beside
-from linkwright.plot.drawing.labels import point_labels
 from linkwright.plot.drawing.machine import Part
 from linkwright.plot.drawing.positions import Shown
-from linkwright.plot.drawing.scene import Scene
+from linkwright.plot.drawing.scene import Scene, point_labels
 from linkwright.report.machine_results import Case
 
 

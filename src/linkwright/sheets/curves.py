@@ -10,8 +10,9 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import significant
+from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import LEAST, Pen, Picture, Runs, Words, as_runs, indexed, joined
-from linkwright.sheets.labels import Name, put
+from linkwright.plot.diagrams.axes import significant
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.units import si_unit
 

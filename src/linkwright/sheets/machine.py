@@ -12,12 +12,11 @@ from linkwright.core.arrays import Floats
 from linkwright.drivers.base import Driver
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.force_names import link_numbers
+from linkwright.pictures.labels import TO_UNITS, UNIT, Label, Name, put
 from linkwright.pictures.picture import LEAST, Picture, as_runs, indexed, joined
-from linkwright.plot.drawing.labels import Label, link_labels, point_labels
 from linkwright.plot.drawing.loads import load_labels, load_marks
-from linkwright.plot.drawing.scene import Scene, laid_out
+from linkwright.plot.drawing.scene import Scene, laid_out, link_labels, point_labels
 from linkwright.plot.drawing.view import View
-from linkwright.sheets.labels import TO_UNITS, UNIT, Name, name_of, put
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.sheets.positions import Positions
 from linkwright.sheets.scene import draw_elements, draw_machine, outline_machine
@@ -128,11 +127,11 @@ class _Machine:
         """Names of points, numbers of links, ω of the driver, names of loads."""
         machine, numbers = self.scene.machine, link_numbers(self.mechanism)
         for label in point_labels(machine, self.main):
-            yield name_of(label.text, _places(label), height=self.letters, clear=2.2)
+            yield Name(label.runs, _places(label), self.letters, 2.2, symbol=True)
         for label in link_labels(self.scene, self.main):
             yield Name(as_runs(str(numbers[label.text])), _places(label), self.letters, leader=True)
         for label in load_labels(machine, self.main):
-            yield name_of(label.text, _places(label), height=self.letters, clear=2.0)
+            yield Name(label.runs, _places(label), self.letters, 2.0, symbol=True)
         for driver in self.mechanism.drivers.values():
             if self.motion.positions.rotary[driver.name]:
                 at = np.array(machine.paper(driver.relative_to, driver.joint, self.main)) / TO_UNITS

@@ -13,6 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import link_numbers
+from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import LEAST, Picture, as_runs, indexed, joined
 from linkwright.plot.diagrams.force_polygon import LinkForce, corners, link_forces, ordered
 from linkwright.plot.diagrams.motion_polygons import gathered
@@ -22,7 +23,6 @@ from linkwright.plot.diagrams.motion_vectors import (
     velocity_polygon,
 )
 from linkwright.plot.diagrams.scaled_page import LOW, side_by_side
-from linkwright.sheets.labels import Name, put
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.sheets.positions import Positions, Shown
 

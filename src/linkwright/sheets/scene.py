@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from linkwright.pictures.labels import TO_UNITS
 from linkwright.pictures.picture import Circle, Fill, Line, Pen, Picture
 from linkwright.pictures.symbols.base import vec
 from linkwright.plot.drawing.scene import Scene
-from linkwright.sheets.labels import TO_UNITS
 
 #: Line and filling of the classes of drawings; those that are not named are thin and not filled.
 _STYLES: dict[str, tuple[Pen, Fill]] = {

@@ -6,8 +6,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from linkwright.pictures.svg.text import name_width, split_index, width
-from linkwright.plot.drawing.labels import Label, Obstacles, place
+from linkwright.pictures.labels import Label, Obstacles, place
+from linkwright.pictures.picture import line_width, name_runs
+from linkwright.pictures.svg.text import split_index, width
 from linkwright.plot.drawing.legend import Legend
 
 
@@ -68,7 +69,7 @@ def test_estimated_widths_are_not_below_those_of_a_font() -> None:
         pytest.skip("this Pillow has no scalable font")
     for text in ("coupler", "boom_cylinder", "WAVE", "lift", "20 kN", "minimum"):
         assert width(text, 100) >= 0.97 * font.getlength(text)
-    assert name_width("O1", 10) < width("O1", 10)
+    assert line_width(name_runs("O1"), 10) < width("O1", 10)
 
 
 @pytest.mark.parametrize(

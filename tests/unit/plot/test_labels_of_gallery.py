@@ -6,8 +6,8 @@ from tests import store
 from tests.every import every
 from tests.share import in_turn
 
-from linkwright.plot.drawing.labels import Obstacles, link_labels, place, point_labels
-from linkwright.plot.drawing.scene import laid_out
+from linkwright.pictures.labels import Obstacles, place
+from linkwright.plot.drawing.scene import laid_out, link_labels, point_labels
 
 
 @pytest.mark.rotating

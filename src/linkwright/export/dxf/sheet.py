@@ -14,11 +14,11 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.export.base import package
 from linkwright.export.results import Results
+from linkwright.pictures.labels import Candidate, Label, Obstacles, place
 from linkwright.pictures.picture import Circle, Line, Vec
 from linkwright.pictures.symbols.base import PIN, points
 from linkwright.plot.drawing.dimensions import Dimensioned, dimension_lines
-from linkwright.plot.drawing.labels import Candidate, Label, Obstacles, link_labels, place, point_labels
-from linkwright.plot.drawing.scene import laid_out
+from linkwright.plot.drawing.scene import laid_out, link_labels, point_labels
 from linkwright.words.characters import one_line
 
 #: Layers with their colours (numbers of the AutoCAD colour index), each with a contrast of 3 or more on a white, a

@@ -11,9 +11,9 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.pictures.diagram import INK, Axes, Figure
+from linkwright.pictures.labels import Label, Obstacles, place
 from linkwright.pictures.symbols.base import vec
 from linkwright.plot.diagrams.scaled_page import with_index
-from linkwright.plot.drawing.labels import Label, Obstacles, place
 
 SIZE, CLEARANCE, CORNERS = 7.5, 3.5, 180
 #: Two spare names nearer to each other than this, across and up, are not both written, points.

@@ -11,10 +11,10 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.kinematics.names import find_point
+from linkwright.pictures.labels import Label, Obstacles
 from linkwright.pictures.picture import Vec
 from linkwright.pictures.symbols.base import SYMBOLS, Shape, placed, points, vec, way
 from linkwright.plot.drawing.guides import direction, line_start
-from linkwright.plot.drawing.labels import Label, Obstacles
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.view import moved
 

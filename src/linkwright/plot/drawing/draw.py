@@ -15,15 +15,15 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.drawing import Drawing, bounds, document
+from linkwright.pictures.labels import Label, Obstacles, place, written
 from linkwright.pictures.picture import SvgNode
 from linkwright.pictures.svg.element import group
 from linkwright.pictures.symbols.base import points
 from linkwright.plot.drawing.dimensions import Dimension, dimension_lines
-from linkwright.plot.drawing.labels import Label, Obstacles, link_labels, place, point_labels, written
 from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_labels, load_marks, unmarked
 from linkwright.plot.drawing.positions import At, Shown, at_input, at_time, with_limits
-from linkwright.plot.drawing.scene import Scene, laid_out
+from linkwright.plot.drawing.scene import Scene, laid_out, link_labels, point_labels
 from linkwright.plot.drawing.vectors import (
     Arrows,
     all_points,

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from linkwright.core.arrays import Floats
-from linkwright.mechanism.force_names import Symbol, link_numbers
+from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.drawing import Box
-from linkwright.pictures.picture import SvgNode
-from linkwright.pictures.svg.text import name_width, text_element, width
+from linkwright.pictures.picture import Runs, SvgNode, Text, indexed, joined, line_width, name_runs
+from linkwright.pictures.svg.text import width
 from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.plot.drawing.vectors import Arrows, Torques, Vectors, round_length, scale_of, with_unit
 from linkwright.words import say
@@ -49,22 +49,22 @@ class Legend:
         arrow = SYMBOLS["arrow"](start=(self._left, self._y), end=(end, self._y), style=family.style)
         self.elements += arrow.elements
         text = f"{with_unit(value, family.unit)}  {say(f'drawing.{family.kind}', language)}"
-        self._write(end + 8.0, text, "lw-legend")
+        self._write(end + 8.0, name_runs(text), "lw-legend")
 
     def values(self, arrows: Iterable[Arrows], index: int) -> None:
         """The size of every vector and torque at one position, in columns."""
-        entries: list[tuple[Symbol, str, str]] = []
+        entries: list[tuple[Runs, str]] = []
         for each in arrows:
             if not each.empty([index]):
                 entries += [entry for family in each.families for entry in _sizes(family, index)]
         if not entries:
             return
-        column = max(name_width(s[0], SIZE, s[1]) + width(rest, SIZE) for s, rest, _ in entries) + 16.0
+        column = max(line_width(runs, SIZE) for runs, _ in entries) + 16.0
         columns = max(1, int(self._wide // column))
-        for number, ((stem, low), rest, style) in enumerate(entries):
+        for number, (runs, style) in enumerate(entries):
             if number % columns == 0:
                 self._y += ROW
-            self._write(self._left + number % columns * column, stem, style, low, rest)
+            self._write(self._left + number % columns * column, runs, style)
 
     def numbers(self, mechanism: Mechanism, language: str) -> None:
         """What the indices of joint forces mean."""
@@ -85,21 +85,21 @@ class Legend:
 
     def _line(self, text: str) -> None:
         self._y += ROW
-        self._write(self._left, text, "lw-legend")
+        self._write(self._left, name_runs(text), "lw-legend")
 
-    def _write(self, x: float, text: str, style: str, index: str = "", rest: str = "") -> None:
-        baseline = self._y + 0.35 * SIZE
-        self.elements.append(text_element(x, baseline, text, style, SIZE, index=index, rest=rest))
-        end = x + name_width(text, SIZE, index) + width(rest, SIZE)
+    def _write(self, x: float, runs: Runs, style: str) -> None:
+        self.elements.append(Text((x, self._y + 0.35 * SIZE), runs, style, SIZE))
+        end = x + line_width(runs, SIZE)
         self.extent.append(points([(x, self._y - SIZE), (end, self._y + 0.6 * SIZE)]))
 
 
-def _sizes(family: Vectors | Torques, index: int) -> list[tuple[Symbol, str, str]]:
-    """Symbol, value and style of all that is known; torques that are nothing but rounding are left out."""
+def _sizes(family: Vectors | Torques, index: int) -> list[tuple[Runs, str]]:
+    """Symbol with its value, and style of all that is known; torques that are nothing but rounding are left out."""
     found = []
-    for name, symbol in family.symbols.items():
+    for name, (stem, low) in family.symbols.items():
         size, seen = family.size(name, index), family.seen(name, [index])
         if math.isfinite(size) and (seen or isinstance(family, Vectors)):
             text = with_unit(size if seen else 0.0, family.unit, 4)
-            found.append((symbol, f" = {text}", f"{family.style}-name"))
+            symbol = indexed(stem, low) if low else name_runs(stem)
+            found.append((joined(symbol, f" = {text}"), f"{family.style}-name"))
     return found

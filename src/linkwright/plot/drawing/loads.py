@@ -7,15 +7,15 @@ from collections.abc import Sequence
 
 from linkwright.joints.base import JointName
 from linkwright.loads.base import LinkPoint, Load
+from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import SvgNode, Vec
 from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, joined
 from linkwright.pictures.symbols.joints import HEIGHT, LENGTH
 from linkwright.plot.drawing.guides import clear_shift, is_cylinder
-from linkwright.plot.drawing.labels import LINK_SIZE, Label
 from linkwright.plot.drawing.load_marks import Press, Push, Turn, mark_of
 from linkwright.plot.drawing.machine import Machine
 from linkwright.plot.drawing.moving import moving_lines
-from linkwright.plot.drawing.scene import Scene
+from linkwright.plot.drawing.scene import LINK_SIZE, Scene
 
 PUSH = 52.0
 GAP, BLOCK_GAP = 7.0, 19.0

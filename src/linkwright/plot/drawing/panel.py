@@ -11,9 +11,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import significant
 from linkwright.pictures.drawing import Box
-from linkwright.pictures.picture import Line, SvgNode
+from linkwright.pictures.picture import Line, SvgNode, Text, name_runs
 from linkwright.pictures.svg.element import Element, element
-from linkwright.pictures.svg.text import text_element, width
+from linkwright.pictures.svg.text import width
 from linkwright.pictures.symbols.base import points
 from linkwright.plot.diagrams.axes import unit_of
 from linkwright.words import has, say
@@ -84,5 +84,5 @@ def _row(text: str, values: Floats, left: float, span: float, top: float) -> lis
     if low < 0 < high:
         zero = top + HEIGHT * (0.96 - 0.9 * (0.0 - low) / reach)
         elements.append(Line(points([(left, zero), (left + span, zero)]), "lw-leader"))
-    elements.append(text_element(left + 4.0, top - 4.0, text, "lw-value", SIZE))
+    elements.append(Text((left + 4.0, top - 4.0), name_runs(text), "lw-value", SIZE))
     return elements

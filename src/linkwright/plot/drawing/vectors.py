@@ -17,9 +17,9 @@ from linkwright.errors import RequestError
 from linkwright.joints.base import HigherPair
 from linkwright.kinematics.names import canonical, find_point
 from linkwright.mechanism.force_names import Symbol, reaction_index, reaction_pairs
+from linkwright.pictures.labels import Label
 from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, joined, vec
 from linkwright.plot.drawing.joint_marks import touching
-from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.view import View
 
 if TYPE_CHECKING:

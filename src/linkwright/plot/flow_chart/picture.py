@@ -7,9 +7,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from linkwright.pictures.drawing import document
-from linkwright.pictures.picture import Circle, Line, SvgNode
+from linkwright.pictures.picture import Circle, Line, SvgNode, Text, sentence_runs
 from linkwright.pictures.svg.element import Element, element
-from linkwright.pictures.svg.text import sentence_element
 from linkwright.pictures.symbols.arrows import head
 from linkwright.pictures.symbols.base import points, vec, way
 from linkwright.plot.flow_chart.content import Node
@@ -41,7 +40,7 @@ def _document(sheet: Page, title: str, heading: str) -> str:
         lines = fold(heading, wide - left)
         top = -LINE * (len(lines) + 0.8)
         content += [
-            sentence_element(left, top + LINE * number + SIZE, line, "lw-legend", SIZE)
+            Text((left, top + LINE * number + SIZE), sentence_runs(line), "lw-legend", SIZE)
             for number, line in enumerate(lines)
         ]
     return document(content, (left, top, wide, tall), title, None, millimetre=MILLIMETRE)
@@ -61,7 +60,7 @@ def _boxes(sheet: Page) -> Iterator[SvgNode]:
         first = box.y - LINE * len(box.lines) / 2 + 0.5 * (LINE + 0.7 * SIZE)
         for number, text in enumerate(box.lines):
             style = "lw-legend lw-flow-call" if number < box.bold else "lw-legend"
-            yield sentence_element(box.x, first + LINE * number, text, style, SIZE, "middle")
+            yield Text((box.x, first + LINE * number), sentence_runs(text), style, SIZE, "middle")
 
 
 def _outline(box: Box) -> Iterator[SvgNode]:
@@ -96,7 +95,7 @@ def _rectangle(box: Box, rx: float | None = None) -> Element:
 
 def _marks(sheet: Page) -> Iterator[SvgNode]:
     for word in sheet.words:
-        yield sentence_element(word.x, word.y, word.text, "lw-legend", SIZE)
+        yield Text((word.x, word.y), sentence_runs(word.text), "lw-legend", SIZE)
     for x, y, letter in sheet.circles:
         yield Circle((x, y), RADIUS, "lw-flow")
-        yield sentence_element(x, y + 0.36 * SIZE, letter, "lw-legend", SIZE, "middle")
+        yield Text((x, y + 0.36 * SIZE), sentence_runs(letter), "lw-legend", SIZE, "middle")

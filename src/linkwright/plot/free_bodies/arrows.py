@@ -10,10 +10,10 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Line, SvgNode
 from linkwright.pictures.svg.element import group
 from linkwright.pictures.symbols.base import SYMBOLS, points, vec
-from linkwright.plot.drawing.labels import Label
 from linkwright.plot.drawing.vectors import NAME_SIZE
 from linkwright.plot.drawing.view import View
 from linkwright.plot.free_bodies.actions import STYLES, Action

@@ -12,9 +12,8 @@ from linkwright.core.quantity import fixed
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.pictures.drawing import document
-from linkwright.pictures.picture import Line, SvgNode
+from linkwright.pictures.picture import Line, SvgNode, Text, indexed, name_runs, sentence_runs
 from linkwright.pictures.svg.element import group, number
-from linkwright.pictures.svg.text import sentence_element, text_element
 from linkwright.pictures.symbols.base import points
 from linkwright.plot.drawing.vectors import with_unit
 from linkwright.plot.flow_chart.layout import fold
@@ -78,8 +77,8 @@ def free_body_pages(
 def _cell(drawn: BodyPicture, say: Say, language: str) -> Cell:
     body = drawn.body
     named = say("free_bodies.title", number=body.number, link=link_said(body.link, language))
-    content: list[SvgNode] = [sentence_element(0.0, TITLE, named, "lw-legend lw-flow-call", TITLE)]
-    content.append(sentence_element(0.0, TITLE_LINE + SIZE + 2.0, _scales(drawn), "lw-legend", SIZE))
+    content: list[SvgNode] = [Text((0.0, TITLE), sentence_runs(named), "lw-legend lw-flow-call", TITLE)]
+    content.append(Text((0.0, TITLE_LINE + SIZE + 2.0), sentence_runs(_scales(drawn)), "lw-legend", SIZE))
     left, top, right, bottom = drawn.box
     across = 0.5 * (ROOM[0] - (right - left)) - left
     down = 2 * TITLE_LINE + 4.0 - top
@@ -138,7 +137,7 @@ def _moments(found: list[SvgNode], y: float, body: FreeBody, say: Say) -> float:
         return y
     value = f"{fixed(sum(moments), _places(largest))} N·m"
     text = say("free_bodies.moment_sum", value=value)
-    found.append(sentence_element(0.0, y + SIZE, text, "lw-legend", SIZE))
+    found.append(Text((0.0, y + SIZE), sentence_runs(text), "lw-legend", SIZE))
     return y + LINE
 
 
@@ -153,7 +152,7 @@ def _places(largest: float) -> int:
 
 def _head(found: list[SvgNode], y: float, texts: Sequence[str]) -> float:
     for share, text in zip(COLUMNS, texts, strict=False):
-        found.append(sentence_element(share * ROOM[0], y + SIZE, text, "lw-legend", SIZE, "end"))
+        found.append(Text((share * ROOM[0], y + SIZE), sentence_runs(text), "lw-legend", SIZE, "end"))
     found.append(Line(points([(0.0, y + LINE), (ROOM[0], y + LINE)]), "lw-rule"))
     return y + LINE + 2.0
 
@@ -163,22 +162,22 @@ def _row(found: list[SvgNode], y: float, action: Action, cells: Sequence[str]) -
     style = f"{STYLES[action.role]}-name"
     names = fold(action.letter, COLUMNS[0] * ROOM[0] - 62.0, SIZE)
     for line, text in enumerate(names):
-        index = action.index if line == len(names) - 1 else ""
-        found.append(text_element(0.0, y + SIZE + LINE * line, text, style, SIZE, index=index))
+        runs = indexed(text, action.index) if line == len(names) - 1 and action.index else name_runs(text)
+        found.append(Text((0.0, y + SIZE + LINE * line), runs, style, SIZE))
     _cells(found, y, cells)
     return y + LINE * len(names)
 
 
 def _line(found: list[SvgNode], y: float, name: str, cells: Sequence[str]) -> float:
     found.append(Line(points([(0.0, y + 1.0), (ROOM[0], y + 1.0)]), "lw-rule"))
-    found.append(sentence_element(0.0, y + SIZE + 3.0, name, "lw-legend", SIZE))
+    found.append(Text((0.0, y + SIZE + 3.0), sentence_runs(name), "lw-legend", SIZE))
     _cells(found, y + 3.0, cells)
     return y + LINE + 6.0
 
 
 def _cells(found: list[SvgNode], y: float, cells: Sequence[str]) -> None:
     for share, text in zip(COLUMNS, cells, strict=False):
-        found.append(sentence_element(share * ROOM[0], y + SIZE, text, "lw-value", SIZE, "end"))
+        found.append(Text((share * ROOM[0], y + SIZE), sentence_runs(text), "lw-value", SIZE, "end"))
 
 
 # pages ----------------------------------------------------------------------------------------
@@ -204,7 +203,7 @@ def _document(rows: Sequence[Sequence[Cell]], say: Say, heading: str) -> str:
     content: list[SvgNode] = []
     y = 0.0
     for line in fold(heading, wide, 15.0) if heading else ():
-        content.append(sentence_element(0.0, y + 15.0, line, "lw-legend", 15.0))
+        content.append(Text((0.0, y + 15.0), sentence_runs(line), "lw-legend", 15.0))
         y += 26.0
     for row in rows:
         for place, cell in enumerate(row):
@@ -213,7 +212,7 @@ def _document(rows: Sequence[Sequence[Cell]], say: Say, heading: str) -> str:
         y += max(cell.height for cell in row) + apart
     cells = [cell for row in rows for cell in row]
     for line in fold(say("free_bodies.apart").join(_key(cells, say)), wide, SIZE):
-        content.append(sentence_element(0.0, y + SIZE, line, "lw-legend", SIZE))
+        content.append(Text((0.0, y + SIZE), sentence_runs(line), "lw-legend", SIZE))
         y += LINE
     return document(content, (0.0, 0.0, wide, y), say("free_bodies.caption"), None, millimetre=MILLIMETRE)
 

@@ -13,9 +13,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
 from linkwright.pictures.drawing import Box, bounds
+from linkwright.pictures.labels import Label, Obstacles, place, written
 from linkwright.pictures.picture import SvgNode
 from linkwright.pictures.symbols.base import SYMBOLS, points
-from linkwright.plot.drawing.labels import Label, Obstacles, place, written
 from linkwright.plot.drawing.machine import Machine, Part
 from linkwright.plot.drawing.scene import Scene, parts_of
 from linkwright.plot.drawing.view import View

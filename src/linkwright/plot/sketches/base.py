@@ -14,10 +14,10 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import require_language
 from linkwright.parts.base import Problem
 from linkwright.pictures.drawing import Drawing, bounds, document
+from linkwright.pictures.labels import Label, Obstacles, place, written
 from linkwright.pictures.picture import Line, SvgNode, Vec
 from linkwright.pictures.svg.element import element, group
 from linkwright.pictures.symbols.base import SYMBOLS, Shape, placed, points, vec
-from linkwright.plot.drawing.labels import Label, Obstacles, place, written
 from linkwright.registry import Registry
 
 #: Size of the letters of a sketch; room that a drawing takes, across and down.

@@ -9,8 +9,8 @@ from linkwright.parts.vibration.excitation import STRAIGHT, TURNING
 from linkwright.parts.vibration.follower import FollowerSpring
 from linkwright.parts.vibration.system import GROUND, Tie, VibratingSystem
 from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Vec
-from linkwright.plot.drawing.labels import Label
 from linkwright.plot.sketches.base import Paper, sketched
 
 #: Width and height of a mass, gap between masses, height between springs side by side.

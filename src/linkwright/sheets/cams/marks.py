@@ -11,11 +11,11 @@ import numpy as np
 from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.quantity import significant
+from linkwright.pictures.labels import Name
 from linkwright.pictures.picture import Picture, Runs, as_runs, indexed, joined
 from linkwright.sheets.cams.division import divided, widest_gap
 from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of, sharpest
 from linkwright.sheets.cams.scales import equal
-from linkwright.sheets.labels import Name
 from linkwright.words import Say
 
 #: Gap of the followers below which they are close together, rad.

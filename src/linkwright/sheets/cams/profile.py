@@ -12,13 +12,13 @@ import numpy as np
 
 from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Complexes, Floats
+from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import Picture, Runs, as_runs, joined
 from linkwright.sheets.cams.division import divided, widest_gap
 from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of
 from linkwright.sheets.cams.marks import marked, said
 from linkwright.sheets.cams.scales import graphical
 from linkwright.sheets.cams.symbols import frame_pin, guide
-from linkwright.sheets.labels import Name, put
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.words import Say
 

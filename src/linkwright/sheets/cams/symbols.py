@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.pictures.labels import TO_UNITS
 from linkwright.pictures.picture import Picture, Vec
 from linkwright.pictures.symbols.base import SYMBOLS, vec
-from linkwright.sheets.labels import TO_UNITS
 from linkwright.sheets.scene import draw_elements
 
 #: Half the length of the walls between which a stem slides, and their distance, in units of symbols.

@@ -1,4 +1,4 @@
-"""Placing labels so that they cover neither each other nor lines.
+"""Names placed so that they cover neither each other nor lines.
 
 Every label has candidate places round its anchor. The cost of a place is the ink under it, the labels under it, its
 distance and a small preference. Labels are placed one after the other and then moved while that lowers the cost.
@@ -7,21 +7,28 @@ distance and a small preference. Labels are placed one after the other and then 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import field
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.dataclass import dataclass
-from linkwright.pictures.picture import SvgNode, Vec
+from linkwright.pictures.picture import (
+    CAPITAL,
+    TEXT,
+    Picture,
+    Runs,
+    SvgNode,
+    Text,
+    Vec,
+    indexed,
+    line_width,
+    name_runs,
+)
 from linkwright.pictures.svg.element import element, number
-from linkwright.pictures.svg.text import name_width, split_index, text_element
 from linkwright.pictures.symbols.arrows import BEHIND, NARROW
-from linkwright.pictures.symbols.base import points, vec, way
-from linkwright.plot.drawing.machine import Machine, flat
-from linkwright.plot.drawing.scene import Scene
-from linkwright.plot.drawing.view import moved
+from linkwright.pictures.symbols.base import vec, way
 
 _STEPS = (0.0, 5.0, 11.0, 19.0, 30.0, 44.0)
 _WAYS = tuple((math.cos(a), math.sin(a)) for a in np.radians(np.arange(-45, 315, 22.5)))
@@ -33,10 +40,10 @@ _CLOSE, _APART = 2.5, 60.0
 
 @dataclass(frozen=True)
 class Label:
-    """A text for one of the places ``anchors``, the first liked best; ``clearance`` keeps it off the symbol there.
+    """A name for one of the places ``anchors``, the first liked best; ``clearance`` keeps it off the symbol there.
 
     ``point``: the point that is named, as ``link.point``; ``index``: a small text behind and below; ``along``: a
-    line, from its start to its end, over which the text is written in its direction.
+    line, from its start to its end, over which the name is written in its direction.
     """
 
     text: str
@@ -52,12 +59,17 @@ class Label:
     @property
     def extent(self) -> Vec:
         """Width and height of the text."""
-        return name_width(self.text, self.size, self.index), (0.95 + self.drop) * self.size
+        return line_width(self.runs, self.size), (0.95 + self.drop) * self.size
+
+    @property
+    def runs(self) -> Runs:
+        """The text with its index."""
+        return indexed(self.text, self.index) if self.index else name_runs(self.text)
 
     @property
     def drop(self) -> float:
         """How far an index hangs below the line, in sizes."""
-        return 0.18 if self.index or split_index(self.text)[1] else 0.0
+        return 0.18 if len(self.runs) > 1 else 0.0
 
 
 Box = tuple[float, float, float, float]
@@ -269,55 +281,58 @@ def written(label: Label, chosen: Candidate) -> list[SvgNode]:
         found.append(element("line", {"class": "lw-leader", "x1": x, "y1": y, "x2": end[0], "y2": end[1]}))
     middle, level = (left + right) / 2, (top + bottom) / 2
     baseline = level + 0.5 * label.extent[1] - (0.14 + label.drop) * label.size
-    text = text_element(middle, baseline, label.text, label.style, label.size, "middle", index=label.index)
+    text = Text((middle, baseline), label.runs, label.style, label.size, "middle")
     if chosen.turned:
         turn = " ".join(map(number, (chosen.turned, middle, level)))
-        text = element("g", {"transform": f"rotate({turn})"}, text)
+        return [*found, element("g", {"transform": f"rotate({turn})"}, text)]
     return [*found, text]
 
 
-LINK_SIZE = 12.0
+#: Millimetres of paper per unit in which symbols and labels are laid out: a pin of 10 units is 3 mm wide.
+UNIT = 0.3
+#: To units of symbols, whose y is down.
+TO_UNITS = np.array([1.0, -1.0]) / UNIT
 
 
-def point_labels(machine: Machine, index: int) -> Iterator[Label]:
-    """Names of all pins and points at one position."""
-    seen: set[tuple[str, float, float]] = set()
-    for link in machine.motion.mechanism.links.values():
-        for point in link.points:
-            x, y = machine.paper(link.name, point, index)
-            key = (point, round(x), round(y))
-            if key not in seen:
-                seen.add(key)
-                yield Label(point, ((x, y),), clearance=8.0, point=f"{link.name}.{point}")
+@dataclass(frozen=True)
+class Name:
+    """A text for the best of some places (mm); ``runs`` with its indices; ``clear``: distance from the place, mm.
+
+    ``leader``: whether a line leads to a place that is far off; ``symbol``: set in italics.
+    """
+
+    runs: Runs
+    places: Sequence[Floats]
+    height: float = TEXT
+    clear: float = 1.5
+    leader: bool = False
+    symbol: bool = False
 
 
-def link_labels(scene: Scene, index: int) -> Iterator[Label]:
-    """Names of all moving links, beside their bodies."""
-    machine = scene.machine
-    for name in machine.motion.mechanism.links:
-        cloud = machine.cloud(name)
-        if len(cloud) < 2:
-            cloud = _middle_of_ink(scene, name, cloud)
-        cloud = moved(cloud, machine.view.transform(machine.placed[name], index))
-        yield Label(name, _anchors(cloud), "lw-link", LINK_SIZE, clearance=5.0)
+def put(picture: Picture, names: Iterable[Name], *, more: Iterable[Floats] = ()) -> None:
+    """Writes names on a picture, clear of its lines, its texts and ``more`` polylines (k, 2), mm."""
+    wanted = list(names)
+    labels = [_label(each) for each in wanted]
+    ink = [line * TO_UNITS for line in (*(item.outline for item in picture.items), *more)]
+    for name, label, chosen in zip(wanted, labels, place(labels, Obstacles.of(ink)), strict=True):
+        left, top, _, bottom = chosen.box
+        middle = 0.5 * (top + bottom)
+        baseline = middle + 0.5 * label.extent[1] - (0.14 + label.drop) * label.size
+        at = np.array([left, baseline]) / TO_UNITS
+        if name.leader and chosen.gap > 16.0:
+            _lead(picture, chosen.box, chosen.anchor)
+        picture.text(at, name.runs, name.height, symbol=name.symbol)
 
 
-def _middle_of_ink(scene: Scene, link: str, cloud: Floats) -> Floats:
-    """The middle of what is drawn of a link that has one point only."""
-    layers = ("blocks", "bodies")
-    ink = [line for layer in layers for p in scene.parts if p.carrier == link and p.layer == layer
-           for line in p.shape.ink]  # fmt: skip
-    if not ink:
-        return cloud
-    everything = np.concatenate(ink)
-    return points([(everything.min(axis=0) + everything.max(axis=0)) / 2])
+def _lead(picture: Picture, box: tuple[float, float, float, float], anchor: tuple[float, float]) -> None:
+    left, top, right, bottom = box
+    start = np.clip(anchor, (left, top), (right, bottom))
+    picture.line(np.array([start, anchor]) / TO_UNITS)
 
 
-def _anchors(cloud: Floats) -> tuple[Vec, ...]:
-    ends = flat(cloud)
-    if ends is None:
-        sides = (cloud + np.roll(cloud, 1, axis=0)) / 2
-        return (vec(cloud.mean(axis=0)), *map(vec, sides))
-    if len(ends) == 1 or np.hypot(*(ends[1] - ends[0])) < 1.0:
-        return (vec(cloud[0]),)
-    return tuple(vec(ends[0] + share * (ends[1] - ends[0])) for share in (0.5, 0.38, 0.62, 0.27, 0.73))
+def _label(name: Name) -> Label:
+    stem = "".join(text for text, level in name.runs if level == 0)
+    index = max((text for text, level in name.runs if level), key=len, default="")
+    places = tuple(vec(np.asarray(at) * TO_UNITS) for at in name.places)
+    size = name.height / CAPITAL / UNIT
+    return Label(stem, places, size=size, clearance=name.clear / UNIT, index=index)
