@@ -1,14 +1,18 @@
 """Names in diagrams do not lie on each other; positions beside polygons show supports and wheels."""
 
+import re
+from xml.etree import ElementTree
+
 import numpy as np
 import pytest
-from matplotlib.patches import Circle
 from matplotlib.text import Annotation
 from tests import store
 from tests.every import every
 
 import linkwright as lw
 from linkwright.plot import plot
+
+SHIFT = re.compile(r"translate\(([-\d.]+) ([-\d.]+)\)(?: rotate\(([-\d.]+)\))?")
 
 
 @pytest.mark.rotating
@@ -41,30 +45,39 @@ def test_names_do_not_lie_on_each_other(name: str, kind: str) -> None:
 
 
 def test_positions_show_pitch_circles_whole() -> None:
-    """Gears of 20, 30 and 60 teeth beside a polygon: their radii, and that they lie within the axes."""
+    """Gears of 20, 30 and 60 teeth beside a polygon: their radii, and that they lie within the picture."""
     mechanism = store.machine("geared_fivebar_third")
-    figure = plot(store.motion("geared_fivebar_third", 72), "velocity_polygon").figure
-    axes = figure.axes[0]
-    circles = [each for each in axes.patches if isinstance(each, Circle)]
-    radii = sorted(each.radius for each in circles)
+    root = ElementTree.fromstring(plot(store.motion("geared_fivebar_third", 72), "velocity_polygon").svg())
+    circles = [each for each in root.iter() if each.get("class") == "lw-pitch"]
+    radii = sorted(float(each.get("r", "")) for each in circles)
     teeth = sorted({z for joint in mechanism.joints.values() for z in getattr(joint, "teeth", None) or ()})
-    assert np.allclose(np.array(radii) / radii[0], np.array(teeth) / teeth[0])
-    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    assert np.allclose(np.array(radii) / radii[0], np.array(teeth) / teeth[0], rtol=1e-3)
+    left, top, wide, tall = map(float, root.get("viewBox", "").split())
+    parents = {child: each for each in root.iter() for child in each}
     for each in every(circles, least=3):
-        x, y = each.center
-        assert left <= x - each.radius and x + each.radius <= right
-        assert low <= y - each.radius and y + each.radius <= high
+        x, y = float(each.get("cx", "")), float(each.get("cy", ""))
+        inner = each
+        while inner in parents:
+            inner = parents[inner]
+            for shift in re.findall(
+                r"translate\(([-\d.]+) ([-\d.]+)\)(?: rotate\(([-\d.]+)\))?", inner.get("transform", "")
+            ):
+                c, s = np.cos(np.radians(float(shift[2] or 0))), np.sin(np.radians(float(shift[2] or 0)))
+                x, y = float(shift[0]) + c * x - s * y, float(shift[1]) + s * x + c * y
+        r = float(each.get("r", ""))
+        assert left <= x - r and x + r <= left + wide and top <= y - r and y + r <= top + tall
 
 
 def test_supports_stand_above_pins_from_which_links_hang() -> None:
     """The crusher's jaw hangs from O5; its crank and its rocker stand on O1 and O3."""
-    figure = plot(store.motion("jaw_crusher_sixbar", 72), "velocity_polygon").figure
-    drawn = [
-        (float(np.ravel(line.get_ydata())[0]), line.get_marker().vertices[:, 1].min() < 0)
-        for line in figure.axes[0].lines
-        if hasattr(line.get_marker(), "vertices")
+    root = ElementTree.fromstring(plot(store.motion("jaw_crusher_sixbar", 72), "velocity_polygon").svg())
+    corners = [
+        np.array(re.findall(r"[-\d.]+", each.get("d", "")), dtype=float).reshape(-1, 2)
+        for each in root.iter()
+        if each.get("class") == "lw-support"
     ]
-    assert [below for _, below in sorted(drawn)] == [True, True, False]
+    drawn = [(float(tip[1]), bool(base[1] < tip[1])) for tip, base, _ in corners]
+    assert [above for _, above in sorted(drawn)] == [True, False, False]
 
 
 def test_linkages_of_a_synthesis_stand_on_supports_and_have_one_entry_each() -> None:

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import matplotlib
 import numpy as np
@@ -28,6 +29,9 @@ def forces() -> lw.Forces:
 def words_of(diagram: Diagram) -> list[str]:
     from matplotlib.text import Text
 
+    if isinstance(diagram.figure, lw.Drawing):
+        texts = (each for each in ElementTree.fromstring(diagram.svg()).iter() if each.tag.endswith("}text"))
+        return ["".join(each.itertext()) for each in texts]
     return [
         text.get_text() for text in diagram.figure.findobj(Text) if text.get_visible() and text.get_text()
     ]
@@ -132,7 +136,12 @@ def test_names_are_no_formulas() -> None:
     )
     mechanism = lw.loads(text)
     for kind in ("sva", "angles", "velocity_polygon"):
-        assert plot(mechanism, kind, of=["_k", "c"] if kind == "angles" else ()).svg().endswith("</svg>\n")
+        assert (
+            plot(mechanism, kind, of=["_k", "c"] if kind == "angles" else ())
+            .svg()
+            .rstrip()
+            .endswith("</svg>")
+        )
 
 
 def test_settings_of_matplotlib_stay_as_they_were(forces: lw.Forces) -> None:

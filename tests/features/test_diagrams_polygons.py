@@ -1,5 +1,8 @@
 """Polygons of diagrams: what is refused, and forces that close to the scale that is written beside them."""
 
+import re
+from xml.etree import ElementTree
+
 import numpy as np
 import pytest
 from tests import store
@@ -8,6 +11,9 @@ from tests.refusals import refused
 import linkwright as lw
 from linkwright.errors import RequestError
 from linkwright.plot import plot
+
+#: Places in the file have two decimals, a polygon is some 200 units long.
+RESOLUTION = 3e-4
 
 
 @pytest.mark.parametrize(
@@ -29,14 +35,23 @@ def test_the_forces_on_a_link_close_to_the_scale_that_is_written(degrees: float)
     """Both joint forces of the jaw and its weight are among the arrows, which add up to nothing."""
     at = float(np.radians(degrees))
     forces = lw.solve_forces(lw.solve_motion(store.machine("jaw_crusher_sixbar"), at=[at]))
-    _, axes = plot(forces, "force_polygon", at=at, of="jaw").figure.axes
-    (text,) = [t for t in axes.texts if t.get_text().endswith("N") and t.get_text()[0].isdigit()]
-    number, unit = text.get_text().split()
-    bar = max(np.ptp(line.get_xdata()) for line in axes.lines)
-    scale = float(number) * {"kN": 1e3, "N": 1.0}[unit] / bar
-    arrows = [scale * (np.array(t.xy) - np.array(t.get_position())) for t in axes.texts if not t.get_text()]
-    sizes = np.hypot(*np.array(arrows).T)
-    assert np.abs(np.sum(arrows, axis=0)).max() < 1e-8 * sizes.max()
+    root = ElementTree.fromstring(plot(forces, "force_polygon", at=at, of="jaw").svg())
+    bars = [each for each in root.iter() if each.get("class") == "lw-ground" and each.get("d")]
+    ticks = [np.ptp(np.array(re.findall(r"[-\d.]+", each.get("d", "")), dtype=float)[::2]) for each in bars]
+    texts = ["".join(each.itertext()) for each in root.iter() if each.tag.endswith("text")]
+    _, text = [t for t in texts if re.fullmatch(r"[\d.]+ (mm|k?N)", t)]
+    number, unit = text.split()
+    scale = float(number) * {"kN": 1e3, "N": 1.0}[unit] / max(ticks[-3:])
+    polygon = [each for each in root.iter() if each.tag.endswith("}g")][-1]
+    drawn = {kind: [] for kind in ("line", "head")}
+    for each in polygon.iter():
+        kind = str(each.get("class", "")).rpartition("-")[2]
+        if kind in drawn:
+            first = np.array(re.findall(r"[-\d.]+", each.get("d", ""))[:2], dtype=float)
+            drawn[kind].append(first * (1.0, -1.0))
+    arrows = scale * (np.array(drawn["head"]) - np.array(drawn["line"]))
+    largest = np.hypot(*arrows.T).max()
+    assert np.abs(np.sum(arrows, axis=0)).max() < RESOLUTION * largest
     weight = np.array([0.0, -9.81 * forces.mechanism.links["jaw"].mass])
     for known in (forces.reaction("O5", on="jaw")[0], forces.reaction("C", on="jaw")[0], weight):
-        assert min(np.hypot(*(arrow - known)) for arrow in arrows) < 1e-9 * sizes.max()
+        assert min(np.hypot(*(arrow - known)) for arrow in arrows) < RESOLUTION * largest

@@ -215,15 +215,17 @@ class Text:
         return str(element("text", given, *self._spans()))
 
     def _spans(self) -> Iterator[Element | str]:
-        raised = 0.0
+        """The parts of the text; an index below one above begins where that one does."""
+        raised = back = 0.0
         for text, level in self.runs:
             wanted = {0: 0.0, -1: 0.25, 1: -0.38}[level] * self.size
             if level == 0 and raised == 0.0:
                 yield text
                 continue
             size = INDEX * self.size if level else self.size
-            yield element("tspan", {"dy": wanted - raised, "font-size": size}, text)
-            raised = wanted
+            shift = -back if back and level < 0 else None
+            yield element("tspan", {"dx": shift, "dy": wanted - raised, "font-size": size}, text)
+            raised, back = wanted, text_width(text, size) if level > 0 else 0.0
 
 
 def _placed(points: Floats, shift: Floats, turn: float = 0.0, scale: Vec = (1.0, 1.0)) -> Floats:

@@ -11,7 +11,8 @@ INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE, TEAL = (
 COLOURS = (INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE, TEAL)
 
 
-def _arrow(name: str, colour: str, width: float = 2.0) -> str:
+def arrow_rules(name: str, colour: str, width: float = 2.0) -> str:
+    """The rules of an arrow's line, head and name."""
     return (
         f".lw-{name}-line{{fill:none;stroke:{colour};stroke-width:{width}}}"
         f".lw-{name}-head{{fill:{colour};stroke:none}}.lw-{name}-name{{fill:{colour};font-style:italic}}"
@@ -37,17 +38,17 @@ CSS = "".join((
     ".lw-trace-1{stroke:#2e7d32}.lw-trace-2{stroke:#d9730d}.lw-trace-3{stroke:#7b1fa2}",
     ".lw-dot{fill:#1565c0}",
     ".lw-leader{fill:none;stroke:#9aa4ae;stroke-width:.8}",
-    _arrow("input", ORANGE),
-    _arrow("force", RED),
-    _arrow("load", PURPLE, 2.4),
+    arrow_rules("input", ORANGE),
+    arrow_rules("force", RED),
+    arrow_rules("load", PURPLE, 2.4),
     f".lw-load-ring{{fill:#fff;stroke:{PURPLE};stroke-width:1.6}}",
     f".lw-load-thin{{fill:none;stroke:{PURPLE};stroke-width:1.6}}",
     ".lw-load-dashed{stroke-dasharray:6 4}",
-    _arrow("driver", TEAL, 2.4),
-    _arrow("weight", GREEN),
-    _arrow("inertia", BLUE),
-    _arrow("velocity", BLUE),
-    _arrow("acceleration", GREEN),
+    arrow_rules("driver", TEAL, 2.4),
+    arrow_rules("weight", GREEN),
+    arrow_rules("inertia", BLUE),
+    arrow_rules("velocity", BLUE),
+    arrow_rules("acceleration", GREEN),
     f"text{{font-family:{FAMILY_LIST}}}",
     f".lw-name{{fill:{INK};font-style:italic}}.lw-link{{fill:#52606d}}.lw-value{{fill:{GROUND}}}",
     f".lw-legend{{fill:{INK}}}.lw-axis{{fill:none;stroke:{GROUND};stroke-width:1}}",

@@ -12,7 +12,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import significant
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import LEAST, Pen, Picture, Runs, Words, as_runs, indexed, joined
-from linkwright.plot.diagrams.axes import significant
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.units import si_unit
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from abc import abstractmethod
-from itertools import pairwise
 from typing import ClassVar
 
 import numpy as np
@@ -15,19 +14,26 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import LEAST, Picture, as_runs, indexed, joined
-from linkwright.plot.diagrams.force_polygon import LinkForce, corners, link_forces, ordered
+from linkwright.plot.diagrams.force_polygon import (
+    SHARES,
+    SHORT,
+    LinkForce,
+    arrows,
+    corners,
+    link_forces,
+    ordered,
+)
+from linkwright.plot.diagrams.motion_polygons import arrows as vectors
 from linkwright.plot.diagrams.motion_polygons import gathered
 from linkwright.plot.diagrams.motion_vectors import (
     MotionPolygon,
     acceleration_polygon,
     velocity_polygon,
 )
-from linkwright.plot.diagrams.scaled_page import LOW, side_by_side
+from linkwright.plot.diagrams.names import LOW
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.sheets.positions import Positions, Shown
 
-#: Vectors that are shorter on the sheet have no name of their own, mm.
-SHORT = 1.5
 #: Letters at the ends of parts of an acceleration.
 ENDS = {"normal": "n", "coriolis": "k"}
 
@@ -93,7 +99,7 @@ class MotionPolygonPanel(ScaledPanel):
 
     def picture(self, scale: float) -> Picture:
         found = Picture()
-        pairs = side_by_side([(step.start / scale, step.end / scale) for step in self.polygon.steps])
+        pairs = vectors(self.polygon, scale)
         for step, (start, end) in zip(self.polygon.steps, pairs, strict=True):
             if step.role == "absolute":
                 found.arrow(start, end)
@@ -178,14 +184,12 @@ class ForcePanel(ScaledPanel):
 
     def picture(self, scale: float) -> Picture:
         found = Picture()
-        places = self.corners / scale
-        pairs = side_by_side(list(pairwise(places)))
         names = []
-        for vector, (start, end) in zip(self.vectors, pairs, strict=True):
+        for vector, (start, end) in zip(self.vectors, arrows(self.vectors, scale), strict=True):
             found.arrow(start, end, "thick" if vector.role == "reaction" else "thin")
             if np.hypot(*(end - start)) > SHORT:
-                spots = [start + share * (end - start) for share in (0.5, 0.35, 0.65, 0.2, 0.8)]
-                runs = indexed(vector.letter, vector.index)
+                spots = [start + share * (end - start) for share in SHARES]
+                runs = vector.symbol
                 if vector.role == "inertia":
                     runs = indexed("F", f"I{link_numbers(self.positions.mechanism)[self.link]}")
                 names.append(Name(runs, spots, self.letters, clear=1.2, symbol=True))

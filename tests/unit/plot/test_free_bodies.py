@@ -8,8 +8,7 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.pictures.svg.text import width
-from linkwright.plot.flow_chart.layout import fold
+from linkwright.pictures.svg.text import fold, width
 from linkwright.plot.free_bodies.actions import free_bodies, idle_loads
 from linkwright.plot.free_bodies.picture import round_scale
 
@@ -62,6 +61,6 @@ def test_scales_are_the_smallest_round_ones(largest: float) -> None:
     ],
 )
 def test_folded_lines_fit_and_lose_nothing(text: str) -> None:
-    lines = fold(text, 90.0)
+    lines = fold(text, 90.0, 13.0)
     assert all(width(line, 13.0) <= 90.0 + 13.0 for line in lines)
     assert "".join(lines).replace(" ", "") == text.replace(" ", "")

@@ -94,7 +94,7 @@ def test_lines_of_a_legend_keep_together_what_belongs_together(text: str, kept: 
     for wide in range(300, 520, 7):
         legend = Legend((0.0, 0.0, float(wide), 10.0))
         legend.text(text)
-        rows = ["".join(map(str, each.content)).strip() for each in legend.elements]
+        rows = ["".join(text for text, _ in each.runs).strip() for each in legend.elements]
         assert "".join(rows).replace(" ", "") == text.replace(" ", "")
         assert any(kept in row for row in rows)
         assert not any(row[0] in "，。；" for row in rows)

@@ -1,6 +1,8 @@
 """Polygons: printed velocities, directions of the parts, closed forces, and a true scale on the paper."""
 
+import re
 from collections.abc import Callable
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -8,14 +10,25 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.plot import plot
-from linkwright.plot.diagrams.force_polygon import link_forces
+from linkwright.pictures.picture import Line, Text
+from linkwright.pictures.sketch import Sketch
+from linkwright.plot.diagrams.force_polygon import link_forces, ordered, polygon_cell
 from linkwright.plot.diagrams.motion_polygons import image_names
-from linkwright.plot.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
-from linkwright.plot.diagrams.position import place_of
-from linkwright.plot.diagrams.scaled_page import BAR, Cell, page, scale_of_picture, side_by_side
-
-INCH = 25.4
+from linkwright.plot.diagrams.motion_vectors import (
+    MotionPolygon,
+    acceleration_polygon,
+    place_of,
+    velocity_polygon,
+)
+from linkwright.plot.diagrams.scaled_page import (
+    BAR,
+    MILLIMETRE,
+    Cell,
+    page,
+    scale_of_picture,
+    side_by_side,
+    units,
+)
 
 
 def at(name: str, degrees: float) -> lw.Motion:
@@ -78,17 +91,19 @@ def test_forces_on_every_link_close(name: str, degrees: float) -> None:
 
 
 def test_a_millimetre_of_the_picture_is_one_of_the_paper() -> None:
-    cells = [
-        Cell(np.array([[0.0, 0.0], [60.0, 40.0]]), "a"),
-        Cell(np.array([[-30.0, 5.0], [12.0, 95.0]]), "b"),
-    ]
-    figure, axes = page(cells, 2, foot=10.0)
-    wide, tall = figure.get_size_inches() * INCH
-    for one in every(axes, least=2):
-        box = one.get_position()
-        assert np.ptp(one.get_xlim()) == pytest.approx(box.width * wide)
-        assert np.ptp(one.get_ylim()) == pytest.approx(box.height * tall)
-        assert box.x1 <= 1 + 1e-12 and box.y0 >= 0
+    """A square of 30 mm in one of two cells is one of 30 mm in the file, whose width is in pixels of 1/96 inch."""
+    cells = []
+    for corners in ([(0, 0), (60, 0), (60, 40)], [(-30, 5), (0, 5), (0, 35), (-30, 35)]):
+        sketch = Sketch()
+        sketch.line(units(np.array(corners)), "lw-rule", closed=True)
+        cells.append(Cell(sketch, ("a",), "b"))
+    root = ElementTree.fromstring(page(cells, 2, [], "", "title").svg)
+    _, _, wide, tall = map(float, root.get("viewBox", "").split())
+    millimetre = float(root.get("width", "")) / wide * 25.4 / 96.0
+    assert float(root.get("height", "")) / tall * 25.4 / 96.0 == pytest.approx(millimetre, rel=1e-4)
+    *_, square = (each.get("d", "") for each in root.iter() if each.get("class") == "lw-rule")
+    corners_drawn = np.array(re.findall(r"[-\d.]+", square), dtype=float).reshape(-1, 2)
+    assert np.ptp(corners_drawn, axis=0) * millimetre == pytest.approx([30.0, 30.0], rel=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -148,17 +163,19 @@ def test_a_flat_polygon_is_drawn_longer_and_one_without_height_in_lines_side_by_
 
 def test_the_drawn_scale_is_that_of_the_arrows() -> None:
     forces = lw.solve_forces(at("jaw_crusher_sixbar", -40.0))
-    figure = plot(forces, "force_polygon", at=float(np.radians(-40.0)), of="jaw").figure
-    _, axes = figure.axes
-    (text,) = [t for t in axes.texts if t.get_text().endswith("N") and t.get_text()[0].isdigit()]
-    number, unit = text.get_text().split()
-    per_mm = float(number) * {"kN": 1e3, "N": 1.0}[unit] / BAR
-    bar = max((np.ptp(line.get_xdata()) for line in axes.lines), default=0.0)
-    assert bar == pytest.approx(BAR)
-    ends = [(np.array(t.xy), np.array(t.get_position())) for t in axes.texts if not t.get_text()]
-    drawn = sorted(float(np.hypot(*(end - foot))) * per_mm for end, foot in ends)
-    known = link_forces(forces, "jaw", 0)
+    known = ordered(link_forces(forces, "jaw", 0))
+    cell = polygon_cell(forces, "jaw", known)
+    number, unit = cell.bar.split()
+    per_mm = float(number) * {"kN": 1e3, "N": 1.0}[unit] / (BAR * MILLIMETRE)
+    lines = [each for each in cell.sketch.content if isinstance(each, Line)]
+    feet = [each.points[0] for each in lines if each.style.endswith("-line")]
+    ends = [each.points[0] for each in lines if each.style.endswith("-head")]
+    drawn = sorted(float(np.hypot(*(b - a))) * MILLIMETRE * per_mm for a, b in zip(feet, ends, strict=True))
     assert drawn == pytest.approx(sorted(each.size for each in known), rel=1e-9)
-    names = {each.name: each for each in known if each.role == "reaction"}
+    names = {each.letter + each.index: each for each in known if each.role == "reaction"}
     assert names["F05"].force == pytest.approx(forces.reaction("O5", on="jaw")[0])
     assert names["F45"].force == pytest.approx(forces.reaction("C", on="jaw")[0])
+    written = [
+        "".join(text for text, _ in each.runs) for each in cell.sketch.content if isinstance(each, Text)
+    ]
+    assert {"F05", "F45", "G5"} <= set(written)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -15,38 +15,44 @@ from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import driver_wrenches
 from linkwright.mechanism.force_names import link_numbers, reaction_index
-from linkwright.pictures.diagram import COLOURS, Axes, Figure
-from linkwright.plot.diagrams.axes import unit_of, wrapped
+from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.labels import Label
+from linkwright.pictures.picture import Runs, indexed, joined
+from linkwright.pictures.sketch import Sketch
+from linkwright.pictures.svg.text import fold
+from linkwright.pictures.symbols.base import vec
+from linkwright.plot.diagrams.axes import unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.outputs import known_link
-from linkwright.plot.diagrams.position import draw_position, name_position, position_cell
 from linkwright.plot.diagrams.reactions import require_forces
 from linkwright.plot.diagrams.scaled_page import (
     BAR,
-    INCH,
-    LEAST,
+    MILLIMETRE,
+    SIZE,
     Cell,
-    Labels,
-    arrow,
-    colour_key,
-    headed,
+    key,
     page,
+    page_width,
+    position_cell,
     scale_of_picture,
+    scale_title,
     side_by_side,
-    symbol,
-    text_width,
+    units,
 )
 from linkwright.plot.diagrams.source import Source
 from linkwright.words.sentence import links_said
 
 #: Longest extent of a polygon on the paper, mm, and how many pictures stand in a row.
 EXTENT, IN_ROW = 58.0, 3
-LOOKS = {
-    "load": COLOURS[1],
-    "weight": COLOURS[2],
-    "inertia": COLOURS[3],
-    "driver": COLOURS[4],
-    "reaction": COLOURS[0],
+#: Forces that are shorter on the paper have no name of their own, mm; where along a force its name may stand.
+SHORT, SHARES = 1.5, (0.5, 0.35, 0.65, 0.2, 0.8)
+#: Roles with the classes of their arrows, in the order of the graphical method: what is known first.
+ROLES = {
+    "load": "lw-load",
+    "weight": "lw-weight",
+    "inertia": "lw-inertia",
+    "driver": "lw-driver",
+    "reaction": "lw-force",
 }
 
 
@@ -63,14 +69,9 @@ class LinkForce:
     index: str = ""
 
     @property
-    def name(self) -> str:
-        """Letter and index on one line."""
-        return self.letter + self.index
-
-    @property
-    def symbol(self) -> str:
-        """Letter and index as mathematics; other names as they are."""
-        return symbol(self.letter, self.index) if self.index else self.letter.replace("$", r"\$")
+    def symbol(self) -> Runs:
+        """Letter and index."""
+        return indexed(self.letter, self.index)
 
     @property
     def size(self) -> float:
@@ -116,52 +117,58 @@ class ForcePolygon(Kind):
 
     options = ("of", "at", "static")
 
-    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+    def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
         if len(sources) > 1:
             raise RequestError("picture.one_mechanism_forces")
         source, say = sources[0], request.say
         forces = source.forces_at(request.at)
         require_forces(forces)
         parts = _links(forces, request)
-        scales = [scale_of_picture(corners(each), EXTENT) for each in parts.values()]
-        ink, millimetre, cell = position_cell(forces.motion, say)
-        cells = [cell]
-        for (link, each), scale in zip(parts.items(), scales, strict=True):
-            title = f"{_title(forces, link)}\n{symbol('μ', 'F')} = {_per_mm(scale)}"
-            unit = unit_of("force", [np.array([BAR * scale])])
-            drawn = np.array([place for pair in _pairs(each, scale) for place in pair])
-            cells.append(Cell(drawn, title, _notes(each), unit.text(BAR * scale)))
-        subject = f"{say('kind.force_polygon')}, {source.place_text(forces.motion, say)}"
-        title = request.titled(source.label, subject)
-        wide = max(LEAST, sum(float(cell.size[0]) for cell in cells[:IN_ROW]))
-        heading = wrapped(title if request.title is None else request.title, wide / INCH)
-        head = 4.0 + 4.6 * (heading.count("\n") + 1) if heading else 2.0
-        numbered = list(_numbered(forces, request, wide))
-        foot = 5.0 * len(numbered) + 8.0
-        figure, (first, *axes) = page(cells, IN_ROW, foot=foot, head=head)
-        draw_position(first, forces.motion, 0, factor=1 / millimetre)
-        name_position(first, ink)
-        for one, each, scale in zip(axes, parts.values(), scales, strict=True):
-            _draw(one, each, scale)
+        say = request.say
+        cells = [position_cell(forces.motion, say), *(polygon_cell(forces, *each) for each in parts.items())]
         roles = {force.role for each in parts.values() for force in each}
-        entries = [(say(f"force.{role}"), colour) for role, colour in LOOKS.items() if role in roles]
-        colour_key(figure, entries, foot - 6.0)
-        for line, text in enumerate(numbered, 2):
-            colour_key(figure, [(text, "#222222")], foot - 5.0 * line - 0.5, mark="")
-        headed(figure, heading)
-        return figure
+        wide = page_width(cells[:IN_ROW], IN_ROW)
+        heading = request.titled(
+            source.label, f"{say('kind.force_polygon')}, {source.place_text(forces.motion, say)}"
+        )
+        numbered = fold(", ".join(links_said(link_numbers(forces.mechanism), request.language)), wide, SIZE)
+        return page(
+            cells,
+            IN_ROW,
+            [
+                key([(say(f"force.{role}"), style) for role, style in ROLES.items() if role in roles]),
+                *([((line, "lw-legend"), 0.0)] for line in numbered),
+            ],
+            heading if request.title is None else request.title,
+            heading,
+        )
 
 
-def _numbered(forces: Forces, request: Request, wide: float) -> Iterator[str]:
-    """The links with their numbers, in lines that fit a width, mm."""
-    line, *more = links_said(link_numbers(forces.mechanism), request.language)
-    for each in more:
-        longer = f"{line}, {each}"
-        if text_width(longer, 8.0) > wide - 8.0:
-            yield f"{line},"
-            longer = each
-        line = longer
-    yield line
+def polygon_cell(forces: Forces, link: str, found: list[LinkForce]) -> Cell:
+    """The polygon of a link with the sizes of its forces."""
+    scale = scale_of_picture(corners(found), EXTENT)
+    sketch = Sketch()
+    for each, (start, end) in zip(found, arrows(found, scale), strict=True):
+        style = ROLES[each.role]
+        sketch.arrow(units(start), units(end), style)
+        if np.hypot(*(end - start)) > SHORT:
+            spots = tuple(vec(units(start + share * (end - start))) for share in SHARES)
+            sketch.labels.append(
+                Label(each.letter, spots, f"{style}-name", 12.0, 4.0, leader=False, index=each.index)
+            )
+    sketch.write_names()
+    per_mm = f"{significant(scale / 1e3)} kN/mm" if scale >= 1e3 else f"{significant(scale)} N/mm"
+    bar = BAR * MILLIMETRE * scale
+    unit = unit_of("force", [each.force for each in found])
+    notes = tuple(
+        (joined(each.symbol, f" = {unit.text(each.size)}"), f"{ROLES[each.role]}-name") for each in found
+    )
+    return Cell(
+        sketch,
+        (_title(forces, link), scale_title("", "F", per_mm)),
+        unit_of("force", [np.array([bar])]).text(bar),
+        notes,
+    )
 
 
 def _title(forces: Forces, link: str) -> str:
@@ -187,7 +194,7 @@ def polygon_links(forces: Forces, index: int) -> list[str]:
 
 def ordered(found: list[LinkForce]) -> list[LinkForce]:
     """Forces in the order of the graphical method: what is known first, joint forces last."""
-    return sorted(found, key=lambda each: list(LOOKS).index(each.role))
+    return sorted(found, key=lambda each: list(ROLES).index(each.role))
 
 
 def corners(found: list[LinkForce]) -> Floats:
@@ -196,37 +203,6 @@ def corners(found: list[LinkForce]) -> Floats:
     return np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
 
 
-def _pairs(found: list[LinkForce], scale: float) -> list[tuple[Floats, Floats]]:
-    places = corners(found) / scale
-    return side_by_side(list(pairwise(places)))
-
-
-def _draw(axes: Axes, found: list[LinkForce], scale: float) -> None:
-    pairs = _pairs(found, scale)
-    places = np.array([place for pair in pairs for place in pair])
-    middle = 0.5 * (places.min(axis=0) + places.max(axis=0))
-    labels = Labels(axes)
-    for each, (start, end) in zip(found, pairs, strict=True):
-        arrow(axes, start, end, LOOKS[each.role])
-        labels.line(start, end)
-    for each, (start, end) in zip(found, pairs, strict=True):
-        if np.hypot(*(end - start)) > 1.5:
-            spots = [start + share * (end - start) for share in (0.5, 0.35, 0.65, 0.2, 0.8)]
-            labels.put(
-                each.name,
-                spots,
-                away=spots[0] - middle,
-                colour=LOOKS[each.role],
-                size=7.5,
-                written=each.symbol if each.index else None,
-            )
-
-
-def _notes(found: list[LinkForce]) -> tuple[tuple[str, str], ...]:
-    """Sizes of the forces in the colours of their roles."""
-    unit = unit_of("force", [each.force for each in found])
-    return tuple((f"{each.symbol} = {unit.text(each.size)}", LOOKS[each.role]) for each in found)
-
-
-def _per_mm(scale: float) -> str:
-    return f"{significant(scale / 1e3)} kN/mm" if scale >= 1e3 else f"{significant(scale)} N/mm"
+def arrows(found: list[LinkForce], scale: float) -> list[tuple[Floats, Floats]]:
+    """Starts and ends of the forces in paper mm, end to end."""
+    return side_by_side(list(pairwise(corners(found) / scale)))

@@ -13,44 +13,52 @@ from linkwright.core.arrays import Floats
 from linkwright.core.quantity import significant
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
-from linkwright.pictures.diagram import COLOURS, INK, Axes, Figure
-from linkwright.plot.diagrams.axes import wrapped
+from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.labels import Label
+from linkwright.pictures.picture import indexed, joined
+from linkwright.pictures.sketch import Sketch
+from linkwright.pictures.style import BLUE, GREEN, ORANGE, PURPLE, TEAL, arrow_rules
+from linkwright.pictures.symbols.base import vec
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
-from linkwright.plot.diagrams.position import draw_position, name_position, position_cell
+from linkwright.plot.diagrams.names import with_index
 from linkwright.plot.diagrams.scaled_page import (
     BAR,
-    INCH,
-    LEAST,
-    LINE,
+    MILLIMETRE,
     Cell,
-    Labels,
-    arrow,
-    colour_key,
-    headed,
+    Written,
+    key,
     page,
+    page_width,
+    position_cell,
     scale_of_picture,
+    scale_title,
     side_by_side,
-    symbol,
-    with_index,
+    units,
 )
 from linkwright.plot.diagrams.source import Source
-from linkwright.words import Say
 
 #: Longest extent of the polygon on the paper, mm.
 POLYGON = 110.0
+#: Least width of a column of sizes, units.
+COLUMN = 168.0
 #: Letters of the pole, the first one that no point has.
 POLES = ("p", "π", "o", "p*")
 #: Letters above the symbols of parts of an acceleration.
 ABOVE = {"normal": "n", "tangential": "t", "coriolis": "k", "sliding": "r"}
+#: Roles of vectors with their colours and dashes, mm.
 LOOKS = {
-    "absolute": (COLOURS[0], "-", 1.5),
-    "relative": (COLOURS[1], "-", 1.2),
-    "normal": (COLOURS[2], (0, (5, 2)), 1.1),
-    "tangential": (COLOURS[1], (0, (5, 2)), 1.1),
-    "coriolis": (COLOURS[3], (0, (5, 2)), 1.1),
-    "sliding": (COLOURS[4], (0, (5, 2)), 1.1),
+    "absolute": (BLUE, ""),
+    "relative": (ORANGE, ""),
+    "normal": (GREEN, "6 3"),
+    "tangential": (ORANGE, "6 3"),
+    "coriolis": (PURPLE, "6 3"),
+    "sliding": (TEAL, "6 3"),
 }
+CSS = "".join(
+    f"{arrow_rules(role, colour, 1.8)}.lw-{role}-line{{stroke-dasharray:{dash or 'none'}}}"
+    for role, (colour, dash) in LOOKS.items()
+)
 
 
 class MotionPolygons(Kind):
@@ -64,7 +72,7 @@ class MotionPolygons(Kind):
     def polygon(self, motion: Motion) -> MotionPolygon:
         """The polygon of a motion's first position."""
 
-    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+    def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
         if len(sources) > 1:
             raise RequestError("picture.one_mechanism")
         motion = sources[0].at(request.at)
@@ -72,32 +80,32 @@ class MotionPolygons(Kind):
         images = np.array([np.zeros(2), *polygon.images.values(), *(step.end for step in polygon.steps)])
         if float(np.ptp(images, axis=0).max()) <= 0:
             raise LinkwrightError("picture.nothing_moves")
-        return self._sheet(sources[0], motion, polygon, scale_of_picture(images, POLYGON), request)
+        return self._page(sources[0], motion, polygon, scale_of_picture(images, POLYGON), request)
 
-    def _sheet(
+    def _page(
         self, source: Source, motion: Motion, polygon: MotionPolygon, scale: float, request: Request
-    ) -> Figure:
+    ) -> Drawing:
         say = request.say
-        ink, millimetre, position = position_cell(motion, say)
-        places = np.array([np.zeros(2), *(place for pair in _arrows(polygon, scale) for place in pair)])
-        title = f"{say('polygon')}: {symbol('μ', self.letter)} = {significant(scale)} {self.unit}/mm"
-        cells = [position, Cell(places, title, bar=f"{significant(BAR * scale)} {self.unit}")]
+        title = scale_title(say("polygon"), self.letter, f"{significant(scale)} {self.unit}/mm")
+        bar = f"{significant(BAR * MILLIMETRE * scale)} {self.unit}"
+        cells = [
+            position_cell(motion, say),
+            Cell(_sketch(polygon, scale, self.prime), (title,), bar),
+        ]
+        roles = {step.role for step in polygon.steps}
         subject = f"{say(f'kind.{self.name}')}, {source.place_text(motion, say)}"
         heading = request.titled(source.label, subject)
-        texts = _table(polygon, self.unit)
-        wide = max(LEAST, sum(float(cell.size[0]) for cell in cells))
-        columns = int(wide // 42)
-        rows = -(-len(texts) // columns)
-        heading = wrapped(heading if request.title is None else request.title, wide / INCH)
-        head = 4.0 + 4.6 * (heading.count("\n") + 1) if heading else 2.0
-        figure, (left, right) = page(cells, 2, foot=LINE * rows + 9, head=head)
-        draw_position(left, motion, 0, factor=1 / millimetre)
-        name_position(left, ink)
-        draw_polygon(right, polygon, scale, self.prime)
-        colour_key(figure, _used(polygon, say), LINE * rows + 4)
-        _write(figure, texts, columns)
-        headed(figure, heading)
-        return figure
+        return page(
+            cells,
+            2,
+            [
+                key([(say(f"role.{role}"), f"lw-{role}") for role in LOOKS if role in roles]),
+                *_columns(_table(polygon, self.unit), page_width(cells, 2)),
+            ],
+            heading if request.title is None else request.title,
+            heading,
+            CSS,
+        )
 
 
 @DIAGRAMS.register("velocity_polygon")
@@ -122,20 +130,22 @@ class AccelerationPolygon(MotionPolygons):
         return acceleration_polygon(motion, 0)
 
 
-def draw_polygon(axes: Axes, polygon: MotionPolygon, scale: float, prime: str) -> None:
-    """Vectors and names, in paper mm from the pole; those of a flat polygon stand side by side."""
-    labels = Labels(axes)
-    for step, (start, end) in zip(polygon.steps, _arrows(polygon, scale), strict=True):
-        colour, dash, width = LOOKS[step.role]
-        arrow(axes, start, end, colour, dash=dash, width=width)
-        labels.line(start, end)
-    middle = np.mean([np.zeros(2), *polygon.images.values()], axis=0) / scale
+def _sketch(polygon: MotionPolygon, scale: float, prime: str) -> Sketch:
+    """Vectors and names; the vectors of a flat polygon stand side by side."""
+    sketch = Sketch()
+    for step, (start, end) in zip(polygon.steps, arrows(polygon, scale), strict=True):
+        sketch.arrow(units(start), units(end), f"lw-{step.role}")
     for names, image in gathered(polygon, scale, prime):
-        axes.plot([image[0]], [image[1]], "o", color=INK, markersize=2.4, zorder=4)
-        labels.put(", ".join(names), [image], away=image - middle)
+        sketch.circle(vec(units(image)), 1.8, "lw-point")
+        sketch.labels.append(
+            Label(", ".join(names), (vec(units(image)),), size=13.0, clearance=5.0, leader=False)
+        )
+    sketch.write_names()
+    return sketch
 
 
-def _arrows(polygon: MotionPolygon, scale: float) -> list[tuple[Floats, Floats]]:
+def arrows(polygon: MotionPolygon, scale: float) -> list[tuple[Floats, Floats]]:
+    """Starts and ends of the vectors in paper mm from the pole."""
     return side_by_side([(step.start / scale, step.end / scale) for step in polygon.steps])
 
 
@@ -160,44 +170,41 @@ def gathered(polygon: MotionPolygon, scale: float, prime: str) -> list[tuple[lis
     """Images with their names; those at one place share a label. The pole comes first."""
     pole, letters = image_names(polygon.images, prime)
     found: list[tuple[list[str], Floats]] = [([pole], np.zeros(2))]
-    for key, image in polygon.images.items():
+    for name, image in polygon.images.items():
         place = image / scale
         near = next((names for names, other in found if np.hypot(*(other - place)) < 0.6), None)
         if near is None:
-            found.append(([letters[key]], place))
+            found.append(([letters[name]], place))
         else:
-            near.append(letters[key])
+            near.append(letters[name])
     return found
 
 
-def _table(polygon: MotionPolygon, unit: str) -> list[tuple[str, str]]:
-    """Group by group the sizes of the vectors with the colour of their role, those of zero size left out."""
+def _table(polygon: MotionPolygon, unit: str) -> list[Written]:
+    """Group by group the sizes of the vectors in the colours of their roles, those of zero size left out."""
     largest = max(step.size for step in polygon.steps)
-    found: list[tuple[str, str]] = []
-    for group in dict.fromkeys(step.group for step in polygon.steps):
-        sizes = [
+    found: list[Written] = []
+    for name in dict.fromkeys(step.group for step in polygon.steps):
+        sizes: list[Written] = [
             (
-                f"{symbol(step.letter, step.name, ABOVE.get(step.role, ''))} = {significant(step.size)} {unit}",
-                LOOKS[step.role][0],
+                joined(
+                    indexed(step.letter, step.name, ABOVE.get(step.role, "")),
+                    f" = {significant(step.size)} {unit}",
+                ),
+                f"lw-{step.role}-name",
             )
             for step in polygon.steps
-            if step.group == group and step.size > 1e-9 * largest
+            if step.group == name and step.size > 1e-9 * largest
         ]
-        if sizes:
-            found += [(group.replace("$", r"\$"), INK), *sizes]
+        found += [(name, "lw-legend"), *sizes] if sizes else []
     return found
 
 
-def _used(polygon: MotionPolygon, say: Say) -> list[tuple[str, str]]:
-    roles = {step.role for step in polygon.steps}
-    return [(say(f"role.{role}"), look[0]) for role, look in LOOKS.items() if role in roles]
-
-
-def _write(figure: Figure, texts: list[tuple[str, str]], columns: int) -> None:
-    """The vectors' sizes below the pictures, in columns."""
-    wide, tall = (float(each) * INCH for each in figure.get_size_inches())
+def _columns(texts: list[Written], width: float) -> list[list[tuple[Written, float]]]:
+    """Texts in lines of columns that are read downwards."""
+    columns = int(width // COLUMN)
     rows = -(-len(texts) // columns)
-    for number, (text, colour) in enumerate(texts):
-        column, row = divmod(number, rows)
-        x, y = (4.0 + column * (wide - 4.0) / columns) / wide, (LINE * (rows - row - 1) + 2.5) / tall
-        figure.text(x, y, text, fontsize=7.8, color=colour, va="bottom", parse_math=True)
+    return [
+        [(text, number * width / columns) for number, text in enumerate(texts[row::rows])]
+        for row in range(rows)
+    ]

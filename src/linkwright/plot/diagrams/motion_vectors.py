@@ -17,7 +17,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
-from linkwright.plot.diagrams.position import place_of
 
 
 @dataclass(frozen=True)
@@ -61,6 +60,14 @@ def velocity_polygon(motion: Motion, index: int) -> MotionPolygon:
 def acceleration_polygon(motion: Motion, index: int) -> MotionPolygon:
     """Accelerations of all points at one position, m/s², with their normal, tangential and Coriolis parts."""
     return _Polygon(motion, index, "a").made()
+
+
+def place_of(motion: Motion, link: str, point: str, index: int) -> Floats:
+    """A point of a link at one position, (2,) m."""
+    x, y = motion.mechanism.link(link).points[point]
+    if link == "frame":
+        return np.array([x, y])
+    return np.asarray(motion.point(f"{link}.{point}").position[index])
 
 
 class _Polygon:

@@ -12,9 +12,10 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.pictures.diagram import INK, Axes, Figure
 from linkwright.pictures.labels import Label, Obstacles, place
+from linkwright.pictures.svg.text import split_index
 from linkwright.pictures.symbols.base import vec
-from linkwright.plot.diagrams.scaled_page import with_index
 
+LOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 SIZE, CLEARANCE, CORNERS = 7.5, 3.5, 180
 #: Two spare names nearer to each other than this, across and up, are not both written, points.
 NEAR = np.array([20.0, 10.0])
@@ -37,13 +38,11 @@ class Name:
 
 @dataclass
 class Names:
-    """What is to be named in axes; names keep clear of ``lines`` (n, 2), and of strokes (n, 2) of symbols, points,
-    ``around`` places."""
+    """What is to be named in axes; names keep clear of ``lines`` (n, 2)."""
 
     axes: Axes
     names: list[Name] = field(default_factory=list)
     lines: list[Floats] = field(default_factory=list)
-    around: list[tuple[Floats, Floats]] = field(default_factory=list)
 
     def line(self, places: Floats) -> None:
         """A line that is drawn; of a curve with very many corners some are enough."""
@@ -67,8 +66,7 @@ def _write(names: Names, scale: float) -> None:
     edges = np.array([(left, high), (left, low), (right, low)])
     kept = _kept(names.names, [paper(each.place[None])[0] for each in names.names])
     labels = [Label(each.text, (vec(at),), "", SIZE, CLEARANCE, leader=False) for each, at in kept]
-    symbols = [paper(at[None]) + stroke * (1.0, -1.0) for at, stroke in names.around]
-    places = place(labels, Obstacles.of([*map(paper, (*names.lines, edges)), *symbols]))
+    places = place(labels, Obstacles.of([paper(line) for line in (*names.lines, edges)]))
     for (each, at), chosen in zip(kept, places, strict=True):
         box = np.array(chosen.box)
         offset = (0.5 * (box[:2] + box[2:]) - at) * (1.0, -1.0)
@@ -86,3 +84,10 @@ def _kept(names: Sequence[Name], places: Sequence[Floats]) -> list[tuple[Name, F
         ):
             found.append((name, at))
     return found
+
+
+def with_index(name: str) -> str:
+    """A point's name with its number as an index: ``O₁``."""
+    stem, index = split_index(name.rpartition(".")[2] if name.count(".") == 1 else name)
+    owner = f"{name.rpartition('.')[0]}." if name.count(".") == 1 else ""
+    return f"{owner}{stem}{index.translate(LOW)}"

@@ -8,15 +8,16 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
+from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_or_point
 from linkwright.pictures.diagram import COLOURS, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request, framed
 from linkwright.plot.diagrams.curve_marks import draw_curve, mark_inputs
-from linkwright.plot.diagrams.names import Name, Names, write_names
+from linkwright.plot.diagrams.machine_in_axes import LINK, draw_machine
+from linkwright.plot.diagrams.names import Names, write_names
 from linkwright.plot.diagrams.outputs import traced_points
 from linkwright.plot.diagrams.panels import DASHES
-from linkwright.plot.diagrams.position import LINK, SUPPORT, draw_position, reach
 from linkwright.plot.diagrams.source import Source
 
 
@@ -35,7 +36,8 @@ class Paths(Kind):
         legend = Legend()
         names = [Names(one) for one in axes]
         if single:
-            _draw_machine(names[0], sources[0])
+            motion = sources[0].motion
+            draw_machine(names[0], motion, int(np.flatnonzero(motion.ok)[0]), factor=1e3)
         for number, (source, found) in enumerate(zip(sources, curves, strict=True)):
             for one in names:
                 _draw(one, source, found, request, legend, None if single else number)
@@ -72,14 +74,6 @@ def _curves(source: Source, request: Request) -> dict[str, Floats]:
     return {key: source.closed(source.motion.point(key).position) * 1e3 for key in keys}
 
 
-def _draw_machine(names: Names, source: Source) -> None:
-    first = int(np.flatnonzero(source.motion.ok)[0])
-    ink = draw_position(names.axes, source.motion, first, factor=1e3)
-    names.lines += ink.lines
-    names.names += [Name(text, place) for text, place in ink.names]
-    names.around += [(at, np.array(each) * (1.0, -side)) for at, side in ink.supports for each in SUPPORT]
-
-
 def _draw(
     names: Names,
     source: Source,
@@ -108,7 +102,7 @@ def _draw(
 def _worth_marks(source: Source, curve: Floats) -> bool:
     """Whether a path is long enough, beside the whole machine, for marks along it."""
     good = curve[np.isfinite(curve).all(axis=1)]
-    return len(good) > 2 and float(np.ptp(good, axis=0).max()) > 0.12e3 * reach(source.motion)
+    return len(good) > 2 and float(np.ptp(good, axis=0).max()) > 0.12e3 * _reach(source.motion)
 
 
 def _point(source: Source, name: str) -> str:
@@ -116,3 +110,12 @@ def _point(source: Source, name: str) -> str:
     if found.kind != "position" or found.component:
         raise RequestError("picture.no_path", name=name)
     return found.owner
+
+
+def _reach(motion: Motion) -> float:
+    """Size of the mechanism over the motion, m."""
+    clouds = [np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2)]
+    clouds += [motion.point_of(key).position for key in motion.point_names()]
+    every = np.concatenate(clouds)
+    every = every[np.isfinite(every).all(axis=1)]
+    return float(np.ptp(every, axis=0).max()) if len(every) else 1.0

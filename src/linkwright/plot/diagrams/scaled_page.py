@@ -1,64 +1,149 @@
-"""Pages to scale, one millimetre of a picture's plane a millimetre of paper, and the names on them."""
+"""Pages of sketches to scale, one millimetre of a sketch a millimetre of paper, with titles, scales and keys."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.pictures.diagram import INK, Axes, Figure
-from linkwright.pictures.svg.text import split_index
+from linkwright.core.quantity import significant
+from linkwright.kinematics.motion import Motion
+from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.picture import Runs, Words, indexed, joined
+from linkwright.pictures.sketch import Sketch
+from linkwright.pictures.svg.element import element, group
+from linkwright.pictures.svg.text import fold
 from linkwright.plot.diagrams.axes import round_up
+from linkwright.plot.drawing.scene import laid_out, point_labels
+from linkwright.plot.drawing.view import View
+from linkwright.words import Say
 
-INCH = 25.4
-#: Space around a picture, and above it for its title, mm.
-EDGE, HEAD = 9.0, 12.0
-#: Least width of a page, and height of a line of text, mm.
-LEAST, LINE = 150.0, 4.4
-#: Length of the line that shows a picture's scale, and the space for it, mm.
-BAR, BAR_SPACE = 20.0, 7.0
+#: Printed width of a unit of the paper, mm.
+MILLIMETRE = 0.25
+#: Least width of a page and of a cell, space between cells, length of the line that shows a scale: units.
+LEAST, NARROWEST, APART, BAR = 600.0, 168.0, 36.0, 80.0
+#: Sizes of letters and heights of lines: of the heading, of titles, of what stands below.
+HEADING, TITLE, SIZE, LINE = 15.0, 12.0, 11.0, 17.6
 #: A picture flatter than FLAT mm is drawn up to WIDE mm long, one that stands upright up to HIGH mm, so that its page
 #: has room beneath it; one that stays below THIN mm has its arrows side by side, SIDE mm apart.
 FLAT, WIDE, HIGH, THIN, SIDE = 12.0, 190.0, 110.0, 3.0, 3.0
-#: Shorter arrows are not drawn, mm.
-LEAST_ARROW = 0.1
-#: Distance of a name from its place, and between the points that stand for a line, mm.
-GAP, STEP = 1.3, 1.2
-Box = tuple[float, float, float, float]
-LOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
-_SIDES = tuple(np.array([np.cos(a), np.sin(a)]) for a in np.radians([45, 0, 90, 135, -45, 180, -90, -135]))
+#: Shorter arrows are not drawn, mm; longest extent of a position, mm, without and with its symbols.
+LEAST_ARROW, POSITION, WITH_SYMBOLS = 0.1, 75.0, 95.0
+#: A text in a style.
+Written = tuple[Words, str]
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A picture of the page: its places (n, 2) in paper mm, its title, texts with colours below it.
+    """A sketch of the page with its title, texts below it, and what a line of BAR stands for, drawn with it."""
 
-    ``bar``: what a line of BAR mm stands for; drawn with the picture.
-    """
-
-    cloud: Floats
-    title: str
-    notes: tuple[tuple[str, str], ...] = ()
-    bar: str = ""
+    sketch: Sketch
+    title: tuple[Words, ...]
+    bar: str
+    notes: tuple[Written, ...] = ()
 
     @property
-    def low(self) -> Floats:
-        """Lower left corner, mm in the picture's plane."""
-        return np.asarray(self.cloud.min(axis=0) - EDGE)
+    def width(self) -> float:
+        """Its width, units."""
+        left, _, right, _ = self.sketch.box
+        return max(right - left, NARROWEST) + APART
 
-    @property
-    def size(self) -> Floats:
-        """Width and height on the paper, mm."""
-        content = np.ptp(self.cloud, axis=0) + np.array([2 * EDGE, 2 * EDGE + self.below])
-        return np.asarray(np.maximum(content, (42.0, 20.0 + self.below)))
+    def put(self, page: Sketch, left: float, top: float, head: int) -> float:
+        """Puts it on the page below ``head`` lines of its title; where it ends below."""
+        y = top + LINE * (head - len(self.title))
+        for line in self.title:
+            y += LINE
+            page.text((left, y), line, size=TITLE)
+        x0, y0, x1, y1 = self.sketch.box
+        shift = np.array([left + 0.5 * (self.width - APART - (x1 - x0)) - x0, y + 20.0 - y0])
+        page.content.append(group(self.sketch.content, transform=f"translate({shift[0]:.2f} {shift[1]:.2f})"))
+        page.extent.append(np.array([(x0, y0), (x1, y1)]) + shift)
+        y += 20.0 + (y1 - y0) + 24.0
+        for tick in ([(0, 0), (BAR, 0)], [(0, -3.6), (0, 3.6)], [(BAR, -3.6), (BAR, 3.6)]):
+            page.line(np.add(tick, (left, y)))
+        page.text((left + BAR + 6.0, y + 4.0), self.bar, size=SIZE)
+        for runs, style in self.notes:
+            y += LINE
+            page.text((left, y + 5.0), runs, style, SIZE)
+        return y + 14.0
 
-    @property
-    def below(self) -> float:
-        """Space for the scale, mm."""
-        return BAR_SPACE if self.bar else 0.0
+
+def page(
+    cells: Sequence[Cell],
+    columns: int,
+    below: Sequence[Sequence[tuple[Written, float]]],
+    heading: str,
+    title: str,
+    css: str = "",
+) -> Drawing:
+    """Cells in rows under a heading, and lines of texts below, each with its place in the line."""
+    paper = Sketch()
+    if css:
+        paper.content.append(element("style", None, css))
+    rows = [cells[i : i + columns] for i in range(0, len(cells), columns)]
+    y = 0.0
+    for line in fold(heading, page_width(cells, columns), HEADING) if heading else ():
+        y += 20.0
+        paper.text((0.0, y), line, size=HEADING)
+    for row in rows:
+        head, left, ends = max(len(cell.title) for cell in row), 0.0, []
+        for cell in row:
+            ends.append(cell.put(paper, left, y + 8.0, head))
+            left += cell.width
+        y = max(ends)
+    for texts in below:
+        y += LINE
+        for (words, style), x in texts:
+            paper.text((x, y), words, style, SIZE)
+    return paper.drawing(title, millimetre=MILLIMETRE)
+
+
+def page_width(cells: Sequence[Cell], columns: int) -> float:
+    """The width of a page of cells, units."""
+    rows = (cells[i : i + columns] for i in range(0, len(cells), columns))
+    return max(LEAST, *(sum(cell.width for cell in row) for row in rows))
+
+
+def key(entries: Sequence[tuple[str, str]]) -> list[tuple[Written, float]]:
+    """Words behind squares in the colours of styles, in one line."""
+    found: list[tuple[Written, float]] = []
+    x = 0.0
+    for text, style in entries:
+        square = 1.4 * SIZE
+        found += [(("■", f"{style}-head"), x), ((text, "lw-legend"), x + square)]
+        x += square + Sketch().text((0.0, 0.0), text, size=SIZE) + 24.0
+    return found
+
+
+def units(places: Floats) -> Floats:
+    """Places in paper mm, y up, as units of the paper."""
+    return np.asarray(places) * (1.0 / MILLIMETRE, -1.0 / MILLIMETRE)
+
+
+def scale_title(name: str, letter: str, scale: str) -> Runs:
+    """What is drawn, and its scale."""
+    return joined(f"{name}: " if name else "", indexed("μ", letter), f" = {scale}")
+
+
+def position_cell(motion: Motion, say: Say) -> Cell:
+    """The machine at a motion's first position, with the names of its points."""
+    clouds = [motion.point_of(key).position[:1] for key in motion.point_names()]
+    clouds.append(np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2))
+    scale = scale_for(float(np.ptp(np.concatenate(clouds), axis=0).max()), POSITION)
+    while True:
+        sketch = Sketch()
+        scene = laid_out(motion, 0, inputs=False, view=View(1.0 / (scale * MILLIMETRE)))
+        sketch.draw(scene.at(0), scene.ink(0))
+        left, top, right, bottom = sketch.box
+        if max(right - left, bottom - top) * MILLIMETRE <= WITH_SYMBOLS:
+            break
+        scale = round_up(1.05 * scale)
+    sketch.labels += point_labels(scene.machine, 0)
+    sketch.write_names()
+    title = scale_title(say("position"), "l", f"{significant(scale * 1e3)} mm/mm")
+    return Cell(sketch, (title,), f"{significant(scale * BAR * MILLIMETRE * 1e3)} mm")
 
 
 def scale_for(largest: float, millimetres: float) -> float:
@@ -86,176 +171,3 @@ def side_by_side(pairs: list[tuple[Floats, Floats]]) -> list[tuple[Floats, Float
     seen = [float(np.hypot(*(end - start))) > LEAST_ARROW for start, end in pairs]
     shifts = [(0.5 * (sum(seen) - 1) - sum(seen[:number])) * SIDE * across for number in range(len(pairs))]
     return [(start + shift, end + shift) for (start, end), shift in zip(pairs, shifts, strict=True)]
-
-
-def page(
-    cells: list[Cell], columns: int, *, foot: float = 0.0, head: float = 10.0
-) -> tuple[Figure, list[Axes]]:
-    """A figure with its pictures in rows; ``head`` and ``foot``: space for the title and for text below, mm."""
-    from matplotlib.figure import Figure as New
-
-    rows = [cells[i : i + columns] for i in range(0, len(cells), columns)]
-    heights = [max(float(cell.size[1]) + LINE * len(cell.notes) for cell in row) + HEAD for row in rows]
-    width = max(sum(float(cell.size[0]) for cell in row) for row in rows)
-    width, height = max(width, LEAST), sum(heights) + foot + head
-    figure = New(figsize=(width / INCH, height / INCH))
-    found: list[Axes] = []
-    top = height - head
-    for row, tall in zip(rows, heights, strict=True):
-        left = 0.0
-        for cell in row:
-            found.append(_picture(figure, cell, (left, top - HEAD), (width, height)))
-            left += float(cell.size[0])
-        top -= tall
-    return figure, found
-
-
-def _picture(figure: Figure, cell: Cell, corner: tuple[float, float], paper: tuple[float, float]) -> Axes:
-    """Axes without lines whose upper left corner lies at a place of the paper, mm from the lower left."""
-    wide, tall = (float(each) for each in cell.size)
-    box = (corner[0] / paper[0], (corner[1] - tall) / paper[1], wide / paper[0], tall / paper[1])
-    axes = figure.add_axes(box)
-    middle = 0.5 * (cell.cloud.min(axis=0) + cell.cloud.max(axis=0))
-    axes.set_xlim(middle[0] - wide / 2, middle[0] + wide / 2)
-    axes.set_ylim(middle[1] - (tall + cell.below) / 2, middle[1] + (tall - cell.below) / 2)
-    axes.set_axis_off()
-    figure.text((corner[0] + 4) / paper[0], (corner[1] + 2) / paper[1], cell.title, fontsize=8.5, color=INK,
-                va="bottom", parse_math=True)  # fmt: skip
-    if cell.bar:
-        _draw_bar(axes, cell.bar)
-    for number, (text, colour) in enumerate(cell.notes):
-        y = (corner[1] - tall - LINE * (number + 1)) / paper[1]
-        figure.text(
-            (corner[0] + 4) / paper[0], y, text, fontsize=7.8, color=colour, va="bottom", parse_math=True
-        )
-    return axes
-
-
-def _draw_bar(axes: Axes, value: str) -> None:
-    """A line of BAR mm in the lower left corner of a picture, with what it stands for."""
-    x, y = axes.get_xlim()[0] + 4.0, axes.get_ylim()[0] + 3.0
-    axes.plot([x, x + BAR], [y, y], color=INK, linewidth=0.9)
-    for end in (x, x + BAR):
-        axes.plot([end, end], [y - 0.9, y + 0.9], color=INK, linewidth=0.9)
-    axes.annotate(value, (x + BAR + 1.5, y), va="center", fontsize=7.5, color=INK, annotation_clip=False)
-
-
-def symbol(letter: str, name: str = "", above: str = "") -> str:
-    """A letter with its indices, set as mathematics where the name's characters allow it."""
-    if not name:
-        return f"${letter}$"
-    if not name.isascii() or not all(c.isalnum() or c in "(),′'" for c in name.replace("′", "")):
-        plain = name.replace("$", r"\$")
-        return f"{letter}{f' {above}' if above else ''}({plain})"
-    upper = f"^{{{above}}}" if above else ""
-    return rf"${letter}{upper}_{{\mathrm{{{name}}}}}$"
-
-
-def headed(figure: Figure, heading: str) -> None:
-    """The page's title."""
-    wide, tall = (float(each) * INCH for each in figure.get_size_inches())
-    figure.text(4 / wide, 1 - 3 / tall, heading, fontsize=11, va="top", color=INK)
-
-
-def colour_key(figure: Figure, entries: list[tuple[str, str]], height: float, mark: str = "■ ") -> None:
-    """Words in the colours that they explain, in one line at a height (mm) of the page."""
-    wide, tall = (float(each) * INCH for each in figure.get_size_inches())
-    place = 4.0
-    for text, colour in entries:
-        figure.text(place / wide, height / tall, f"{mark}{text}", fontsize=8, color=colour, va="bottom")
-        place += 8.0 + text_width(text, 8.0)
-
-
-def arrow(
-    axes: Axes, start: Floats, end: Floats, colour: str, *, dash: Any = "-", width: float = 1.3
-) -> None:
-    """An arrow between two places of a picture; nothing where it would be shorter than a tenth of a millimetre."""
-    if float(np.hypot(*(end - start))) < LEAST_ARROW:
-        return
-    head = min(9.0, 1.5 + 1.6 * float(np.hypot(*(end - start))))
-    axes.annotate("", tuple(end), tuple(start), annotation_clip=False, zorder=3,
-                  arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": width, "linestyle": dash,
-                              "mutation_scale": head, "shrinkA": 0, "shrinkB": 0, "joinstyle": "miter"})  # fmt: skip
-
-
-class Labels:
-    """What is drawn in a picture so far, in paper mm."""
-
-    def __init__(self, axes: Axes) -> None:
-        self.axes = axes
-        self._boxes: list[Box] = []
-        self._ink: list[Floats] = []
-
-    def line(self, start: Floats, end: Floats) -> None:
-        """A line that names should not cover."""
-        count = 2 + int(np.hypot(*(end - start)) / STEP)
-        self._ink.append(start + np.linspace(0.0, 1.0, count)[:, None] * (end - start))
-
-    def put(
-        self,
-        text: str,
-        places: Iterable[Floats],
-        *,
-        away: Floats | None = None,
-        colour: str = INK,
-        size: float = 8.0,
-        written: str | None = None,
-    ) -> None:
-        """Writes a name beside the best of some places; ``away``: a direction that is liked.
-
-        ``written``: the same as mathematics, where it has indices.
-        """
-        ink = np.concatenate([*self._ink, np.zeros((0, 2))])
-        best: tuple[float, Box, Floats] | None = None
-        for rank, place in enumerate(places):
-            for number, side in enumerate(_SIDES):
-                box = _box(text, place, side, size)
-                liked = 0.0 if away is None else -float(side @ away) / (float(np.hypot(*away)) or 1.0)
-                cost = (
-                    20.0 * self._covered(box) + _inside(box, ink) + 0.6 * rank + 0.05 * number + 0.8 * liked
-                )
-                if best is None or cost < best[0]:
-                    best = (cost, box, side)
-        if best is None:
-            return
-        _, box, _ = best
-        self._boxes.append(box)
-        self.axes.annotate(
-            written or text,
-            (0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])),
-            ha="center",
-            va="center",
-            fontsize=size,
-            color=colour,
-            annotation_clip=False,
-            zorder=5,
-            parse_math=written is not None,
-        )
-
-    def _covered(self, box: Box) -> int:
-        left, low, right, high = box
-        return sum(left < b[2] and right > b[0] and low < b[3] and high > b[1] for b in self._boxes)
-
-
-def text_width(text: str, size: float) -> float:
-    """Width of a text on the paper, about, mm."""
-    return size * sum(0.36 if ord(c) > 0x2E7F else 0.21 for c in text)
-
-
-def _box(text: str, place: Floats, side: Floats, size: float) -> Box:
-    wide, tall = text_width(text, size), 0.36 * size
-    x, y = place + GAP * side + side * (wide / 2, tall / 2)
-    return x - wide / 2, y - tall / 2, x + wide / 2, y + tall / 2
-
-
-def _inside(box: Box, ink: Floats) -> int:
-    left, low, right, high = box
-    x, y = ink.T
-    return int(((x > left) & (x < right) & (y > low) & (y < high)).sum())
-
-
-def with_index(name: str) -> str:
-    """A point's name with its number as an index: ``O₁``."""
-    stem, index = split_index(name.rpartition(".")[2] if name.count(".") == 1 else name)
-    owner = f"{name.rpartition('.')[0]}." if name.count(".") == 1 else ""
-    return f"{owner}{stem}{index.translate(LOW)}"

@@ -10,11 +10,10 @@ from linkwright.core.arrays import Floats
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.drawing import Box
 from linkwright.pictures.picture import Runs, SvgNode, Text, indexed, joined, line_width, name_runs
-from linkwright.pictures.svg.text import width
+from linkwright.pictures.svg.text import fold
 from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.plot.drawing.vectors import Arrows, Torques, Vectors, round_length, scale_of, with_unit
 from linkwright.words import say
-from linkwright.words.characters import pieces
 from linkwright.words.sentence import Sentence, links_said
 
 if TYPE_CHECKING:
@@ -75,17 +74,9 @@ class Legend:
 
     def text(self, text: str) -> None:
         """A sentence in as many lines as it takes."""
-        line = ""
-        for word in pieces(text):
-            if line and width(line + word, SIZE) > self._wide:
-                self._line(line)
-                line = ""
-            line += word if line else word.lstrip()
-        self._line(line)
-
-    def _line(self, text: str) -> None:
-        self._y += ROW
-        self._write(self._left, name_runs(text), "lw-legend")
+        for line in fold(text, self._wide, SIZE):
+            self._y += ROW
+            self._write(self._left, name_runs(line), "lw-legend")
 
     def _write(self, x: float, runs: Runs, style: str) -> None:
         self.elements.append(Text((x, self._y + 0.35 * SIZE), runs, style, SIZE))

@@ -14,9 +14,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.pictures.svg.text import width
+from linkwright.pictures.svg.text import fold, width
 from linkwright.plot.flow_chart.content import Node, Shape
-from linkwright.words.characters import pieces
 
 #: Height of letters and of lines, widest text of a symbol, of a decision, of what stands aside.
 SIZE, LINE, WIDEST, NARROWER, ASIDE = 13.0, 17.0, 190.0, 100.0, 84.0
@@ -28,8 +27,6 @@ LEAN, BARS = 14.0, 7.0
 LEFT, RIGHT, BACK, FORWARD = -154.0, 206.0, (-124.0, -136.0, -148.0), 146.0
 #: Distance of columns.
 APART = 14.0
-#: Stands for a space at which no line breaks.
-HELD = "\u2060"
 
 
 @dataclass(frozen=True)
@@ -96,27 +93,11 @@ class Page:
         return max(rights), max(lows)
 
 
-def fold(text: str, widest: float, size: float = SIZE) -> list[str]:
-    """A text in lines that fit a width; a word that is wider is cut."""
-    lines = [""]
-    for piece in pieces(text.replace("\u00a0", HELD)):
-        rest = piece if lines[-1] else piece.lstrip()
-        if lines[-1] and piece not in "？！" and width(lines[-1] + rest, size) > widest:
-            lines.append("")
-            rest = piece.lstrip()
-        while width(rest, size) > widest:
-            keep = next(k for k in range(len(rest), 0, -1) if k == 1 or width(rest[:k], size) <= widest)
-            lines[-1:] = [lines[-1] + rest[:keep], ""]
-            rest = rest[keep:]
-        lines[-1] += rest
-    return [line.replace(HELD, "\u00a0") for line in lines]
-
-
 def symbol(node: Node) -> Box:
     """The symbol of a node about the origin."""
     widest = {"decision": NARROWER, "data": WIDEST - 2 * LEAN}.get(node.shape, WIDEST)
-    lines = [part for text in node.lines for part in fold(text, widest)]
-    named = fold(node.call, widest) if node.call else []
+    lines = [part for text in node.lines for part in fold(text, widest, SIZE)]
+    named = fold(node.call, widest, SIZE) if node.call else []
     return _around(node.shape, (*named, *lines), len(named))
 
 
@@ -135,7 +116,7 @@ def _around(shape: Shape, lines: tuple[str, ...], bold: int = 0) -> Box:
 
 def aside(text: str, decision: Box) -> Box:
     """What stands at the right of a decision, as data."""
-    lines = tuple(fold(text, ASIDE))
+    lines = tuple(fold(text, ASIDE, SIZE))
     half = LINE * len(lines) / 2 + 6.0
     left = decision.half_width + 22.0
     right = RIGHT - 2.0

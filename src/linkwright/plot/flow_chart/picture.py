@@ -9,10 +9,11 @@ import numpy as np
 from linkwright.pictures.drawing import document
 from linkwright.pictures.picture import Circle, Line, SvgNode, Text, sentence_runs
 from linkwright.pictures.svg.element import Element, element
+from linkwright.pictures.svg.text import fold
 from linkwright.pictures.symbols.arrows import head
 from linkwright.pictures.symbols.base import points, vec, way
 from linkwright.plot.flow_chart.content import Node
-from linkwright.plot.flow_chart.layout import BARS, LEAN, LINE, RADIUS, SIZE, Box, Page, fold, laid_out
+from linkwright.plot.flow_chart.layout import BARS, LEAN, LINE, RADIUS, SIZE, Box, Page, laid_out
 
 #: Printed width of a unit, mm: two columns fill the width of an A4 page's text, and letters have 8.5 points.
 MILLIMETRE = 0.23
@@ -37,7 +38,7 @@ def _document(sheet: Page, title: str, heading: str) -> str:
     content = [each for part in (_lines(sheet), _boxes(sheet), _marks(sheet)) for each in part]
     top = 0.0
     if heading:
-        lines = fold(heading, wide - left)
+        lines = fold(heading, wide - left, SIZE)
         top = -LINE * (len(lines) + 0.8)
         content += [
             Text((left, top + LINE * number + SIZE), sentence_runs(line), "lw-legend", SIZE)

@@ -14,9 +14,9 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.pictures.drawing import document
 from linkwright.pictures.picture import Line, SvgNode, Text, indexed, name_runs, sentence_runs
 from linkwright.pictures.svg.element import group, number
+from linkwright.pictures.svg.text import fold
 from linkwright.pictures.symbols.base import points
 from linkwright.plot.drawing.vectors import with_unit
-from linkwright.plot.flow_chart.layout import fold
 from linkwright.plot.free_bodies.actions import STYLES, Action, FreeBody, free_bodies
 from linkwright.plot.free_bodies.arrows import MILLIMETRE, SHORT, STUB
 from linkwright.plot.free_bodies.picture import BodyPicture, LinkShapes, body_picture, round_scale

@@ -11,7 +11,7 @@ from linkwright.errors import speaker
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
-from linkwright.plot.diagrams.position import draw_support
+from linkwright.plot.diagrams.machine_in_axes import draw_support
 from linkwright.synthesis.result import Candidate, Synthesis, title_said
 from linkwright.words import say
 

@@ -7,7 +7,8 @@ import numpy as np
 from linkwright.core.quantity import shown
 from linkwright.parts.beams.beam import Beam, BeamLoad, BeamSupport
 from linkwright.pictures.drawing import Drawing
-from linkwright.plot.sketches.base import WIDE, Paper, roller_support, sketched
+from linkwright.pictures.sketch import Sketch
+from linkwright.plot.sketches.base import WIDE, roller_support, sketched
 from linkwright.words import say as words
 
 #: Half the height of the beam, longest arrow of a force, highest line load, places of both rows of dimensions.
@@ -17,7 +18,7 @@ HALF, ARROW, LOAD, ROWS = 4.0, 62.0, 40.0, (78.0, 106.0)
 @sketched("beam")
 def draw_beam(beam: Beam, language: str) -> Drawing:
     """The beam from the left to the right, loads above, dimensions below."""
-    paper, scale = Paper(), WIDE / beam.length
+    paper, scale = Sketch(), WIDE / beam.length
     paper.line([(0, -HALF), (WIDE, -HALF), (WIDE, HALF), (0, HALF)], "lw-block", closed=True)
     for name, support in beam.supports.items():
         _support(paper, name, support, support.at * scale)
@@ -33,7 +34,7 @@ def draw_beam(beam: Beam, language: str) -> Drawing:
     return paper.drawing(beam.name)
 
 
-def _support(paper: Paper, name: str, support: BeamSupport, x: float) -> None:
+def _support(paper: Sketch, name: str, support: BeamSupport, x: float) -> None:
     below = (x, HALF)
     match support.kind:
         case "fixed":
@@ -58,7 +59,7 @@ def _support(paper: Paper, name: str, support: BeamSupport, x: float) -> None:
     paper.name(name, (x, HALF + 12.0), (x, -HALF), clearance=16.0)
 
 
-def _load(paper: Paper, name: str, load: BeamLoad, beam: Beam, scale: float, largest: float) -> None:
+def _load(paper: Sketch, name: str, load: BeamLoad, beam: Beam, scale: float, largest: float) -> None:
     x = (load.at or 0.0) * scale
     if load.force is not None:
         ends = ((x, -HALF - ARROW), (x, -HALF)) if load.force < 0 else ((x, -HALF), (x, -HALF - ARROW))
@@ -72,7 +73,7 @@ def _load(paper: Paper, name: str, load: BeamLoad, beam: Beam, scale: float, lar
         _line_load(paper, name, load, beam, scale, largest)
 
 
-def _line_load(paper: Paper, name: str, load: BeamLoad, beam: Beam, scale: float, largest: float) -> None:
+def _line_load(paper: Sketch, name: str, load: BeamLoad, beam: Beam, scale: float, largest: float) -> None:
     """Arrows under the line of a load; upward ones point away from the beam."""
     assert load.line is not None
     a, b = load.start, beam.length if load.end is None else load.end
@@ -92,7 +93,7 @@ def _line_load(paper: Paper, name: str, load: BeamLoad, beam: Beam, scale: float
     paper.name(text, middle, (float(x[0]), float(top[0])), style="lw-load-name")
 
 
-def _dimensions(paper: Paper, beam: Beam, scale: float) -> None:
+def _dimensions(paper: Sketch, beam: Beam, scale: float) -> None:
     """Distances between everything that is at a place, and the whole length below them."""
     places = {0.0, beam.length, *beam.hinges, *(each.at for each in beam.supports.values())}
     places |= {each.start for each in beam.steps}

@@ -11,8 +11,9 @@ from linkwright.parts.statics.body import RigidBody, Support
 from linkwright.parts.statics.forces import spatial
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.picture import Vec
+from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.symbols.base import vec
-from linkwright.plot.sketches.base import Paper, roller_support, scale_of, sketched
+from linkwright.plot.sketches.base import roller_support, scale_of, sketched
 from linkwright.plot.sketches.forces import AXIS, ISOMETRIC, LONGEST, SHORTEST, axes
 
 #: Length of a rod or rope to the ground; room for the body.
@@ -27,7 +28,7 @@ def draw_body(body: RigidBody, language: str) -> Drawing:
     loaded = {name: each.place for name, each in body.forces.items()}
     places = np.array([*held.values(), *loaded.values()]) @ view
     scale = scale_of([places], ROOM, ROOM)
-    paper, corners = Paper(), scale * places
+    paper, corners = Sketch(), scale * places
     _hull(paper, corners)
     for name, support in body.supports.items():
         _support(paper, name, support, scale * (held[name] @ view), view, body.planar, corners.mean(axis=0))
@@ -51,7 +52,7 @@ def draw_body(body: RigidBody, language: str) -> Drawing:
     return paper.drawing(body.name)
 
 
-def _hull(paper: Paper, corners: Floats) -> None:
+def _hull(paper: Sketch, corners: Floats) -> None:
     """The body: a bar along points on one line, a plate over others."""
     centred = corners - corners.mean(axis=0)
     flat = np.linalg.svd(centred)[1]
@@ -64,7 +65,7 @@ def _hull(paper: Paper, corners: Floats) -> None:
 
 
 def _support(
-    paper: Paper, name: str, support: Support, at: Floats, view: Floats, planar: bool, middle: Floats
+    paper: Sketch, name: str, support: Support, at: Floats, view: Floats, planar: bool, middle: Floats
 ) -> None:
     place, holds = vec(at), set(support.holds)
     if planar and {"x", "y"} <= holds:
@@ -93,7 +94,7 @@ def _support(
     paper.name(name, at, clearance=12.0)
 
 
-def _held(paper: Paper, word: str, at: Floats, view: Floats) -> None:
+def _held(paper: Sketch, word: str, at: Floats, view: Floats) -> None:
     """A reaction of a support in space: an arrow along its axis, a bent one for a moment."""
     way = view["xyz".index(word[-1])]
     if word.startswith("turn"):
@@ -102,7 +103,7 @@ def _held(paper: Paper, word: str, at: Floats, view: Floats) -> None:
         paper.arrow(at - 0.8 * SHORTEST * way, at, "lw-force")
 
 
-def _dimensions(paper: Paper, places: Floats, scale: float) -> None:
+def _dimensions(paper: Sketch, places: Floats, scale: float) -> None:
     """Distances between the points across below the body, and up beside it."""
     low = float(max(np.concatenate([line[:, 1] for line in paper.ink]))) + 30.0
     left = float(min(np.concatenate([line[:, 0] for line in paper.ink]))) - 30.0

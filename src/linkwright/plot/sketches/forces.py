@@ -11,7 +11,8 @@ from linkwright.core.quantity import shown
 from linkwright.parts.statics.force_system import ForceSystem
 from linkwright.parts.statics.forces import spatial
 from linkwright.pictures.drawing import Drawing
-from linkwright.plot.sketches.base import Paper, scale_of, sketched
+from linkwright.pictures.sketch import Sketch
+from linkwright.plot.sketches.base import scale_of, sketched
 
 #: Longest and shortest arrow, length of the axes, room for the points of application.
 LONGEST, SHORTEST, AXIS, ROOM = 170.0, 46.0, 70.0, 260.0
@@ -29,7 +30,7 @@ def projection(*vectors: Floats) -> Floats:
 @sketched("forces")
 def draw_forces(system: ForceSystem, language: str) -> Drawing:
     """Forces to one scale where they are known, dashed where their magnitude is sought; couples about their axes."""
-    forces, paper = system.forces, Paper()
+    forces, paper = system.forces, Sketch()
     couples = [spatial(each) for each in system.couples.values()]
     directions = [each.unit if each.unknown else each.vector for each in forces.values()]
     turning = [] if all(not any(each[:2]) for each in couples) else couples
@@ -58,7 +59,7 @@ def draw_forces(system: ForceSystem, language: str) -> Drawing:
     return paper.drawing(system.name)
 
 
-def axes(paper: Paper, view: Floats, origin: Floats | None = None) -> None:
+def axes(paper: Sketch, view: Floats, origin: Floats | None = None) -> None:
     """The axes of coordinates, thin, from the origin."""
     start = np.zeros(2) if origin is None else origin
     for axis, way in zip("xyz", view, strict=True):

@@ -11,8 +11,9 @@ from linkwright.core.quantity import shown
 from linkwright.parts.statics.belt import Belt
 from linkwright.parts.statics.wedge import Wedge
 from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.symbols.base import vec
-from linkwright.plot.sketches.base import Paper, sketched
+from linkwright.plot.sketches.base import sketched
 
 #: Radius of a drum, free length of a belt, length of a wedge and height of its load.
 RADIUS, FREE, WEDGE, LOAD = 84.0, 96.0, 300.0, 90.0
@@ -21,7 +22,7 @@ RADIUS, FREE, WEDGE, LOAD = 84.0, 96.0, 300.0, 90.0
 @sketched("belt")
 def draw_belt(belt: Belt, language: str) -> Drawing:
     """The drum with its belt over the angle of contact, tensions, torque and friction; whole turns left out."""
-    paper, wrap = Paper(), belt.wrap if belt.wrap <= 2 * math.pi else belt.wrap % (2 * math.pi)
+    paper, wrap = Sketch(), belt.wrap if belt.wrap <= 2 * math.pi else belt.wrap % (2 * math.pi)
     paper.put("disc", at=(0.0, 0.0), radius=RADIUS)
     paper.put("fixed_pivot", at=(0.0, 0.0), toward=(0.0, 1.0))
     paper.put("pin", at=(0.0, 0.0))
@@ -59,7 +60,7 @@ def draw_belt(belt: Belt, language: str) -> Drawing:
 @sketched("wedge")
 def draw_wedge(wedge: Wedge, language: str) -> Drawing:
     """The wedge on its floor, pushed from the left under the load, which the wall on the right guides."""
-    paper = Paper()
+    paper = Sketch()
     length = min(WEDGE, 220.0 / math.tan(wedge.angle)) if wedge.angle > 0.7 else WEDGE
     high = length * math.tan(wedge.angle)
 

@@ -11,7 +11,8 @@ from linkwright.parts.vibration.system import GROUND, Tie, VibratingSystem
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Vec
-from linkwright.plot.sketches.base import Paper, sketched
+from linkwright.pictures.sketch import Sketch
+from linkwright.plot.sketches.base import sketched
 
 #: Width and height of a mass, gap between masses, height between springs side by side.
 WIDTH, HEIGHT, GAP, ROW = 78.0, 62.0, 104.0, 28.0
@@ -21,7 +22,7 @@ WIDTH, HEIGHT, GAP, ROW = 78.0, 62.0, 104.0, 28.0
 def draw_system(system: VibratingSystem, language: str) -> Drawing:
     """Masses in a row; ties between neighbours beside each other, longer ones above, those of inner masses to the
     ground below."""
-    paper, names = Paper(), list(system.masses)
+    paper, names = Sketch(), list(system.masses)
     kinds = TURNING if system.turning else STRAIGHT
     left = {name: k * (WIDTH + GAP) for k, name in enumerate(names)}
     ties = [(name, tie, "spring") for name, tie in system.springs.items()]
@@ -60,7 +61,7 @@ def _ends(tie: Tie, names: Sequence[str]) -> tuple[int, int]:
 
 
 def _bundle(
-    paper: Paper, first: int, last: int, bundle: Sequence[tuple[str, Tie, str]], left: Mapping[str, float],
+    paper: Sketch, first: int, last: int, bundle: Sequence[tuple[str, Tie, str]], left: Mapping[str, float],
     names: Sequence[str], tall: float, kinds: Mapping[str, str],
 ) -> None:  # fmt: skip
     """Springs and dampers that join the same two, beside each other."""
@@ -100,7 +101,7 @@ def _rate(name: str, tie: Tie, what: str, kinds: Mapping[str, str]) -> str:
 
 
 def _shaken(
-    paper: Paper, system: VibratingSystem, left: Mapping[str, float], tall: float, kinds: Mapping[str, str]
+    paper: Sketch, system: VibratingSystem, left: Mapping[str, float], tall: float, kinds: Mapping[str, str]
 ) -> None:
     """The excitation: a force on a mass, an unbalance in it, or the motion of the ground."""
     given = system.excitation
@@ -127,7 +128,7 @@ def _shaken(
 @sketched("follower")
 def draw_follower(follower: FollowerSpring, language: str) -> Drawing:
     """The mass over its spring, which the cam moves from below."""
-    paper = Paper()
+    paper = Sketch()
     paper.line([(-46, -150), (46, -150), (46, -96), (-46, -96)], "lw-block", closed=True)
     paper.labels.append(_inside(f"m = {shown(follower.mass, 'mass')}", -WIDTH / 2, -122.0))
     paper.put("spring", start=(-16.0, -96.0), end=(-16.0, -24.0))

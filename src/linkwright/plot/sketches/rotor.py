@@ -8,7 +8,8 @@ import math
 from linkwright.core.quantity import shown
 from linkwright.parts.statics.rotor import Rotor
 from linkwright.pictures.drawing import Drawing
-from linkwright.plot.sketches.base import Paper, sketched
+from linkwright.pictures.sketch import Sketch
+from linkwright.plot.sketches.base import sketched
 
 #: Largest radius on the paper, length of the shaft between the outermost places, gap between both views.
 RADIUS, SHAFT, GAP = 100.0, 300.0, 110.0
@@ -17,7 +18,7 @@ RADIUS, SHAFT, GAP = 100.0, 300.0, 110.0
 @sketched("rotor")
 def draw_rotor(rotor: Rotor, language: str) -> Drawing:
     """Both views to one scale of radii; places along the shaft to their own."""
-    paper = Paper()
+    paper = Sketch()
     largest = max(
         [each.radius for each in rotor.masses.values()] + [each.radius for each in rotor.planes.values()]
     )
@@ -51,7 +52,7 @@ def draw_rotor(rotor: Rotor, language: str) -> Drawing:
     return paper.drawing(rotor.name)
 
 
-def _along_the_shaft(paper: Paper, rotor: Rotor, scale: float) -> None:
+def _along_the_shaft(paper: Sketch, rotor: Rotor, scale: float) -> None:
     """Masses at their radii and angles; the axes from which angles count."""
     paper.line([(-RADIUS - 16.0, 0.0), (RADIUS + 16.0, 0.0)], "lw-axis")
     paper.line([(0.0, RADIUS + 16.0), (0.0, -RADIUS - 16.0)], "lw-axis")

@@ -9,7 +9,8 @@ import numpy as np
 from linkwright.core.quantity import shown
 from linkwright.parts.trajectories.particle import Particle
 from linkwright.pictures.drawing import Drawing
-from linkwright.plot.sketches.base import Paper, sketched
+from linkwright.pictures.sketch import Sketch
+from linkwright.plot.sketches.base import sketched
 
 #: Length of the ground, of the velocity's arrow and of the axis at the start, height of a start above the ground.
 GROUND, ARROW, LEVEL, HEIGHT = 320.0, 110.0, 90.0, 90.0
@@ -18,7 +19,7 @@ GROUND, ARROW, LEVEL, HEIGHT = 320.0, 110.0, 90.0, 90.0
 @sketched("trajectory")
 def draw_particle(particle: Particle, language: str) -> Drawing:
     """Not to scale: the velocity at the start with its direction, the height, gravity and drag."""
-    paper, high = Paper(), HEIGHT if particle.height else 0.0
+    paper, high = Sketch(), HEIGHT if particle.height else 0.0
     angle = particle.angle or 0.0
     paper.put("ground_guide", at=(0.5 * GROUND - 40.0, -10.3), start=-0.5 * GROUND, end=0.5 * GROUND, side=1)
     start, way = np.array([0.0, -high]), np.array([math.cos(angle), -math.sin(angle)])

@@ -8,6 +8,7 @@ from linkwright.equations.notation import EQUAL, Row, row
 from linkwright.equations.steps import Equation, Note, Step, Tabulated, Written
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
+from linkwright.pictures.drawing import PIXELS
 from linkwright.pictures.svg.render import natural_size
 from linkwright.plot.diagrams.force_polygon import link_forces
 from linkwright.report.document import (
@@ -27,7 +28,7 @@ from linkwright.report.sections.method import side_by_side
 from linkwright.worked.solution import Worked
 
 #: A point, the width of the text and the tallest polygon, mm.
-POINT, TEXT, TALLEST = 25.4 / 72.0, 170.0, 225.0
+TEXT, TALLEST = 170.0, 225.0
 #: Links whose force polygons share a page; a page that would be smaller than this share is parted.
 ON_PAGE, SMALL = 5, 0.6
 
@@ -128,13 +129,13 @@ def _sheets(forces: Forces, index: int) -> list[list[str]]:
 
 def share_of(picture: str) -> float:
     """The share of its own size in which a picture fits a page."""
-    wide, high = (POINT * each for each in natural_size(picture))
+    wide, high = (each / PIXELS for each in natural_size(picture))
     return min(1.0, TEXT / wide, TALLEST / high)
 
 
 def to_scale(case: Case, kind: str, picture: str, *, again: bool = False) -> Figure:
     """A polygon in its own size, so that a millimetre is one; where it must be smaller the caption says so."""
-    wide, share = POINT * natural_size(picture)[0], share_of(picture)
+    wide, share = natural_size(picture)[0] / PIXELS, share_of(picture)
     caption = case.say(f"report.caption_{kind}")
     if again:
         caption = case.say("report.continued", caption=caption)
