@@ -1,7 +1,7 @@
 """Linkwright: analysis and design of planar machines."""
 
 from linkwright.core import VERSION
-from linkwright.core.attached import ATTACHED
+from linkwright.core.attached import ATTACHED, SECTIONS
 from linkwright.lazy import offer
 
 TYPE_CHECKING = False  # type checkers take it for true
@@ -152,6 +152,8 @@ ATTACHED.update(
         "Variants.files": "linkwright.course.questions:files_of",
     }
 )
+
+SECTIONS.update({"report": "linkwright.report.settings:SECTION"})
 
 #: Public names by the module that has them.
 PUBLIC = offer(__name__)

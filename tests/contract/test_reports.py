@@ -23,7 +23,7 @@ CRANK = "gallery:crank_rocker"
         ({"positions": 1}, "bad-positions", "positions", {"text": "1", "most": 10_000}),
         ({"fluctuation": "many"}, "bad-fluctuation", "fluctuation", {"text": "many"}),
         ({"sections": "task"}, "not-a-list", "sections", {}),
-        ({"errata": [{"where": "here"}]}, "missing-key", "errata.0", {"name": "printed"}),
+        ({"errata": [{"where": "here"}]}, "missing-key", "errata.0.printed", {"name": "printed"}),
         ({"zh": {"titel": "x"}}, "unknown-key", "zh.titel", {"name": "titel", "offer": "title"}),
     ],
 )

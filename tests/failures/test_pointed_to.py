@@ -108,7 +108,7 @@ SECTIONS = {
     "report: {text: {tsak: x}}": "report.text.tsak",
     "report: {numbered_from: roker min}": "report.numbered_from",
     "report: {numbered_from: rocker middle}": "report.numbered_from",
-    "report: {errata: [{where: a}]}": "report.errata.0",
+    "report: {errata: [{where: a}]}": "report.errata.0.printed",
     "course: {at: [1, 2]}": "course.at",
     "course: {at: 5 m}": "course.at",
     "course: {vary: {crank.length: [1 kg, 2 m]}}": "course.vary.crank.length",

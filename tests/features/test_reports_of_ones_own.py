@@ -288,7 +288,7 @@ def test_a_report_without_sources_has_no_chapter_for_them() -> None:
 @pytest.mark.parametrize(
     ("own", "code", "key"),
     [
-        ({"sections": [{"title": "a"}]}, "missing-key", "sections.0"),
+        ({"sections": [{"title": "a"}]}, "missing-key", "sections.0.text"),
         ({"sections": [{"titel": "a", "title": "a", "text": ""}]}, "unknown-key", "sections.0.titel"),
         ({"sections": ["strucutre"]}, "no-section", "sections.0"),
         ({"sections": [{"title": "a", "text": "![x](none.png)"}]}, "wrong-picture", "sections.0.text"),
@@ -300,7 +300,7 @@ def test_a_report_without_sources_has_no_chapter_for_them() -> None:
         ({"cover": "yes"}, "not-a-mapping", "cover"),
         ({"cover": {"fields": ["x"]}}, "not-a-mapping", "cover.fields"),
         ({"references": {"a": "b"}}, "not-a-list", "references"),
-        ({"references": [{"key": "a"}]}, "missing-key", "references.0"),
+        ({"references": [{"key": "a"}]}, "missing-key", "references.0.text"),
         ({"references": [{"key": "a", "text": "A"}, {"key": "a", "text": "B"}]}, "source-twice", "references.1"),
         ({"zh": {"cover": {"logo": "none.svg"}}}, "wrong-picture", "zh.cover.logo"),
     ],

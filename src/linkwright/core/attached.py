@@ -15,6 +15,9 @@ Method = TypeVar("Method", bound=Callable[..., Any])
 #: Where the code of attached methods lies (``module:function``), by ``Class.method``; filled by the package's face,
 #: ``linkwright/__init__.py``.
 ATTACHED: dict[str, str] = {}
+#: Where the sections are declared that only some commands read (``module:attribute``), by their key; filled by the
+#: package's face.
+SECTIONS: dict[str, str] = {}
 
 
 def attached(declared: Method) -> Method:

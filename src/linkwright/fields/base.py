@@ -12,10 +12,12 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import field, fields, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, cast
 
 from linkwright import units
+from linkwright.core.attached import SECTIONS
 from linkwright.core.dataclass import dataclass
+from linkwright.core.entry_points import loaded
 from linkwright.core.expressions import Expression
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
@@ -291,17 +293,16 @@ class Word(Field):
 
 @dataclass(frozen=True)
 class Free(Field):
-    """A free mapping that is kept and not interpreted; ``keys``: schemas of those that a command reads."""
+    """A free mapping that is kept and not interpreted; ``section``: the key under which a command's room declares
+    what it reads in it."""
 
-    keys: Callable[[], Mapping[str, Schema]] | None = None
+    section: str = ""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         return None if reader.mapping(node, place) is None else reader.free(node)
 
     def shape(self) -> Schema:
-        if self.keys is None:
-            return {"type": "object"}
-        return {"type": "object", "properties": dict(self.keys()), "additionalProperties": False}
+        return cast(Field, loaded(SECTIONS[self.section])).shape() if self.section else {"type": "object"}
 
 
 @dataclass(frozen=True)

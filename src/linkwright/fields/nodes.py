@@ -6,9 +6,12 @@ Problems (duplicate keys, tags, a second document, too deep nesting) become rema
 
 from __future__ import annotations
 
+from collections import abc
 from collections.abc import Iterator
 from dataclasses import field, replace
+from typing import Any
 
+from linkwright import units
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.words.sentence import Sentence
@@ -90,10 +93,19 @@ class Remark:
 def towards(node: Node | None, path: str) -> Node | None:
     """The node at a dotted path, whose keys may have dots themselves, or the last one on the way there."""
     parts = path.split(".")
-    while parts and isinstance(node, Mapping):
-        keys = (".".join(parts[:k]) for k in range(len(parts), 0, -1))
-        key = next((each for each in keys if node.get(each) is not None), parts[0])
-        node, parts = node.get(key) or node, parts[key.count(".") + 1 :]
+    while parts:
+        if isinstance(node, Sequence):
+            place = int(parts[0]) if parts[0].isdecimal() else len(node.items)
+            below, length = (node.items[place] if place < len(node.items) else None), 1
+        elif isinstance(node, Mapping):
+            keys = (".".join(parts[:k]) for k in range(len(parts), 0, -1))
+            key = next((each for each in keys if node.get(each) is not None), parts[0])
+            below, length = node.get(key), key.count(".") + 1
+        else:
+            return node
+        if below is None:
+            return node
+        node, parts = below, parts[length:]
     return node
 
 
@@ -119,3 +131,25 @@ def noun(node: Node | None) -> str:
     if node is None or (isinstance(node, Scalar) and node.empty):
         return Sentence("model.nothing")
     return Sentence("model.a_value")
+
+
+def node_of(value: Any) -> Node:
+    """The node of plain data; texts are as in quotes."""
+    if isinstance(value, abc.Mapping):
+        return Mapping(
+            0, 0, 0, 0, [Entry(Scalar(0, 0, 0, 0, str(key)), node_of(each)) for key, each in value.items()]
+        )
+    if isinstance(value, str):
+        return Scalar(0, 0, 0, 0, value, plain=False)
+    if isinstance(value, bool):
+        return Scalar(0, 0, 0, 0, "true" if value else "false")
+    if value is None:
+        return Scalar(0, 0, 0, 0, "null")
+    if isinstance(value, int):
+        return Scalar(0, 0, 0, 0, str(value))
+    if isinstance(value, abc.Iterable):
+        return Sequence(0, 0, 0, 0, [node_of(each) for each in value])
+    try:
+        return Scalar(0, 0, 0, 0, units.number(float(value)))
+    except (TypeError, ValueError):
+        return Scalar(0, 0, 0, 0, str(value), plain=False)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import field
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.words.message import Message
 
 if TYPE_CHECKING:
     from linkwright.core.expressions import Expression
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     from linkwright.units import Dimension
 
 K = TypeVar("K", bound="Kind")
+#: Codes and sentences that a section has of its own instead of the general ones: by the key of such a one, from its
+#: values.
+Sayings = Mapping[str, tuple[str, Callable[..., Message]]]
 
 
 @dataclass(frozen=True)
@@ -128,6 +132,7 @@ class Reader(Protocol):
     def quantity_error(self, error: QuantityError, node: Node, place: Place, text: str) -> None: ...
     def follows(self, text: str) -> bool: ...
     def plain_numbers(self, what: str) -> AbstractContextManager[None]: ...
+    def saying(self, own: Sayings) -> AbstractContextManager[None]: ...
 
     def mapping(self, node: Node | None, place: Place | str) -> MappingNode | None: ...
     def items(self, node: Node, place: Place | str, count: int | None, form: str) -> list[Node] | None: ...

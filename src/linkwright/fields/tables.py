@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Schema, given_by_file, table_schema
-from linkwright.fields.nodes import Node
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
 from linkwright.words.sentence import Sentence
 
@@ -40,6 +42,14 @@ class Table(Field):
 
     def shape(self) -> Schema:
         return table_schema(self.fields)
+
+
+@dataclass(frozen=True)
+class Keys(Table):
+    """A table whose values are taken as far as they can be read, whatever is wrong with the others."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        return reader.table(node, place, self.fields)
 
 
 @dataclass(frozen=True)
@@ -97,6 +107,45 @@ class Listed(Field):
 
     def shape(self) -> Schema:
         return {"type": "array", "items": self.item.schema()}
+
+
+@dataclass(frozen=True)
+class Either(Field):
+    """A short form for a single value, or a table; one field where it stands, the other where a mapping does."""
+
+    short: Field
+    table: Field
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        chosen = self.table if isinstance(node, MappingNode) else self.short
+        return chosen.read(reader, node, place, given)
+
+    def shape(self) -> Schema:
+        return {"anyOf": [self.short.shape(), self.table.shape()]}
+
+
+@dataclass(frozen=True)
+class Line(Field):
+    """One line: a text or a number; empty where nothing is written."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+        return "" if isinstance(node, Scalar) and node.empty else reader.text(node, place)
+
+    def shape(self) -> Schema:
+        return {"type": ["string", "number"]}
+
+
+@dataclass(frozen=True)
+class AsWritten(Field):
+    """Any value, kept as plain data; ``of``: its JSON Schema."""
+
+    of: Schema = dataclasses.field(default_factory=dict)
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        return reader.free(node)
+
+    def shape(self) -> Schema:
+        return self.of
 
 
 @dataclass(frozen=True)

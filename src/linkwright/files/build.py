@@ -7,11 +7,9 @@ from typing import Any
 
 from linkwright.core.given import one_or_more
 from linkwright.errors import ModelError, RequestError
-from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
-from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import node_of
 from linkwright.files.read_model import read_model
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.units import number
 
 Value = float | str
 Pair = tuple[Value, Value] | list[Value]
@@ -118,7 +116,7 @@ class Model:
 
     def build(self) -> Mechanism:
         """The checked mechanism. Raises ModelError with all findings."""
-        mechanism, findings = read_model(_node(self._data), "", si=True)
+        mechanism, findings = read_model(node_of(self._data), "", si=True)
         if mechanism is None:
             raise ModelError(findings)
         return mechanism
@@ -126,24 +124,3 @@ class Model:
 
 def _present(**values: Any) -> dict[str, Any]:
     return {key: value for key, value in values.items() if value is not None}
-
-
-def _node(value: Any) -> Node:
-    if isinstance(value, Mapping):
-        return MappingNode(
-            0, 0, 0, 0, [Entry(Scalar(0, 0, 0, 0, str(key)), _node(each)) for key, each in value.items()]
-        )
-    if isinstance(value, str):
-        return Scalar(0, 0, 0, 0, value, plain=False)
-    if isinstance(value, bool):
-        return Scalar(0, 0, 0, 0, "true" if value else "false")
-    if value is None:
-        return Scalar(0, 0, 0, 0, "null")
-    if isinstance(value, int):
-        return Scalar(0, 0, 0, 0, str(value))
-    if isinstance(value, Iterable):
-        return Sequence(0, 0, 0, 0, [_node(each) for each in value])
-    try:
-        return Scalar(0, 0, 0, 0, number(float(value)))
-    except (TypeError, ValueError):
-        return Scalar(0, 0, 0, 0, str(value), plain=False)

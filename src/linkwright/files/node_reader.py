@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any, cast
 
@@ -12,7 +13,7 @@ from linkwright.fields.base import Field, Text
 from linkwright.fields.form import missing_remedy
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence, noun
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.reading import K, Place, Reader
+from linkwright.fields.reading import K, Place, Reader, Sayings
 from linkwright.files.syntax import wide_remedy
 from linkwright.registry import PROBABLE, listed, nearest
 from linkwright.units import decimal_comma
@@ -75,11 +76,19 @@ class PlainReader:
         self.source, self.si = source, si
         self.findings: list[Finding] = []
         self.unread = 0
+        self._own: Sayings = {}
 
     @property
     def error_count(self) -> int:
         """How many errors were found so far, and values ``unread`` by an error that is told elsewhere."""
         return self.unread + sum(finding.severity == "error" for finding in self.findings)
+
+    @contextmanager
+    def saying(self, own: Sayings) -> Iterator[None]:
+        """Within it a section's own sentences are said instead of the general ones."""
+        before, self._own = self._own, own
+        yield
+        self._own = before
 
     def error(
         self,
@@ -113,13 +122,17 @@ class PlainReader:
         **values: object,
     ) -> None:
         """Note a finding of the catalogue at a node: the problem ``model.KEY`` and its remedy, ``model.KEY_do`` with
-        the same ``values`` where no other is given."""
+        the same ``values`` where no other is given; or what the section says of its own."""
+        if key in self._own:
+            code, said = self._own[key]
+            self.error(node, place, said(**values), "", code, severity=severity)
+            return
         told = remedy or Sentence(f"model.{key}_do", **values)
         self.error(node, place, Sentence(f"model.{key}", **values), told, code, severity=severity)
 
     def where(self, node: Node | None, column: int = 0) -> str:
         """The place of a node as ``file:line:column``."""
-        if self.si:
+        if self.si or not self.source:
             return self.source
         if node is None:
             return f"{self.source}:1:1"
@@ -300,7 +313,8 @@ class PlainReader:
             if offer in absent and not likely:
                 split.add(offer)
             remedy = Sentence(f"names.{'near' if offer else 'all'}_known", offer=offer, names=tuple(known))
-            self.finding(entry.key, place.child(key), "unknown_key", "unknown-key", remedy, key_=key[:100])
+            self.finding(entry.key, place.child(key), "unknown_key", "unknown-key", remedy, key_=key[:100],
+                         names=tuple(known))  # fmt: skip
         return as_meant(replace(mapping, entries=kept), known), split
 
     def _joined(self, entry: Entry, place: Place, known: list[str]) -> str | None:

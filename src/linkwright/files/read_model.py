@@ -25,7 +25,6 @@ from linkwright.files.read_joints import read_joints, scan_joints
 from linkwright.files.read_links import legible, read_drawing, read_frame, read_links, scan_points
 from linkwright.files.read_outputs import read_outputs
 from linkwright.files.reader import Reader
-from linkwright.files.report_schema import report_keys
 from linkwright.loads.base import Load, read_load
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import GRAVITY, Mechanism
@@ -43,7 +42,7 @@ HEADER: Mapping[str, Field] = {
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "synthesis": Free(doc="a task with its demands for the command synthesize"),
     "report": Free(
-        doc="title, own text, order of sections and more for the command report", keys=report_keys
+        doc="title, own text, order of sections and more for the command report", section="report"
     ),
     "sheet": SHEET_SECTION,
     "course": Free(doc="what the command variants changes, within which limits, and what it asks"),

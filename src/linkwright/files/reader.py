@@ -6,16 +6,17 @@ import re
 from collections import ChainMap
 from collections.abc import Iterator, MutableMapping
 from contextlib import contextmanager
-from typing import Literal
+from typing import Any, Literal
 
 from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output
-from linkwright.errors import QuantityError
+from linkwright.errors import Finding, QuantityError
+from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar, Sequence, noun
-from linkwright.fields.reading import Names, Place
+from linkwright.fields.nodes import Node, Scalar, Sequence, node_of, noun
+from linkwright.fields.reading import Names, Place, Sayings
 from linkwright.fields.references import LinkPoint, resolve_output
 from linkwright.files.node_reader import NUMBER, PlainReader
 from linkwright.registry import listed, nearest
@@ -24,6 +25,14 @@ from linkwright.words.sentence import Sentence
 
 #: A name with dots in a text; superscripts belong to units.
 _WORD = re.compile(r"(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d](?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[\w'-])*(?:\.[^\W\d][\w'-]*)*")
+
+
+def read_data(field: Field, given: Any, key: str, own: Sayings) -> tuple[Any, list[Finding]]:
+    """What a field reads from plain data under a key, and the findings, whose places are keys alone; ``own``:
+    sentences that the section has of its own."""
+    reader = Reader("")
+    with reader.saying(own):
+        return field.read(reader, node_of(given), Place(key, key), {}), reader.findings
 
 
 class Reader(PlainReader):

@@ -14,7 +14,7 @@ from linkwright.fields.base import Field, Schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
-from linkwright.fields.tables import MOST, ByAddress, Flag, Listed, Make, Named, Table, Whole
+from linkwright.fields.tables import MOST, ByAddress, Either, Flag, Listed, Make, Named, Table, Whole
 from linkwright.registry import nearest
 from linkwright.words.sentence import Sentence
 
@@ -22,21 +22,6 @@ __all__ = [
     "MOST", "AnyQuantity", "ByAddress", "Either", "Flag", "Known", "Listed", "Make", "Named", "Numbers",
     "Sample", "Table", "Whole", "unknown_name",
 ]  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Either(Field):
-    """A short form for a single value, or a table."""
-
-    short: Field
-    table: Table
-
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        chosen = self.table if isinstance(node, MappingNode) else self.short
-        return chosen.read(reader, node, place, given)
-
-    def shape(self) -> Schema:
-        return {"anyOf": [self.short.shape(), self.table.shape()]}
 
 
 @dataclass(frozen=True)

@@ -12,15 +12,13 @@ from linkwright import gallery
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import Count, Field, Free, Text, Word, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node
-from linkwright.fields.nodes import Sequence as SequenceNode
+from linkwright.fields.nodes import Node, towards
 from linkwright.fields.reading import Place
 from linkwright.fields.sheet import FIELD as SHEET_SECTION
 from linkwright.files.model_file import declared_kind, read_root
 from linkwright.files.node_reader import as_meant
 from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
-from linkwright.files.report_schema import report_keys
 from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
 from linkwright.words.sentence import Sentence
@@ -56,7 +54,7 @@ HEADING: Mapping[str, Field] = {
     "source": Text(doc="where it is taken from"),
     "expected": Free(doc="numbers to compare results with; not interpreted"),
     "parameters": Free(doc="named quantities for use in expressions"),
-    "report": Free(doc="title, own text, errata and more for the command report", keys=report_keys),
+    "report": Free(doc="title, own text, errata and more for the command report", section="report"),
     "sheet": SHEET_SECTION,
 }
 #: Keys that say nothing about the problem itself.
@@ -223,23 +221,4 @@ def _built(
 
 def _placed(finding: Finding, root: MappingNode, reader: Reader) -> Finding:
     """The finding with the place of its key in the file; one about another file keeps its own."""
-    return finding if finding.where else replace(finding, where=reader.where(_node_at(root, finding.key)))
-
-
-def _node_at(root: Node, key: str) -> Node:
-    """The node that a key names, or the nearest one above it."""
-    node, rest = root, key
-    while rest:
-        below: Node | None = None
-        if isinstance(node, MappingNode):
-            names = [entry.key.text for entry in node.entries]
-            name = next((n for n in names if rest == n or rest.startswith(f"{n}.")), None)
-            below = None if name is None else node.get(name)
-            rest = "" if name is None else rest[len(name) + 1 :]
-        elif isinstance(node, SequenceNode):
-            head, _, rest = rest.partition(".")
-            below = node.items[int(head)] if head.isdecimal() and int(head) < len(node.items) else None
-        if below is None:
-            return node
-        node = below
-    return node
+    return finding if finding.where else replace(finding, where=reader.where(towards(root, finding.key)))

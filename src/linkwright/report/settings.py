@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import field
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError, RequestError
 from linkwright.events.position_list import PositionList, known_outputs, of_value
+from linkwright.fields.base import Field, Schema, Text, given, given_by_file, table_schema
+from linkwright.fields.nodes import Node, Scalar
+from linkwright.fields.reading import Place, Reader, Sayings
+from linkwright.fields.tables import AsWritten, ByAddress, Either, Keys, Line, Listed, Table
+from linkwright.files.reader import read_data
 from linkwright.files.write import flow
 from linkwright.kinematics.names import place_meant
 from linkwright.machine.flywheel import FLUCTUATION
@@ -22,35 +26,34 @@ from linkwright.words.sentence import Sentence
 if TYPE_CHECKING:
     from linkwright.report.markdown import Beside
 
-KEYS = (
-    "title", "author", "course", "date", "sections", "position", "positions", "numbered_from", "fluctuation",
-    "text", "errata", "purpose", "source", "cover", "references", *LANGUAGES,
-)  # fmt: skip
-#: Single lines, and what can be said for one language alone.
-WORDS = ("title", "author", "course", "date", "position", "purpose", "source")
-OWN = (*WORDS, "text", "errata", "sections", "cover", "references")
-CHAPTER = ("title", "text", "label")
-#: Lines of a cover, in their order; those of a row each, ``fields`` behind them.
-COVER_ROWS = ("faculty", "major", "class", "author", "student_number", "adviser")
-COVER = ("school", "kind", "logo", *COVER_ROWS, "fields", "date")
 #: What a list of sections can name beside these: all that are not named, and calculations among the files.
 BESIDE_SECTIONS = ("rest", "calculations")
-REFERENCE = ("key", "text")
-ERRATUM = ("where", "printed", "right", "why")
+#: Lines of a cover, in their order, that are a row each.
+COVER_ROWS = ("faculty", "major", "class", "author", "student_number", "adviser")
 #: Limits of an output that numbers can begin at.
 LIMITS = ("min", "max")
 #: Most numbered positions.
 MOST = 10_000
+SAYINGS: Sayings = {
+    "unknown_key": (
+        "unknown-key",
+        lambda key_, names, **_: Sentence("report.unknown_key", name=key_, hint=offered(key_, names)),
+    ),
+    "missing_key": ("missing-key", lambda key_, **_: Sentence("report.lacks", name=key_)),
+    "where_list": ("not-a-list", lambda **_: Sentence("report.not_a_list")),
+    "where_mapping": ("not-a-mapping", lambda **_: Sentence("report.not_a_mapping")),
+    "where_text": ("not-a-text", lambda **_: Sentence("report.not_a_text")),
+}
 
 
 @dataclass(frozen=True)
 class Erratum:
     """A mistake of the source: where, what is printed, what is right, why."""
 
-    where: str
-    printed: str
-    right: str
-    why: str = ""
+    where: str = given(Line(doc="where it stands in the source"))
+    printed: str = given(Line(doc="what is printed there"))
+    right: str = given(Line(doc="what is right"))
+    why: str = given(Line(doc="why"), "")
 
 
 @dataclass(frozen=True)
@@ -58,9 +61,17 @@ class Chapter:
     """A chapter of the user's own: title and text, Markdown, or Typst after a first line ``typst``; ``label``: the
     name by which texts refer to it."""
 
-    title: str
-    text: str
-    label: str = ""
+    title: str = given(Line(doc="title of an own chapter"))
+    text: str = given(Text(doc="text of the chapter, Markdown"))
+    label: str = given(Line(doc="name by which texts refer to it: [[label]]"), "")
+
+
+@dataclass(frozen=True)
+class OwnSource:
+    """A source of the user's own: the name by which texts cite it, and the text that the list prints."""
+
+    key: str = given(Line(doc="name by which texts cite it: [@key]"))
+    text: str = given(Line(doc="the source as the list of references prints it"))
 
 
 @dataclass(frozen=True)
@@ -76,30 +87,116 @@ class CoverWords:
 
 
 @dataclass(frozen=True)
+class SectionName(Field):
+    """The name of a section, or one of ``more`` words."""
+
+    more: tuple[str, ...] = ()
+
+    @property
+    def names(self) -> list[str]:
+        """All names."""
+        from linkwright.report.section import section_names
+
+        return [*section_names(), *self.more]
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+        name = reader.text(node, place)
+        if name is None or name in self.names:
+            return name
+        hint = listed(name, self.names)
+        reader.error(node, place, Sentence("report.no_section", name=name, hint=hint), code="no-section")
+        return None
+
+    def shape(self) -> Schema:
+        return {"enum": self.names}
+
+
+@dataclass(frozen=True)
+class SectionTexts(ByAddress):
+    """Own texts by the name of a section."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        found = super().read(reader, node, place, given)
+        for name in found or ():
+            SectionName().read(reader, Scalar(0, 0, 0, 0, name), place.child(name), {})
+        return found
+
+    def shape(self) -> Schema:
+        texts = {name: self.item.shape() for name in SectionName().names}
+        return {"type": "object", "properties": texts, "additionalProperties": False}
+
+
+@dataclass(frozen=True)
+class Position(Line):
+    """The position that is worked out; which there are, the machine says."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+        if isinstance(node, Scalar):
+            return super().read(reader, node, place, given)
+        reader.error(node, place, Sentence("report.not_a_position"), code="not-a-position")
+        return None
+
+
+@dataclass(frozen=True)
+class CoverField(Keys):
+    """Whether there is a cover (None: there is none), or what it says."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        if isinstance(node, Scalar) and node.plain and (node.empty or node.text in ("true", "false")):
+            return None if node.text == "false" else {}
+        return super().read(reader, node, place, given)
+
+    def shape(self) -> Schema:
+        return {"oneOf": [{"type": "boolean"}, table_schema(self.fields)]}
+
+
+COVER: Mapping[str, Field] = {
+    "school": Line(doc="name of the school, at the top"),
+    "kind": Line(doc="what the document is (default: Course design report)"),
+    "logo": Line(doc="picture beside the model file: PNG, JPG or SVG"),
+    "faculty": Line(doc="faculty or department"),
+    "major": Line(doc="major"),
+    "class": Line(doc="class"),
+    "author": Line(doc="author (default: that of the report)"),
+    "student_number": Line(doc="student number, in quotation marks where it begins with 0"),
+    "adviser": Line(doc="adviser"),
+    "date": Line(doc="date (default: that of the report)"),
+    "fields": ByAddress(Line(), doc="further rows of the cover: {Mark: }"),
+}
+SECTIONS = Listed(
+    Either(SectionName(BESIDE_SECTIONS), Table.of(Chapter)),
+    doc="sections and own chapters in order; rest: all others",
+)
+
+
+@dataclass(frozen=True)
 class Settings:
-    """``sections`` and own chapters in the order wanted (empty: all sections); ``position`` of the worked solution;
-    ``positions`` in the tables (those that are listed, or so many, numbered from ``numbered_from``, ``"rocker min"``;
-    None: as many as show the cycle); ``fluctuation`` δ of the flywheel; ``text``: own text by section, Markdown, or
-    Typst after a first line ``typst``; ``purpose`` and ``source`` instead of the model's; ``cover``: of its own page,
-    None without one; ``references``: own sources by the name by which texts cite them; ``folder``: where pictures
-    lie.
+    """What a report is told; ``positions`` in the tables (those that are listed, or so many, numbered from
+    ``numbered_from``, ``"rocker min"``; None: as many as show the cycle); ``cover``: None without one;
+    ``references``: own sources by the name by which texts cite them; ``folder``: where pictures lie.
     """
 
-    title: str = ""
-    author: str = ""
-    course: str = ""
-    date: str = ""
-    purpose: str = ""
-    source: str = ""
-    sections: tuple[str | Chapter, ...] = ()
-    position: str = ""
-    positions: int | PositionList | None = None
-    numbered_from: str = ""
-    fluctuation: float = FLUCTUATION
-    text: Mapping[str, str] = field(default_factory=dict)
-    errata: tuple[Erratum, ...] = ()
-    cover: CoverWords | None = None
-    references: Mapping[str, str] = field(default_factory=dict)
+    title: str = given(Line(doc="title of the report"), "")
+    author: str = given(Line(doc="author of the report"), "")
+    course: str = given(Line(doc="course"), "")
+    date: str = given(Line(doc="date of the report"), "")
+    purpose: str = given(Line(doc="what the machine is for, instead of the model's"), "")
+    source: str = given(Line(doc="where it is taken from, instead of the model's"), "")
+    position: str = given(Position(doc="position that is worked out, such as 60 deg"), "")
+    sections: tuple[str | Chapter, ...] = given(SECTIONS, ())
+    text: Mapping[str, str] = given(
+        SectionTexts(Text(), doc="own text by the name of a section, Markdown"), dict
+    )
+    errata: tuple[Erratum, ...] = given(Listed(Table.of(Erratum), doc="mistakes of the source"), ())
+    cover: CoverWords | None = given(CoverField(COVER, doc="a cover of its own page"), None)
+    references: Mapping[str, str] = given(
+        Listed(Either(Line(), Table.of(OwnSource)), doc="own sources"), dict
+    )
+    positions: int | PositionList | None = given(AsWritten(doc="numbered positions of the tables"), None)
+    numbered_from: str = given(Line(doc="limit position that is number 1, such as rocker min"), "")
+    fluctuation: float = given(
+        AsWritten({"type": ["string", "number"]}, doc="coefficient of speed fluctuation"), FLUCTUATION
+    )
     folder: str = ""
 
     @property
@@ -108,6 +205,16 @@ class Settings:
         from linkwright.report.markdown import Beside
 
         return Beside(self.folder, self.references)
+
+
+_KEYS = given_by_file(Settings)
+#: What can be said for one language alone.
+OWN = {key: each for key, each in _KEYS.items() if key not in ("positions", "numbered_from", "fluctuation")}
+SECTION = Keys({
+    **_KEYS,
+    "en": Keys(OWN, doc="what an English report says instead"),
+    "zh": Keys(OWN, doc="what a Chinese report says instead"),
+})  # fmt: skip
 
 
 def settings(
@@ -124,13 +231,10 @@ def settings(
     ModelError with all findings.
     """
     reading = _Reading(given, mechanism, folder)
-    for each in LANGUAGES:
-        if each != language:
-            reading.all_of({**given, **reading.mapping(given, each)}, each)
-    found = reading.all_of({**given, **reading.mapping(given, language)}, language)
+    found = [reading.all_of(each) for each in (*(each for each in LANGUAGES if each != language), language)]
     if reading.findings:
         raise ModelError([*reading.findings])
-    return found
+    return found[-1]
 
 
 def worked_place(mechanism: Mechanism, position: str) -> float | None:
@@ -146,154 +250,82 @@ class _Reading:
     """Reads the settings and collects what is wrong with them, each once."""
 
     def __init__(self, given: Mapping[str, Any], mechanism: Mechanism | None, folder: str) -> None:
-        self.given, self.mechanism, self.folder = given, mechanism, folder
-        self.findings: dict[Finding, None] = {}
-        self.known(given, KEYS, "report")
-        for each in LANGUAGES:
-            self.known(self.mapping(given, each), OWN, f"report.{each}")
+        self.mechanism, self.folder = mechanism, folder
+        self.values, findings = read_data(SECTION, _present(given), "report", SAYINGS)
+        self.findings = dict.fromkeys(findings)
 
-    def all_of(self, given: Mapping[str, Any], language: str) -> Settings:
-        """The settings in a language; ``given``: with the texts of that language."""
-        own = self.mapping(self.given, language)
-        places = {key: f"report.{language}.{key}" if key in own else f"report.{key}" for key in KEYS}
-        words = {key: self.text(given[key], places[key]) for key in WORDS if key in given}
-        numbered_from = self.text(given.get("numbered_from", ""), "report.numbered_from")
-        references = self.references(given, places["references"])
-        sections = tuple(
-            self.chapter(each, f"{places['sections']}.{i}", references)
-            for i, each in enumerate(self.sequence(given, "sections"))
-        )
-        self.position(words.get("position", ""), places["position"])
-        self.numbered(numbered_from)
-        return Settings(
-            **words,
-            sections=sections,
-            positions=self.positions(given["positions"]) if "positions" in given else None,
-            numbered_from=numbered_from,
-            fluctuation=self.fluctuation(given.get("fluctuation", FLUCTUATION)),
-            text=self.texts(given, places["text"], references),
-            cover=self.cover(given, places["cover"], words),
-            references=references,
-            folder=self.folder,
-            errata=tuple(
-                self.erratum(each, f"{places['errata']}.{i}")
-                for i, each in enumerate(self.sequence(given, "errata"))
-            ),
-        )
+    def all_of(self, language: str) -> Settings:
+        """The settings in a language."""
+        own = self.values.get(language) or {}
+        given = {key: each for key, each in {**self.values, **own}.items() if each is not None}
+        given = {key: each for key, each in given.items() if key not in LANGUAGES}
+        places = {key: f"report.{language}.{key}" if key in own else f"report.{key}" for key in OWN}
+        sources = self.references(given.get("references", ()), places["references"])
+        for place, text in self.texts(given, places):
+            self.own(text, place, sources)
+        self.position(given.get("position", ""), places["position"])
+        self.numbered(given.get("numbered_from", ""))
+        more = {key: tuple(each for each in given.get(key, ()) if each) for key in ("sections", "errata")}
+        return Settings(**{
+            **given,
+            **more,
+            "positions": self.positions(given["positions"]) if "positions" in given else None,
+            "fluctuation": self.fluctuation(given.get("fluctuation", FLUCTUATION)),
+            "cover": self.cover(given, places["cover"]),
+            "references": sources,
+            "folder": self.folder,
+        })  # fmt: skip
 
-    def wrong(self, place: str, key: str, code: str = "", **values: object) -> None:
-        """Notes what is wrong at a place: the sentence ``report.KEY``, by the same word as its code unless given."""
-        told = Sentence(f"report.{key}", **values)
-        self.findings[Finding("error", "", place, told, code=code or key.replace("_", "-"))] = None
+    def wrong(self, place: str, key: str, **values: object) -> None:
+        """Notes what is wrong at a place: the sentence ``report.KEY``, by the same word as its code."""
+        self.note(place, Sentence(f"report.{key}", **values), key.replace("_", "-"))
 
-    def known(self, given: Mapping[str, Any], keys: tuple[str, ...], place: str) -> None:
-        for key in given:
-            if key not in keys:
-                self.wrong(f"{place}.{key}", "unknown_key", name=key, hint=offered(str(key), keys))
+    def note(self, place: str, told: str, code: str, remedy: str = "") -> None:
+        self.findings[Finding("error", "", place, told, remedy, code)] = None
 
-    def sequence(self, given: Mapping[str, Any], key: str) -> list[Any]:
-        found = given.get(key) or []
-        if isinstance(found, list | tuple):
-            return list(found)
-        self.wrong(f"report.{key}", "not_a_list")
-        return []
+    def texts(self, given: Mapping[str, Any], places: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+        """Own texts with their places."""
+        for name, text in given.get("text", {}).items():
+            yield f"{places['text']}.{name}", text or ""
+        for i, each in enumerate(given.get("sections", ())):
+            if isinstance(each, Chapter):
+                yield f"{places['sections']}.{i}.text", each.text
 
-    def mapping(self, given: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-        found = given.get(key) or {}
-        if isinstance(found, Mapping):
-            return found
-        self.wrong(f"report.{key}", "not_a_mapping")
-        return {}
-
-    def text(self, value: Any, place: str) -> str:
-        if not isinstance(value, Mapping | list | tuple):
-            return str(value)
-        self.wrong(place, "not_a_position" if place.endswith(".position") else "not_a_text")
-        return ""
-
-    def texts(self, given: Mapping[str, Any], place: str, sources: Mapping[str, str]) -> dict[str, str]:
-        """Own text by the name of a section."""
-        found = self.mapping(given, "text")
-        for name in found:
-            self.section(str(name), f"{place}.{name}")
-        return {str(name): self.own(text, f"{place}.{name}", sources) for name, text in found.items()}
-
-    def own(self, value: Any, place: str, sources: Mapping[str, str]) -> str:
-        """An own text; files and sources that it names must be there."""
+    def own(self, text: str, place: str, sources: Mapping[str, str]) -> None:
+        """Files and sources that an own text names must be there."""
         from linkwright.report.markdown import Beside, own_text
 
-        text, beside = self.text(value, place), Beside(self.folder, sources)
         try:
-            faults = [each for _, faults in own_text(text, beside=beside) for each in faults if each.code]
+            for _, faults in own_text(text, beside=Beside(self.folder, sources)):
+                for fault in faults:
+                    if fault.code:
+                        self.note(place, fault.sentence, fault.code)
         except LinkwrightError:
-            return text
-        for fault in faults:
-            self.findings[Finding("error", "", place, fault.sentence, code=fault.code)] = None
-        return text
+            return
 
-    def chapter(self, each: Any, place: str, sources: Mapping[str, str]) -> str | Chapter:
-        """A section's name, or an own chapter."""
-        if not isinstance(each, Mapping):
-            self.section(name := self.text(each, place), place, *BESIDE_SECTIONS)
-            return name
-        self.known(each, CHAPTER, place)
-        for key in CHAPTER[:2]:
-            if key not in each:
-                self.wrong(place, "lacks", "missing-key", name=key)
-        title, label = (self.text(each.get(key, ""), f"{place}.{key}") for key in ("title", "label"))
-        return Chapter(title, self.own(each.get("text", ""), f"{place}.text", sources), label)
-
-    def section(self, name: str, place: str, *more: str) -> None:
-        from linkwright.report.section import section_names
-
-        if name not in (known := [*section_names(), *more]):
-            self.wrong(place, "no_section", name=name, hint=listed(name, known))
-
-    def references(self, given: Mapping[str, Any], place: str) -> dict[str, str]:
+    def references(self, given: tuple[str | OwnSource | None, ...], place: str) -> dict[str, str]:
         """Own sources, by their key or, without one, by themselves."""
         found: dict[str, str] = {}
-        for i, each in enumerate(self.sequence(given, "references")):
-            if not isinstance(each, Mapping):
-                text = self.text(each, f"{place}.{i}")
-                found[text] = text
-                continue
-            self.known(each, REFERENCE, f"{place}.{i}")
-            for key in REFERENCE:
-                if key not in each:
-                    self.wrong(f"{place}.{i}", "lacks", "missing-key", name=key)
-            key, text = (self.text(each.get(key, ""), f"{place}.{i}.{key}") for key in REFERENCE)
-            if key in found:
+        for i, each in enumerate(given):
+            key, text = (each.key, each.text) if isinstance(each, OwnSource) else (each or "", each or "")
+            if isinstance(each, OwnSource) and key in found:
                 self.wrong(f"{place}.{i}", "source_twice", name=key)
             found[key] = text
         return found
 
-    def cover(self, given: Mapping[str, Any], place: str, words: Mapping[str, str]) -> CoverWords | None:
+    def cover(self, settings: Mapping[str, Any], place: str) -> CoverWords | None:
         """The cover; author and date are those of the report where it names no others."""
-        if "cover" not in given or given["cover"] is False:
+        if (given := settings.get("cover")) is None:
             return None
-        found = {} if given["cover"] in (True, None) else given["cover"]
-        if not isinstance(found, Mapping):
-            self.wrong(place, "not_a_mapping")
-            return None
-        self.known(found, COVER, place)
-        own = {
-            key: self.text(found[key], f"{place}.{key}") for key in COVER if key in found and key != "fields"
-        }
-        fields = found.get("fields") or {}
-        if not isinstance(fields, Mapping):
-            self.wrong(f"{place}.fields", "not_a_mapping")
-            fields = {}
-        own = {"author": words.get("author", ""), "date": words.get("date", ""), **own}
+        own = {key: settings.get(key, "") for key in ("author", "date")}
+        own |= {key: text for key, text in given.items() if key != "fields" and text is not None}
         return CoverWords(
             own.get("school", ""),
             own.get("kind", ""),
             own["date"],
             self.logo(own.get("logo", ""), f"{place}.logo"),
             tuple((key, own[key]) for key in COVER_ROWS if own.get(key)),
-            tuple(
-                (str(name), self.text("" if value is None else value, f"{place}.fields.{name}"))
-                for name, value in fields.items()
-            ),
+            tuple((given.get("fields") or {}).items()),
         )
 
     def logo(self, name: str, place: str) -> str:
@@ -303,14 +335,14 @@ class _Reading:
         try:
             return picture_of(name, self.folder).svg if name else ""
         except LinkwrightError as error:
-            self.findings[Finding("error", "", place, error.sentence, code="wrong-picture")] = None
+            self.note(place, error.sentence, "wrong-picture")
             return ""
 
     def position(self, text: str, place: str) -> None:
         try:
             _ = self.mechanism and worked_place(self.mechanism, text)
         except QuantityError as error:
-            self.findings[Finding("error", "", place, error.message, error.remedy, error.code)] = None
+            self.note(place, error.message, error.code, error.remedy)
 
     def numbered(self, text: str) -> None:
         """An output with the limit at which the numbers begin."""
@@ -321,8 +353,7 @@ class _Reading:
             try:
                 place_meant(self.mechanism, name)
             except RequestError as error:
-                place = "report.numbered_from"
-                self.findings[Finding("error", "", place, error.sentence, code=error.code)] = None
+                self.note("report.numbered_from", error.sentence, error.code)
 
     def positions(self, value: Any) -> int | PositionList | None:
         """So many positions, or those that are listed."""
@@ -339,7 +370,7 @@ class _Reading:
         except LinkwrightError as error:
             remedy = error.remedy if isinstance(error, QuantityError) else ""
             said = error.message if isinstance(error, QuantityError) else error.sentence
-            self.findings[Finding("error", "", "report.positions", said, remedy, error.code)] = None
+            self.note("report.positions", said, error.code, remedy)
             return None
         return listed
 
@@ -361,12 +392,11 @@ class _Reading:
             self.wrong("report.fluctuation", "bad_fluctuation", text=flow(value))
         return found
 
-    def erratum(self, each: Any, place: str) -> Erratum:
-        if not isinstance(each, Mapping):
-            self.wrong(place, "not_a_mapping")
-            return Erratum("", "", "")
-        self.known(each, ERRATUM, place)
-        for key in ERRATUM[:3]:
-            if key not in each:
-                self.wrong(place, "lacks", "missing-key", name=key)
-        return Erratum(**{key: self.text(each.get(key, ""), f"{place}.{key}") for key in ERRATUM})
+
+def _present(given: Mapping[str, Any]) -> dict[str, Any]:
+    """The settings without keys behind which nothing is written; a cover needs nothing."""
+    return {
+        key: _present(each) if key in LANGUAGES and isinstance(each, Mapping) else each
+        for key, each in given.items()
+        if each is not None or key == "cover"
+    }

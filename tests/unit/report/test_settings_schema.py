@@ -3,15 +3,19 @@
 from tests.every import every
 
 import linkwright as lw
-from linkwright.report.settings import CHAPTER, COVER, KEYS, OWN, REFERENCE
+from linkwright.report.section import section_names
+from linkwright.report.settings import COVER, OWN
 from linkwright.words import LANGUAGES
 
 
 def test_the_schema_names_every_key_of_the_settings() -> None:
     keys = lw.json_schema()["properties"]["report"]["properties"]
-    assert set(keys) == set(KEYS)
+    assert set(keys) == {*OWN, "positions", "numbered_from", "fluctuation", *LANGUAGES}
     for language in every(LANGUAGES):
         assert set(keys[language]["properties"]) == set(OWN)
     assert set(keys["cover"]["oneOf"][1]["properties"]) == set(COVER)
-    assert set(keys["sections"]["items"]["oneOf"][1]["properties"]) == set(CHAPTER)
-    assert set(keys["references"]["items"]["oneOf"][1]["properties"]) == set(REFERENCE)
+    name, chapter = keys["sections"]["items"]["anyOf"]
+    assert set(name["enum"]) == {*section_names(), "rest", "calculations"}
+    assert set(chapter["properties"]) == {"title", "text", "label"}
+    assert set(keys["references"]["items"]["anyOf"][1]["properties"]) == {"key", "text"}
+    assert set(keys["text"]["properties"]) == set(section_names())
