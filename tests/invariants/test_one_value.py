@@ -135,8 +135,8 @@ def test_the_speed_of_the_diagram_is_that_of_the_table() -> None:
         assert said(value, "angular_velocity") & set(words)
     inertia = running.equivalent.inertia_at(np.linspace(0.0, 2 * math.pi, 36_001))
     found = running.data()
-    assert found["equivalent_inertia_smallest"] == pytest.approx(inertia.min(), rel=1e-7)
-    assert found["equivalent_inertia_largest"] == pytest.approx(inertia.max(), rel=1e-7)
+    assert found["inertia_smallest"]["value"] == pytest.approx(inertia.min(), rel=1e-7)
+    assert found["inertia_largest"]["value"] == pytest.approx(inertia.max(), rel=1e-7)
 
 
 @pytest.mark.rotating
@@ -198,8 +198,8 @@ def test_a_motor_of_the_mean_power_says_that_it_needs_its_flywheel(
     forces, fine = (lw.solve_forces(mechanism, steps=n) for n in (360, 36_000))
     running = steady_running(forces, fluctuation=0.02, efficiency=0.8, margin=1.5)
     peak = float((fine.input_torque * 3 * math.pi).max()) * 1.5 / 0.8
-    assert running.data()["motor_power_without_flywheel"] == pytest.approx(peak, rel=1e-4)
-    assert running.data()["motor_power"] < 0.05 * peak
+    assert running.data()["motor_power_without_flywheel"]["value"] == pytest.approx(peak, rel=1e-4)
+    assert running.data()["motor_power"]["value"] < 0.05 * peak
     assert [each.key for each in running.remarks] == ["running.needs_flywheel"]
     even = steady_running(forces, fluctuation=50.0)
     assert not even.exact_flywheel

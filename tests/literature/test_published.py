@@ -27,7 +27,7 @@ def test_the_table_of_the_documentation_has_every_case(everything: Validation) -
 
 
 def test_errata_are_shown_with_their_reasons(everything: Validation) -> None:
-    errata = [each for each in every(everything.data()) if each["right"]]
+    errata = [each for each in every(everything.data()["numbers"]) if each["right"]]
     (wrong,) = (each for each in errata if each["printed"] == "0.269782 deg")
     assert wrong["right"] == "-0.269782 deg" and all(each["why"] for each in every(errata))
     for language in ("en", "zh"):
@@ -37,7 +37,7 @@ def test_errata_are_shown_with_their_reasons(everything: Validation) -> None:
 
 def test_only_what_a_source_prints_is_called_printed(everything: Validation) -> None:
     """As the sources are: the lecture's beam is printed, its cantilever only posed; a report's table row by row."""
-    printed = [each for each in every(everything.data()) if each["printed"]]
+    printed = [each for each in every(everything.data()["numbers"]) if each["printed"]]
     assert sum(each.reference.printed for each in everything.checks) == len(printed)
     beam = {(each["what"], each["printed"]) for each in printed if each["case"].startswith("Simple beam")}
     assert {("reactions.A F", "300 N"), ("reactions.B F", "700 N")} <= beam

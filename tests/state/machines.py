@@ -80,7 +80,7 @@ def static(machine: Machine) -> Entries:
 def metrics(machine: Machine) -> Entries:
     """All metrics that apply, what does not, and Grashof's chains."""
     table = lw.metrics(solved(machine))
-    for row in table.data():
+    for row in table.data()["metrics"]:
         name = f"{row['metric']}/{row['subject']}"
         yield name, row["unit"] or "", row["value"]
         if row["at"] is not None:
@@ -127,7 +127,7 @@ def centre(machine: Machine, link: str) -> Entries:
 
 def unasked(machine: Machine, name: str) -> Entries:
     """A metric that was skipped, asked for by its name."""
-    for row in lw.metrics(solved(machine), name).data():
+    for row in lw.metrics(solved(machine), name).data()["metrics"]:
         yield row["subject"], row["unit"] or "", row["value"]
 
 

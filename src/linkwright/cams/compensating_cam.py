@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +13,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.outputs import NAMED, PLACES, Output
-from linkwright.errors import RequestError
+from linkwright.core.quantity import SHOWN, shown
+from linkwright.errors import RequestError, speaker
 from linkwright.joints.cam import CamJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
@@ -45,6 +47,43 @@ class CompensatingCam:
     lifts: Floats
     before: float
     after: float
+
+    @property
+    def lift_dimension(self) -> str:
+        """``length`` of a follower that is guided, ``angle`` of one that swings."""
+        joint: Any = self.mechanism.joints[self.joint]
+        return "angle" if joint.side else "length"
+
+    def text(self, language: str = "en") -> str:
+        """What is kept constant where, and how well."""
+        say, output = speaker(language), str(self.output)
+        first, last = (shown(each, self.mechanism.across) for each in self.zone)
+        rows = {
+            "before": shown(self.before, self.output.dimension),
+            "after": shown(self.after, self.output.dimension),
+            "lift": shown(float(np.ptp(self.lifts)), self.lift_dimension),
+        }
+        lines = (f"  {say(f'compensate.{key}', output=output)}: {value}" for key, value in rows.items())
+        return "\n".join(
+            [say("compensate.kept", output=output, joint=self.joint, first=first, last=last), *lines]
+        )
+
+    def data(self) -> dict[str, Any]:
+        """Plain data, SI."""
+        return {
+            "joint": self.joint,
+            "output": str(self.output),
+            "zone": list(self.zone),
+            "before": self.before,
+            "after": self.after,
+            "angles": self.angles.tolist(),
+            "lifts": self.lifts.tolist(),
+        }
+
+    def columns(self) -> dict[str, Floats]:
+        """The table of the lift as files give it: angles in degrees, lifts in mm or degrees."""
+        unit, factor = SHOWN[self.lift_dimension]
+        return {"angle [°]": np.degrees(self.angles), f"lift [{unit}]": factor * self.lifts}
 
 
 def compensating_cam(

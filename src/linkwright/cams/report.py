@@ -10,10 +10,11 @@ import numpy as np
 from linkwright.cams.result import CamDesign
 from linkwright.core.quantity import number, shown
 from linkwright.core.search import first_largest
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.laws.program import MotionProgram
 from linkwright.laws.smoothest import FoundProgram
-from linkwright.parts.base import Block, Row, Value, put
+from linkwright.parts.base import Value, put
 from linkwright.words import Say, language_of
 from linkwright.words.sentence import in_language
 

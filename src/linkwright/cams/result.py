@@ -17,11 +17,12 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.search import ends, first_largest
+from linkwright.core.table import Block
 from linkwright.curves.curve import Curve, Extreme
 from linkwright.equations.steps import Step
 from linkwright.errors import RequestError
 from linkwright.laws.program import MotionProgram
-from linkwright.parts.base import Block, Result
+from linkwright.parts.base import Result
 from linkwright.words import Say
 
 if TYPE_CHECKING:

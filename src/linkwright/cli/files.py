@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright import whole_files
 from linkwright.cli.errors import UsageError
 from linkwright.cli.session import Session
-from linkwright.words.characters import cell_text
 
 if TYPE_CHECKING:
     from linkwright.core.attached import Plotted
@@ -65,27 +64,6 @@ def write_table(name: str | None, table: Callable[[], str], data: Callable[[], A
     path = Path(name)
     text = table() if path.suffix.lower() == ".csv" else json_text(data()) + "\n"
     write_whole(path, text, force=force)
-
-
-def csv_of(columns: Mapping[str, Any]) -> str:
-    """Columns as CSV; numbers to the last bit, nothing where there is no number."""
-    import csv
-    import io
-
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow([cell_text(name) for name in columns])
-    count = max((len(column) for column in columns.values()), default=0)
-    for i in range(count):
-        writer.writerow([_cell(column[i]) if i < len(column) else "" for column in columns.values()])
-    return stream.getvalue()
-
-
-def _cell(value: Any) -> str:
-    if isinstance(value, str):
-        return cell_text(value)
-    number = float(value)
-    return repr(number) if number == number else ""
 
 
 def curve_columns(found: Comparison) -> dict[str, Any]:

@@ -84,21 +84,17 @@ def read(source: str, command: str, session: Session) -> Problem:
 
 def show(result: Result, options: argparse.Namespace, session: Session, *, kind: str | None = None) -> None:
     """Prints the result; writes its curves and its diagram (``kind``: another than its usual one) where asked."""
-    from linkwright.cli.files import csv_of, write_diagram, write_table
+    from linkwright.cli.files import write_diagram, write_table
+    from linkwright.core.table import csv_text
 
     def table() -> str:
         columns = result.columns()
         if not columns:
             raise UsageError("part.no_curves", path=Path(options.output))
-        return csv_of(columns)
+        return csv_text(columns)
 
     write_table(options.output, table, result.data, force=options.force)
     write_diagram(options.plot, result, session, force=options.force, kind=kind)
-    if session.json:
-        session.show_data({"ok": True, **result.data()})
-        return
-    text = (
-        result.worked(session.language) if options.worked else result.text(session.language, options.digits)
-    )
-    session.show(text)
-    session.show_written(options.output, options.plot, apart=True)
+    language = session.language
+    text = result.worked(language) if options.worked else result.text(language, options.digits)
+    session.show_result(result, options.output, options.plot, text=text)

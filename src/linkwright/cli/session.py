@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
+from typing import Any, Protocol
 
 from linkwright.cli.errors import OutputError
 from linkwright.core.dataclass import dataclass
@@ -19,6 +20,16 @@ PIPE_WIDTH = 100
 BOLD = "1"
 #: Red, yellow, cyan.
 COLOURS = {"error": "31", "warning": "33", "note": "36"}
+
+
+class Reported(Protocol):
+    """A result with a text in every language, and plain data."""
+
+    def text(self, language: str = "en") -> str:
+        """What a terminal shows."""
+
+    def data(self) -> dict[str, Any]:
+        """What ``--json`` prints."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +58,18 @@ class Session:
         from linkwright.cli.data import json_text
 
         self.show_as_is(json_text(value))
+
+    def show_result(
+        self, found: Reported, *written: object, text: str | None = None, apart: bool = True
+    ) -> None:
+        """Prints a result (``text``: as it is asked for), its first line bold, and which files were written; with
+        ``json`` its data."""
+        if self.json:
+            self.show_data({"ok": True, **found.data()})
+            return
+        title, *lines = (found.text(self.language) if text is None else text).split("\n")
+        self.show("\n".join([self.strong(title), *self.table(lines, heads=0)]))
+        self.show_written(*written, apart=apart)
 
     def show_written(self, *paths: object, apart: bool = False) -> None:
         """Says which files were written, but for those that are None; ``apart``: each behind an empty line."""

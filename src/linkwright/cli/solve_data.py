@@ -6,17 +6,16 @@ import argparse
 
 from linkwright.cli.columns import Column
 from linkwright.cli.data import finding_data
-from linkwright.cli.files import csv_of
 from linkwright.cli.solve_columns import leading, point_keys
 from linkwright.cli.solve_remarks import closeness, largest_reactions
 from linkwright.cli.solving import Solved
-from linkwright.core.arrays import largest
+from linkwright.core.arrays import Floats, largest
 from linkwright.mechanism.force_names import reaction_pairs
 
 
-def csv_text(solved: Solved, options: argparse.Namespace) -> str:
-    """A line of names with units, then a line per position; empty where a position was not reached."""
-    return csv_of({f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options)})
+def named_columns(solved: Solved, options: argparse.Namespace) -> dict[str, Floats]:
+    """The chosen columns by their names with units."""
+    return {f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options)}
 
 
 def data(solved: Solved, options: argparse.Namespace) -> dict[str, object]:
@@ -29,7 +28,7 @@ def data(solved: Solved, options: argparse.Namespace) -> dict[str, object]:
         "mobility": motion.structure.mobility,
         "turned": motion.structure.data()["turned"],
         "positions": len(solved.rows),
-        "columns": {f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options)},
+        "columns": named_columns(solved, options),
         "reached": motion.ok[solved.rows],
         "not_reached": {str(list(solved.rows).index(row)): motion.outcomes[row].sentence for row in failed},
         "notes": list(solved.notes),

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.table import PERCENT, Amount, Cell, Table
 from linkwright.course.key import read_key
 from linkwright.course.variants import close
 from linkwright.errors import LinkwrightError, RequestError, speaker
@@ -177,10 +178,11 @@ def _number(text: str | None, line: int, name: str) -> float | None:
     return found
 
 
-def text(grades: Sequence[Grade], names: Sequence[str], language: str = "en") -> list[list[str]]:
-    """Rows of a table: student, variant, score, wrong numbers, mistake."""
+def table(grades: Sequence[Grade], names: Sequence[str], language: str = "en") -> Table:
+    """A table: student, variant, score, wrong numbers, mistake."""
     say = speaker(language)
-    rows = [[say(f"course.{each}") for each in ("student", "variant", "score", "wrong", "mistake")]]
+    head = [say(f"course.{each}") for each in ("student", "variant", "score", "wrong", "mistake")]
+    rows: list[list[Cell]] = []
     for each in grades:
         if each.fault:
             rows.append([each.student, "–", "–", "", in_language(each.fault, language)])
@@ -193,5 +195,6 @@ def text(grades: Sequence[Grade], names: Sequence[str], language: str = "en") ->
         if each.where and said:
             said = f"{said} ({each.where})"
         shown = ", ".join([*wrong, *(say("course.open", name=name) for name in open_)])
-        rows.append([each.student, str(each.variant), f"{100 * each.score:.0f} %", shown, said])
-    return rows
+        score = Amount(round(each.score, 2), scale=PERCENT)
+        rows.append([each.student, each.variant, score, shown, said])
+    return Table(head, rows, "<>><<")

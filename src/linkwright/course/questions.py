@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import csv
 import io
 import json
 import re
@@ -13,6 +12,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from xml.sax.saxutils import escape, quoteattr
 
+from linkwright.core.table import csv_rows
 from linkwright.course.mistakes import RPM, passed
 from linkwright.course.task import Question
 from linkwright.course.variants import Variant, Variants
@@ -158,16 +158,9 @@ def key(found: Variants, language: str) -> Files:
     empty = [["student", "variant", *(q.name for q in found.task.questions)]]
     return {
         "key.json": found.key_text().encode(),
-        "key.csv": csv_bytes(right),
-        "answers.csv": csv_bytes(empty),
+        "key.csv": csv_rows(right).encode(),
+        "answers.csv": csv_rows(empty).encode(),
     }
-
-
-def csv_bytes(rows: list[list[str]]) -> bytes:
-    """Rows as a CSV file."""
-    stream = io.StringIO()
-    csv.writer(stream, lineterminator="\n").writerows(rows)
-    return stream.getvalue().encode()
 
 
 # PrairieLearn -----------------------------------------------------------------------------------

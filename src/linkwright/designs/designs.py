@@ -14,9 +14,9 @@ from linkwright.core.attached import Plotted
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_of, require, whole
-from linkwright.core.html import columns_html
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
+from linkwright.core.table import columns_table
 from linkwright.cycle.summary import Summary
 from linkwright.designs.cluster import current, in_order, in_turn
 from linkwright.designs.design_numbers import numbers_of
@@ -122,7 +122,7 @@ class Sweep(Plotted, Frozen):
 
     def _repr_html_(self) -> str:
         """The first designs as notebooks show them, SI."""
-        return columns_html(self.mechanism.name, self.columns(), self.notes)
+        return columns_table(self.mechanism.name, self.columns(), self.notes).html()
 
     def __repr__(self) -> str:
         kept = int(self.ok.sum())

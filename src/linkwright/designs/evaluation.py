@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.html import html_table
 from linkwright.core.quantity import SHOWN, shown
+from linkwright.core.table import Amount, Cell, Table
 from linkwright.designs.alternatives import EFFORTS, Alternative
 from linkwright.designs.compare import Comparison, Rank, Row
 from linkwright.designs.criteria import criterion
 from linkwright.errors import speaker
 from linkwright.words import Say
-from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
 
 #: Share of a cycle beside a change point at which the direction of an infinite reaction is told.
@@ -32,7 +31,13 @@ def told(value: float, dimension: str) -> str:
 def text(comparison: Comparison, language: str = "en", width: int | None = None) -> str:
     """The table with the best values marked, the ranking, the evaluation, the notes."""
     say = speaker(language)
-    lines = [*table(comparison, say, width), "", say("compare.marked"), "", say("compare.ranking")]
+    lines = [
+        *table(comparison, say).lines(language, width),
+        "",
+        say("compare.marked"),
+        "",
+        say("compare.ranking"),
+    ]
     lines += ranking(comparison, say)
     lines += ["", say("compare.evaluation"), *sentences(comparison, language)]
     if comparison.notes:
@@ -42,28 +47,18 @@ def text(comparison: Comparison, language: str = "en", width: int | None = None)
 
 def shown_in_notebooks(comparison: Comparison) -> str:
     """The table as HTML; * marks the best."""
-    head, *rows = table_rows(comparison, speaker("en"))
-    return html_table("", head, rows, comparison.notes)
+    return table(comparison, speaker("en")).html()
 
 
-def table(comparison: Comparison, say: Say, width: int | None) -> list[str]:
+def table(comparison: Comparison, say: Say) -> Table:
     """Criteria in rows, alternatives in columns."""
-    rows, align = table_rows(comparison, say), "<" + ">" * len(comparison.labels)
-    return [line for each in aligned_within(rows, align, width) for line in each]
-
-
-def table_rows(comparison: Comparison, say: Say) -> list[list[str]]:
-    """The cells of the table, its head first."""
-    language = say("compare.language")
-    head = [say("compare.metric"), *comparison.labels]
-    rows = [head]
+    rows: list[list[Cell]] = []
     for row in comparison.rows:
-        cells = [row.criterion.label(language)]
-        for index, each in enumerate(row.values):
-            mark = f" {MARK}" if index in row.best else "  "
-            cells.append("—  " if each is None else shown(each.value, each.dimension, 5) + mark)
-        rows.append(cells)
-    return rows
+        marks = [f" {MARK}" if index in row.best else "  " for index in range(len(row.values))]
+        values = zip(row.values, marks, strict=True)
+        cells = ("—  " if v is None else Amount(v.value, v.dimension, 5, mark=mark) for v, mark in values)
+        rows.append([row.criterion.label(say("compare.language")), *cells])
+    return Table([say("compare.metric"), *comparison.labels], rows, notes=comparison.notes)
 
 
 def ranking(comparison: Comparison, say: Say) -> list[str]:

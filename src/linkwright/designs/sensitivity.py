@@ -12,8 +12,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_of, one_or_more, require
-from linkwright.core.html import html_table
 from linkwright.core.read_only import Frozen, locked
+from linkwright.core.table import Amount, Cell, Table
 from linkwright.cycle.summary import Summary
 from linkwright.designs.known_loads import known_loads
 from linkwright.designs.objective import over_metrics
@@ -111,11 +111,11 @@ class Sensitivity(Plotted, Frozen):
 
     def _repr_html_(self) -> str:
         """Summaries and their derivatives as notebooks show them, SI."""
-        rows = [
-            [summary.name, *(f"{each:.6g}" for each in (self.values[summary], *row))]
+        rows: list[list[Cell]] = [
+            [summary.name, *map(Amount, (self.values[summary], *row))]
             for summary, row in self.gradients.items()
         ]
-        return html_table(self.mechanism.name, ["", "", *self.by], rows)
+        return Table(["", "", *self.by], rows, title=self.mechanism.name).html()
 
     def __repr__(self) -> str:
         return self.text()

@@ -15,9 +15,9 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
-from linkwright.core.html import columns_html
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
+from linkwright.core.table import columns_table, csv_text
 from linkwright.designs.alternatives import Alternative
 from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import Criterion, criteria
@@ -127,13 +127,7 @@ class Study(Plotted, Frozen):
 
     def csv(self) -> str:
         """The columns as CSV, SI; numbers to the last bit."""
-        columns = self.columns()
-        lines = [",".join(f'"{name}"' if "," in name else name for name in columns)]
-        lines += [
-            ",".join("" if np.isnan(v) else repr(float(v)) for v in row)
-            for row in zip(*columns.values(), strict=True)
-        ]
-        return "\n".join(lines) + "\n"
+        return csv_text(self.columns())
 
     def data(self) -> dict[str, Any]:
         """Plain data, SI."""
@@ -177,7 +171,7 @@ class Study(Plotted, Frozen):
 
     def _repr_html_(self) -> str:
         """The first designs as notebooks show them, SI."""
-        return columns_html(self.mechanism.name, self.columns())
+        return columns_table(self.mechanism.name, self.columns()).html()
 
     def __repr__(self) -> str:
         return (

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.quantity import number, shown, shown_unit
+from linkwright.core.quantity import shown, shown_unit
+from linkwright.core.table import Amount, Cell, Table
 from linkwright.designs.criteria import criterion
 from linkwright.designs.failures import Failure
 from linkwright.designs.study import Study
 from linkwright.errors import speaker
 from linkwright.words import Say
-from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
 
 
@@ -35,14 +35,14 @@ def _table(study: Study, language: str, rows: int, width: int | None, say: Say) 
     chosen = _chosen(study.designs, rows)
     head = [say("study.number"), *(each.address for each in study.ranges)]
     head += [_heading(study, name, language) for name in study.metrics]
-    table = [head]
+    table: list[list[Cell]] = []
     for index in chosen:
-        cells = [str(index), *(each.shown(study.varied[each.address][index]) for each in study.ranges)]
+        cells: list[Cell] = [index, *(each.shown(study.varied[each.address][index]) for each in study.ranges)]
         for name, values in study.metrics.items():
-            value = float(values[index])
-            cells.append("—" if np.isnan(value) else number(value, study.dimensions[name], 5))
+            value = Amount(float(values[index]), study.dimensions[name], 5, bare=True)
+            cells.append("—" if np.isnan(value.value) else value)
         table.append(cells)
-    lines = [line for each in aligned_within(table, ">" * len(head), width) for line in each]
+    lines = Table(head, table, ">" * len(head)).lines(language, width)
     if len(chosen) < study.designs:
         lines.append(say("study.left_out", shown=len(chosen), designs=study.designs))
     return lines

@@ -28,6 +28,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import METRICS
 from linkwright.metrics.by_name import wanted
 from linkwright.whole_files import make_folder, write_whole
+from linkwright.words.sentence import in_language
 
 Sampling = Literal["grid", "sobol"]
 #: Designs of a part; of a whole sweep, at most.
@@ -124,6 +125,21 @@ class SweepParts:
         plan = self.plan
         first = {each.address: each.values[:1] for each in plan.ranges}
         return sweep(plan.mechanism, first, outputs=plan.outputs, steps=plan.steps).notes
+
+    def data(self, language: str = "en") -> dict[str, Any]:
+        """What lies in the folder: how many designs, and the range of every column, SI; notes in a language."""
+        columns = {
+            name: {"least": low, "greatest": high, "designs": count}
+            for name, (low, high, count) in self.ranges().items()
+        }
+        return {
+            "folder": str(self.folder),
+            "designs": self.designs,
+            "parts": self.parts,
+            "skipped": self.skipped,
+            "columns": columns,
+            "notes": [in_language(note, language) for note in self.notes],
+        }
 
     def path(self, number: int) -> Path:
         """The file of a part."""

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from typing import Any
 
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
 from linkwright.core.read_only import Frozen
+from linkwright.core.table import PERCENT, ROUNDING, Amount, Cell, Table
 from linkwright.cycle.summary import Summary
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import LinkwrightError, RequestError, speaker
 from linkwright.joints.base import Joint
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
@@ -52,16 +55,55 @@ class Balancing(Plotted, Frozen):
         both = [Analysis.of(forces) for forces in (self.before, self.after)]
         return {name: (both[0].part(peak).value, both[1].part(peak).value) for name, peak in peaks.items()}
 
-    def text(self) -> str:
+    def tables(self, language: str = "en") -> list[Table]:
+        """The counterweights, places in link axes, where there are any; the peaks without and with them."""
+        say = speaker(language)
+        weights: list[list[Cell]] = [
+            [each.link, Amount(each.mass, "mass", bare=True),
+             *(Amount(value, "length", bare=True) for value in _cleared(each.place))]
+            for each in self.counterweights
+        ]  # fmt: skip
+        peaks: list[list[Cell]] = [
+            [say(f"balance.{name}"), unit, Amount(without), Amount(having),
+             Amount(having / without, digits=4, scale=PERCENT) if without else ""]
+            for name, unit, without, having in self._peaks()
+        ]  # fmt: skip
+        head = [say(f"balance.column.{key}") for key in ("link", "mass", "x", "y")]
+        beside = [say(f"balance.column.{key}") for key in ("peak", "unit", "without", "with", "share")]
+        return [*([Table(head, weights)] if weights else []), Table(beside, peaks, "<<>>>")]
+
+    def text(self, language: str = "en") -> str:
         """Counterweights and their effect."""
-        lines = [f"Counterweights for {self.mechanism.name!r}:"]
-        for weight in self.counterweights:
-            x, y = weight.place
-            lines.append(f"  {weight.link}: {weight.mass:.6g} kg at ({x:.6g}, {y:.6g}) m of its axes")
-        lines.append(f"  {'peak of':<22}{'without':>14}{'with':>14}")
-        for name, (without, having) in self.effect().items():
-            lines.append(f"  {name:<22}{without:>14.6g}{having:>14.6g}")
-        return "\n".join(lines)
+        none = [] if self.counterweights else ["", speaker(language)("balance.none")]
+        tables = (["", *each.lines(language)] for each in self.tables(language))
+        return "\n".join([self.mechanism.name, *none, *(line for lines in tables for line in lines)])
+
+    def data(self) -> dict[str, Any]:
+        """Plain data, SI."""
+        return {
+            "name": self.mechanism.name,
+            "counterweights": [
+                {"link": each.link, "mass [kg]": each.mass, "place [m]": list(each.place)}
+                for each in self.counterweights
+            ],
+            "peaks": {
+                f"{name} [{unit}]": {"without": without, "with": having}
+                for name, unit, without, having in self._peaks()
+            },
+        }
+
+    def _peaks(self) -> Iterator[tuple[str, str, float, float]]:
+        """Name, unit and peaks without and with, zero where they are but rounding."""
+        for label, (without, having) in self.effect().items():
+            name, _, unit = label.removesuffix("]").partition(" [")
+            yield name.replace(" ", "_"), unit, without, having if having > ROUNDING * without else 0.0
+
+
+def _cleared(place: tuple[float, float]) -> tuple[float, float]:
+    """A place without the coordinates that are rounding."""
+    size = math.hypot(*place)
+    x, y = (0.0 if abs(value) < ROUNDING * size else value for value in place)
+    return x, y
 
 
 def balance(mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: int = 360) -> Balancing:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import field, replace
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
 from linkwright.core.quantity import shown
+from linkwright.core.table import PERCENT, Block, Row, rows_data, together
 from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.kinetostatics.forces import Forces
@@ -20,27 +22,29 @@ from linkwright.machine.flywheel import NOTHING, flywheel_inertia, on_faster_sha
 from linkwright.machine.motor import Motor, motor
 from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.analysis import Analysis
+from linkwright.metrics.singularity import Singularity
 from linkwright.metrics.true_speed import steady_cycle
 from linkwright.words import Message, Say
 from linkwright.words.sentence import Sentence
 
-DIMENSIONS = {
-    "speed": "angular_velocity",
-    "mean_torque": "torque",
-    "mean_power": "power",
-    "motor_power": "power",
-    "motor_power_without_flywheel": "power",
-    "energy_fluctuation": "energy",
-    "energy_lowest_at": "angle",
-    "energy_highest_at": "angle",
-    "equivalent_inertia_smallest": "inertia",
-    "equivalent_inertia_largest": "inertia",
-    "required_fluctuation": "dimensionless",
-    "flywheel": "inertia",
-    "reached_fluctuation": "dimensionless",
-    "exact_flywheel": "inertia",
-    "shaft_flywheel": "inertia",
-}
+
+def placed(key: str, value: float, dimension: str, at: float, label: str = "") -> Row:
+    """A number with the input's angle where it is."""
+    return Row(key, value, dimension, label, shown(at, "angle"), more={"at [rad]": at})
+
+
+def share(key: str, value: float, label: str = "") -> Row:
+    """A coefficient of speed fluctuation."""
+    return Row(key, value, label=label, scale=PERCENT, digits=5)
+
+
+def speeds(curve: SpeedCurve, at: Callable[[float], float], say: Say, before: str = "") -> list[Row]:
+    """How even a speed is, and its extremes; ``before`` their keys."""
+    slow, fast = curve.slowest, curve.fastest
+    reached = share(f"{before}reached_fluctuation", curve.fluctuation, say("machine.reached_fluctuation"))
+    ends = (("slowest", slow), ("fastest", fast))
+    return [reached, *(placed(f"{before}{key}", value, "angular_velocity", at(place), say(f"machine.{key}"))
+                       for key, (place, value) in ends)]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -80,15 +84,56 @@ class SteadyRunning(Plotted):
         return speed_fluctuation(self.energy.value, self.equivalent.speed, self.equivalent.mean_inertia)
 
     def text(self, language: str = "en") -> str:
-        """The numbers with labels and units, one per line."""
-        lines = [f"{label}: {shown(value, kind)}" for label, value, kind in self.labelled(speaker(language))]
-        lines += [each.say(language) for each in self.remarks]
-        return "\n".join(lines)
+        """The numbers with labels, units and places, and what is to be said beside them."""
+        say, remarks = speaker(language), self.notes(language)
+        lines = [self.equivalent.forces.mechanism.name, *together(self.blocks(say), "machine", say)]
+        return "\n".join([*lines, *([""] if remarks else []), *remarks])
 
-    def labelled(self, say: Say) -> Iterator[tuple[str, float, str]]:
-        """The numbers of :meth:`data` with their names in words, each with its dimension."""
-        for key, value in self.data().items():
-            yield say(f"machine.{key.removeprefix('equivalent_')}").strip(), value, DIMENSIONS[key]
+    def blocks(self, say: Say) -> list[Block]:
+        """The numbers: motor, energy and inertia, flywheel by the formula, exact flywheel; without a motor where the
+        loads drive the machine."""
+        reduced, energy, at = self.equivalent, self.energy, self.equivalent.input_at
+        least, most = reduced.inertia_extremes
+        motor = [
+            Row("speed", reduced.speed, "angular_velocity"),
+            Row("mean_torque", self.mean_torque, "torque"),
+            Row("mean_power", self.motor.mean_power, "power"),
+            Row("motor_power", self.motor.power, "power"),
+            Row("motor_power_without_flywheel", self.power_without_flywheel, "power"),
+        ]
+        ends = [
+            placed("energy_lowest", float(np.min(energy.energy)), "energy", at(energy.low)),
+            placed("energy_highest", float(np.max(energy.energy)), "energy", at(energy.high)),
+        ]
+        inertia = [
+            placed("inertia_smallest", least.value, "inertia", at(least.place)),
+            placed("inertia_largest", most.value, "inertia", at(most.place)),
+            share("required_fluctuation", self.required),
+        ]
+        exact = [Row("exact_flywheel", self.exact_flywheel, "inertia")]
+        if self.ratio != 1.0:
+            exact.append(Row("shaft_flywheel", self.shaft_flywheel, "inertia"))
+        return [
+            Block("motor", "", motor if self.driven is None else motor[:3]),
+            Block(
+                "energy",
+                "",
+                [
+                    Row("energy_fluctuation", energy.value, "energy"),
+                    *(ends if energy.value else []),
+                    *inertia,
+                ],
+            ),
+            Block("formula", "", [Row("flywheel", self.flywheel, "inertia"), *speeds(self.speed, at, say)]),
+            Block("exact", "", [*exact, *speeds(self.exact_speed, at, say, "exact_")]),
+        ]
+
+    def notes(self, language: str = "en") -> list[str]:
+        """The remarks, that no flywheel is needed, and warnings of singular positions."""
+        near = Singularity().evaluate(self.equivalent.forces.motion)
+        found = [each.say(language) for each in self.remarks]
+        found += [] if self.exact_flywheel else [speaker(language)("machine.none_needed")]
+        return found + [f"! {remark.text(language)}" for value in near for remark in value.warnings]
 
     @property
     def driven(self) -> Message | None:
@@ -122,29 +167,10 @@ class SteadyRunning(Plotted):
         largest = replace(self.motor, mean_power=self.equivalent.direction * most * self.equivalent.speed)
         return largest.power
 
-    def data(self) -> dict[str, float]:
-        """The numbers, SI; without a motor where the loads drive the machine."""
-        reduced = self.equivalent
-        found = {
-            "speed": reduced.speed,
-            "mean_torque": self.mean_torque,
-            "mean_power": self.motor.mean_power,
-            "motor_power": self.motor.power,
-            "motor_power_without_flywheel": self.power_without_flywheel,
-            "energy_fluctuation": self.energy.value,
-            "energy_lowest_at": reduced.input_at(self.energy.low),
-            "energy_highest_at": reduced.input_at(self.energy.high),
-            "equivalent_inertia_smallest": reduced.inertia_extremes[0].value,
-            "equivalent_inertia_largest": reduced.inertia_extremes[1].value,
-            "required_fluctuation": self.required,
-            "flywheel": self.flywheel,
-            "reached_fluctuation": self.speed.fluctuation,
-            "exact_flywheel": self.exact_flywheel,
-            "shaft_flywheel": self.shaft_flywheel,
-        }
-        if self.driven is not None:
-            del found["motor_power"], found["motor_power_without_flywheel"]
-        return found
+    def data(self, language: str = "en") -> dict[str, Any]:
+        """The numbers by name, SI, each with its unit and place; remarks in a language."""
+        rows = rows_data(self.blocks(speaker("en")))
+        return {"name": self.equivalent.forces.mechanism.name, **rows, "remarks": self.notes(language)}
 
 
 def steady_running(

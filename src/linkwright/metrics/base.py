@@ -77,7 +77,11 @@ class MetricValue:
     @property
     def sentence(self) -> str:
         """All remarks in English."""
-        return "; ".join(remark.text() for remark in self.remarks)
+        return self.sentence_in("en")
+
+    def sentence_in(self, language: str) -> str:
+        """All remarks in a language."""
+        return say("finding.semicolon", language).join(remark.text(language) for remark in self.remarks)
 
     def cells(self, language: str = "en") -> tuple[str, ...]:
         """What tables write of it, in the order of ``CELLS``; the last is the recommended limit."""
@@ -89,7 +93,7 @@ class MetricValue:
         label, subject = metric.label_in(language, self.dimension), in_words(self.subject, language)
         return label, subject, in_unit(self.value, self.dimension), shown_unit(self.dimension), at, limit
 
-    def data(self) -> dict[str, Any]:
+    def data(self, language: str = "en") -> dict[str, Any]:
         """Plain data."""
         return {
             "metric": self.metric,
@@ -99,9 +103,10 @@ class MetricValue:
             "at": self.at,
             "at_unit": None if self.at is None else si_unit(self.at_dimension),
             "place": None if self.place is None else list(self.place),
+            "limit": self.limit,
             "exact": self.exact,
             "warning": bool(self.warnings),
-            "remark": self.sentence,
+            "remark": self.sentence_in(language),
         }
 
 

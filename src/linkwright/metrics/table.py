@@ -6,13 +6,12 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.attached import Plotted
-from linkwright.core.html import html_table
 from linkwright.core.quantity import number, shown_unit
+from linkwright.core.table import Table
 from linkwright.errors import RequestError
 from linkwright.metrics.base import CELLS, METRICS, MetricValue
 from linkwright.registry import offered
 from linkwright.words import say
-from linkwright.words.characters import aligned
 from linkwright.words.sentence import in_language, in_words, together
 
 if TYPE_CHECKING:
@@ -129,18 +128,24 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
 
     def text(self, language: str = "en") -> str:
         """The table with aligned columns: name, subject, value, unit, where; then the sentences."""
-        text = aligned(self._written(language), "<<><>")
-        warnings = [f"! {warning}" for warning in self.warnings_in(language)]
-        return "\n".join([self.title, "", *text, *([""] if warnings else []), *warnings])
+        table = self.table(language)
+        return "\n".join([self.title, "", *table.lines(), *([""] if table.notes else []), *table.notes])
 
-    def _written(self, language: str) -> list[Sequence[str]]:
-        """Head and rows, without the limits."""
+    def table(self, language: str = "en") -> Table:
+        """The rows without their limits, and the warnings."""
         head = [say(f"metrics.column.{name}", language) for name in CELLS[:-1]]
-        return [head, *(cells[:-1] for cells, _ in told(self.rows, language))]
+        rows = [cells[:-1] for cells, _ in told(self.rows, language)]
+        notes = [f"! {warning}" for warning in self.warnings_in(language)]
+        return Table(head, rows, "<<><>", self.title, notes)
 
-    def data(self) -> list[dict[str, Any]]:
-        """Plain data, SI, one mapping per row."""
-        return [row.data() for row in self.rows]
+    def data(self, language: str = "en") -> dict[str, Any]:
+        """Plain data, SI, one mapping per row; remarks and warnings in a language."""
+        return {
+            "name": self.title,
+            "metrics": [row.data(language) for row in self.rows],
+            "warnings": list(self.warnings_in(language)),
+            "not_applicable": list(self.skipped),
+        }
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The rows as a table; needs pandas. Raises LinkwrightError without it."""
@@ -148,12 +153,11 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
             import pandas
         except ImportError:
             raise RequestError("metrics.needs_pandas") from None
-        return pandas.DataFrame(self.data())
+        return pandas.DataFrame(self.data()["metrics"])
 
     def _repr_html_(self) -> str:
         """The table as notebooks show it."""
-        head, *rows = self._written("en")
-        return html_table(self.title, head, rows, [f"! {warning}" for warning in self.warnings])
+        return self.table().html()
 
     def __repr__(self) -> str:
         return f"MetricsTable({self.title!r}: {len(self.rows)} values of {', '.join(self.names)})"

@@ -6,11 +6,9 @@ A problem is a frozen dataclass: ``findings`` lists what is wrong with it, ``sol
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import field, fields, is_dataclass, replace
-from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -18,23 +16,18 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number, shown, shown_unit
+from linkwright.core.table import ROUNDING, Block, blocks_data, tidy
 from linkwright.equations.reading import filled, normal, plain
 from linkwright.equations.steps import Equation, Step
 from linkwright.errors import Finding, ModelError, speaker
 from linkwright.fields.base import Field, GivenByFile, given_by_file
-from linkwright.units import Dimension, si_symbol, si_unit
 from linkwright.words import Say
-from linkwright.words.characters import aligned
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from typing import Self
 
     from linkwright.pictures.drawing import Drawing
-
-
-#: Beside the largest of its kind anything below this share is nothing but rounding.
-ROUNDING = 1e-12
 
 
 def fault(code: str, key: str, **values: object) -> Finding:
@@ -136,83 +129,6 @@ def _as_given(value: Any, kind: Field | None = None) -> Any:
     return kind.written(value)
 
 
-@dataclass(frozen=True)
-class Scale:
-    """A unit that the user chose: its name, its size in SI, and the SI unit of the same kind."""
-
-    unit: str
-    factor: float
-    si: str
-
-
-def in_si(kind: Dimension) -> Scale:
-    """The SI unit of a dimension."""
-    return Scale(si_symbol(kind), 1.0, si_symbol(kind))
-
-
-#: Shares of one as tables show them; they are plain numbers in data.
-PERCENT, PARTS_PER_MILLION = Scale("%", 1e-2, ""), Scale("ppm", 1e-6, "")
-
-
-@dataclass(frozen=True)
-class Row:
-    """One number of a result: its key, value (SI) and dimension; ``label`` where it is not the key's word.
-
-    An interval goes from ``value`` to ``end``; ``scale`` is the unit of a number without dimension; ``text`` is what
-    tables show in place of number and unit; a ``remainder`` is what a balance leaves, itself nothing but rounding.
-    """
-
-    key: str
-    value: float
-    dimension: str = ""
-    label: str = ""
-    note: str = ""
-    scale: Scale | None = None
-    end: float | None = None
-    text: str = ""
-    remainder: bool = False
-
-    def cells(self, area: str, say: Say, digits: int = 6) -> list[str]:
-        """Label, number with so many digits, unit and note."""
-        label = self.label or say(f"{area}.{self.key}")
-        if self.text:
-            return [label, self.text, "", self.note]
-        ends = [self.value] if self.end is None else [self.value, self.end]
-        if self.scale is not None:
-            size = self.scale.factor
-            return [label, " … ".join(f"{end / size:.{digits}g}" for end in ends), self.scale.unit, self.note]
-        shown = " … ".join(number(end, self.dimension, digits) for end in ends)
-        return [label, shown, shown_unit(self.dimension), self.note]
-
-    def tidy(self, rounding: float) -> Row:
-        """The row with values below a limit as zero; a plain number, or a ``remainder``, stays."""
-        if not self.dimension or self.remainder or self.text:
-            return self
-        value = 0.0 if abs(self.value) <= rounding else self.value
-        end = 0.0 if self.end is not None and abs(self.end) <= rounding else self.end
-        return replace(self, value=value, end=end)
-
-    def data(self) -> dict[str, Any]:
-        """Value or both ends, SI, with their unit, and the note; what is no number with the text that says why."""
-        value = self.value if self.end is None else [self.value, self.end]
-        found: dict[str, Any] = {
-            "value": value,
-            "unit": self.scale.si if self.scale else si_unit(self.dimension),
-        }
-        note = self.text if math.isnan(self.value) else self.note
-        return {**found, "note": note} if note else found
-
-
-@dataclass(frozen=True)
-class Block:
-    """Rows under a title; ``key`` names them in data, ``remarks`` are sentences below."""
-
-    key: str
-    title: str
-    rows: Sequence[Row]
-    remarks: Sequence[str] = ()
-
-
 class Result(Plotted, ABC):
     """What was found: its numbers in blocks, the way to them in steps."""
 
@@ -235,19 +151,6 @@ class Result(Plotted, ABC):
         """Curves by name with unit, SI; empty where there are none."""
         return {}
 
-    def tidy_blocks(self, say: Say) -> list[Block]:
-        """The numbers, those that are rounding beside the largest of their dimension as zero; remainders as found."""
-        blocks = self.blocks(say)
-        largest: dict[str, float] = {}
-        for row in (row for block in blocks for row in block.rows):
-            for value in (row.value, *([] if row.end is None else [row.end])):
-                if not math.isnan(value):
-                    largest[row.dimension] = max(largest.get(row.dimension, 0.0), abs(value))
-        return [
-            replace(block, rows=[row.tidy(ROUNDING * largest.get(row.dimension, 0.0)) for row in block.rows])
-            for block in blocks
-        ]
-
     def tidy_steps(self, say: Say) -> list[Step]:
         """The worked solution, its results rounded to zero likewise, unit by unit."""
         steps = self.steps(say)
@@ -269,24 +172,13 @@ class Result(Plotted, ABC):
         """The numbers as a table in words of the language (``en``, ``zh``)."""
         say = speaker(language)
         lines = [self.title]
-        for block in self.tidy_blocks(say):
-            lines += ["", *([block.title] if block.title else [])]
-            rows = [row.cells(self.area, say, digits) for row in block.rows]
-            lines += [f"  {line}" for line in aligned(rows, "<><<")]
-            lines += [str(remark) for remark in block.remarks]
+        for block in tidy(self.blocks(say)):
+            lines += ["", *block.lines(self.area, say, digits)]
         return "\n".join(lines)
 
     def data(self) -> dict[str, Any]:
         """The numbers by block and label, SI, each with its unit; notes and remarks in English."""
-        found: dict[str, Any] = {"name": self.title}
-        for block in self.blocks(speaker("en")):
-            rows: dict[str, Any] = {}
-            for row in block.rows:
-                rows[unused((row.label or row.key).strip(), rows)] = row.data()
-            if block.remarks:
-                rows[unused("remarks", rows)] = list(block.remarks)
-            found[unused(block.key, found)] = rows
-        return found
+        return blocks_data(self.title, self.blocks(speaker("en")))
 
     def worked(self, language: str = "en") -> str:
         """The worked solution as plain text."""
@@ -296,11 +188,6 @@ class Result(Plotted, ABC):
 
     def __repr__(self) -> str:
         return self.text()
-
-
-def unused(key: str, taken: Container[str]) -> str:
-    """The key, numbered where a name that the user chose has taken it: ``remarks (2)``."""
-    return next(each for n in count(1) if (each := f"{key} ({n})" if n > 1 else key) not in taken)
 
 
 def signed(parts: Sequence[float], dimension: str = "") -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.table import tidy
 from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem, Result
 from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal, noted, symbols
@@ -84,7 +85,7 @@ def numbers_and_way(found: Result, say: Say, language: str, level: int) -> Itera
 
 def _results(found: Result, say: Say) -> Iterator[Block]:
     head = tuple(say(f"report.{key}") for key in ("name", "value", "unit", "remark"))
-    for block in found.tidy_blocks(say):
+    for block in tidy(found.blocks(say)):
         rows = [row.cells(found.area, say) for row in block.rows]
         remarked = any(row[3] for row in rows)
         cells = tuple((_label(row[0]), *map(literal, row[1 : 4 if remarked else 3])) for row in rows)

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import field, replace
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.table import Table as Cells
 from linkwright.equations.notation import Row
 from linkwright.equations.reading import read_name
 from linkwright.report.formula import formula
@@ -123,6 +124,12 @@ class Table:
     align: str = ""
     label: str = ""
     key: int = 1
+
+
+def printed(given: Cells, caption: str, language: str, label: str = "") -> Table:
+    """A table of results as a table of the document."""
+    head, *rows = (tuple(literal(cell.strip()) for cell in row) for row in given.texts(language))
+    return Table(caption, head, tuple(rows), given.alignment, label)
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
+from linkwright.core.table import Table
 from linkwright.equations.steps import Equation, Step
 from linkwright.equations.text import page
 from linkwright.errors import LinkwrightError, speaker
@@ -24,7 +25,6 @@ from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.merit import merit
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import Message, Say, has
-from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import Sentence, in_language
 
 #: Share of the longest length, or of a radian, below which a deviation is rounding.
@@ -243,14 +243,14 @@ def title_said(found: Synthesis, tell: Say) -> str:
 def _report(found: Synthesis, language: str, width: int | None) -> list[str]:
     """Title, table of candidates, dimensions of each, counts and notes."""
     tell = speaker(language)
-    rows = [[tell(f"synthesize.column.{name}") for name in COLUMNS]]
-    rows += [_row(number, each, found.extent, tell) for number, each in enumerate(found.candidates, 1)]
+    head = [tell(f"synthesize.column.{name}") for name in COLUMNS]
+    rows = [_row(number, each, found.extent, tell) for number, each in enumerate(found.candidates, 1)]
     between = tell("finding.comma")
     lines = [
         title_said(found, tell),
         tell(f"synthesize.error.{found.error_name}"),
         "",
-        *(line for each in aligned_within(rows, "><>><<>>>", width) for line in each),
+        *Table(head, rows, "><>><<>>>").lines(language, width),
         "",
     ]
     for number, each in enumerate(found.candidates, 1):

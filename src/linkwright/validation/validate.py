@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterable
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress, reporting
+from linkwright.core.table import Amount, Cell, Table
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.units import unit
 from linkwright.validation.probes import PROBES
 from linkwright.validation.published import Published, Reference, published
 from linkwright.words import say
-from linkwright.words.characters import aligned_within
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
 
@@ -69,13 +69,14 @@ class Validation:
         ``width``: characters across within which texts of the table are folded.
         """
         say = speaker(language)
-        rows = [tuple(say(f"validate.{key}") for key in ("case", "numbers", "from_source", "agree", "worst"))]
+        head = [say(f"validate.{key}") for key in ("case", "numbers", "from_source", "agree", "worst")]
+        rows: list[list[Cell]] = []
         for (case, _), checks in self.cases().items():
             worst = max(checks, key=lambda each: abs(each.digits))
             agree = sum(each.ok for each in checks)
             counts = len(checks), _printed(checks), agree
-            rows.append((title_said(case, language), *map(str, counts), f"{abs(worst.digits):.2g}"))
-        lines = [line for each in aligned_within(rows, "<>>>>", width) for line in each]
+            rows.append([title_said(case, language), *counts, Amount(abs(worst.digits), digits=2)])
+        lines = Table(head, rows).lines(language, width)
         shown = self.checks if every else [each for each in self.checks if not each.ok or each.erratum]
         lines += ["", *(line(each, language) for each in shown)] if shown else []
         count = say(
@@ -88,9 +89,9 @@ class Validation:
         )
         return "\n".join([*lines, "", count])
 
-    def data(self) -> list[dict[str, object]]:
+    def data(self) -> dict[str, list[dict[str, object]]]:
         """Plain data."""
-        return [
+        numbers: list[dict[str, object]] = [
             {
                 "case": each.case.case,
                 "source": each.case.source,
@@ -106,6 +107,7 @@ class Validation:
             }
             for each in self.checks
         ]
+        return {"numbers": numbers}
 
     def markdown(self, language: str = "en") -> str:
         """The table of the documentation."""

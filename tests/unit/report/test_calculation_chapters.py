@@ -11,12 +11,12 @@ from tests.every import every
 
 import linkwright as lw
 from linkwright import parts, units
+from linkwright.core.table import Row
 from linkwright.equations.latex import latex
 from linkwright.equations.reading import filled, read, sides
 from linkwright.equations.reading import plain as unmarked
 from linkwright.equations.steps import Equation, Written
 from linkwright.errors import speaker
-from linkwright.parts.base import Row
 from linkwright.plot.sketches.base import SKETCHES
 from linkwright.report import report
 from linkwright.report.document import Figure, Formula, Heading, Paragraph, Table, plain

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import math
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, did_you_mean, number_of
@@ -19,8 +18,6 @@ if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
 
 ENDINGS = (".yaml", ".yml")
-#: A peak below this share of the one without counterweights is rounding.
-NOTHING = 1e-12
 
 
 def arguments(option: Options) -> None:
@@ -45,11 +42,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     found = balance(mechanism, radius=radius, share=share, steps=options.steps)
     if options.output is not None:
         write_whole(Path(options.output), _model_text(found), force=options.force)
-    if session.json:
-        session.show_data(_data(found))
-        return 0
-    session.show("\n".join(_report(found, session)))
-    session.show_written(options.output, apart=True)
+    session.show_result(found, options.output)
     return 0
 
 
@@ -98,54 +91,3 @@ def _model_text(found: Balancing) -> str:
         if not any(address == name or address.startswith(f"{name}.") for name in changed)
     }
     return dump(replace(found.mechanism, expressions=kept))
-
-
-def _effects(found: Balancing) -> dict[str, tuple[str, float, float]]:
-    """Unit and peaks without and with, by name."""
-    effects = {}
-    for label, (without, having) in found.effect().items():
-        name, _, unit = label.removesuffix("]").partition(" [")
-        effects[name.replace(" ", "_")] = (unit, without, having if having > NOTHING * without else 0.0)
-    return effects
-
-
-def _report(found: Balancing, session: Session) -> list[str]:
-    from linkwright.words.characters import aligned
-
-    say = session.say
-    lines = [session.strong(found.mechanism.name), ""]
-    if not found.counterweights:
-        lines.append(say("balance.none"))
-    else:
-        rows = [[say(f"balance.column.{key}") for key in ("link", "mass", "x", "y")]]
-        for weight in found.counterweights:
-            x, y = _cleared(weight.place)
-            rows.append([weight.link, *(f"{value:.6g}" for value in (weight.mass, 1e3 * x, 1e3 * y))])
-        lines += aligned(rows, "<>>>")
-    rows = [[say(f"balance.column.{key}") for key in ("peak", "unit", "without", "with", "share")]]
-    for name, (unit, without, having) in _effects(found).items():
-        share = f"{100 * having / without:.4g} %" if without else ""
-        rows.append([say(f"balance.{name}"), unit, f"{without:.6g}", f"{having:.6g}", share])
-    return [*lines, "", *aligned(rows, "<<>>>")]
-
-
-def _cleared(place: tuple[float, float]) -> tuple[float, float]:
-    """A place without the coordinates that are rounding."""
-    size = math.hypot(*place)
-    x, y = (0.0 if abs(value) < NOTHING * size else value for value in place)
-    return x, y
-
-
-def _data(found: Balancing) -> dict[str, Any]:
-    return {
-        "ok": True,
-        "name": found.mechanism.name,
-        "counterweights": [
-            {"link": weight.link, "mass [kg]": weight.mass, "place [m]": list(weight.place)}
-            for weight in found.counterweights
-        ],
-        "peaks": {
-            f"{name} [{unit}]": {"without": without, "with": having}
-            for name, (unit, without, having) in _effects(found).items()
-        },
-    }

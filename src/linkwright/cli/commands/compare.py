@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
@@ -92,7 +91,8 @@ def _fluctuation(text: str | None) -> float:
 
 
 def _show(found: Comparison, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.files import csv_of, curve_columns, curve_data, write_diagram, write_table
+    from linkwright.cli.files import curve_columns, curve_data, write_diagram, write_table
+    from linkwright.core.table import csv_text
 
     table: dict[str, Sequence[str] | Sequence[float]] = {
         "metric": [
@@ -100,12 +100,11 @@ def _show(found: Comparison, options: argparse.Namespace, session: Session) -> N
         ]
     }
     table |= {label: found.column(i) for i, label in enumerate(found.labels)}
-    write_table(options.output, lambda: csv_of(table), found.data, force=options.force)
+    write_table(options.output, lambda: csv_text(table), found.data, force=options.force)
     curves = options.curves
-    write_table(curves, lambda: csv_of(curve_columns(found)), lambda: curve_data(found), force=options.force)
+    write_table(
+        curves, lambda: csv_text(curve_columns(found)), lambda: curve_data(found), force=options.force
+    )
     write_diagram(options.plot, found, session, force=options.force)
-    if session.json:
-        session.show_data(found.data())
-        return
-    session.show("\n".join(session.table(found.text(session.language, session.room).splitlines())))
-    session.show_written(*(path and Path(path) for path in (options.output, options.curves, options.plot)))
+    text = found.text(session.language, session.room)
+    session.show_result(found, options.output, options.curves, options.plot, text=text, apart=False)

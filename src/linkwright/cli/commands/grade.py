@@ -22,18 +22,17 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Grades, prints a row per sheet, writes them where asked; 1 where a sheet cannot be graded."""
     from linkwright.cli.files import refuse_output, write_whole
-    from linkwright.course.grade import grade, text
-    from linkwright.course.questions import csv_bytes
-    from linkwright.words.characters import aligned
+    from linkwright.core.table import csv_rows
+    from linkwright.course.grade import grade, table
     from linkwright.words.sentence import in_language
 
     refuse_output(options.output, ENDINGS, force=options.force)
     grades = grade(options.key, options.answers)
     faults = [each.fault for each in grades if each.fault]
     names = [each["name"] for each in json.loads(Path(options.key).read_text("utf-8"))["questions"]]
-    rows = text(grades, names, session.language)
+    found = table(grades, names, session.language)
     if options.output is not None:
-        write_whole(Path(options.output), csv_bytes(rows), force=options.force)
+        write_whole(Path(options.output), csv_rows(found.texts()), force=options.force)
     if session.json:
         sheets = [
             {"student": g.student, "variant": g.variant, "right": list(g.right), "mistakes": list(g.mistakes),
@@ -41,7 +40,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         ]  # fmt: skip
         session.show_data({"ok": not faults, "sheets": sheets})
         return int(bool(faults))
-    session.show("\n".join(session.table(aligned(rows, "<>><<"))))
+    session.show("\n".join(session.table(found.lines())))
     session.show_written(options.output, apart=True)
     if faults:
         session.tell_error(session.say("course.faulty_sheets", count=len(faults), of=len(grades)))

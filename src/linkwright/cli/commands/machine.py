@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.core.table import Block, csv_text, rows_data, together
 
 if TYPE_CHECKING:
     from linkwright.cli.machine_options import Wanted
-    from linkwright.cli.machine_rows import Row
     from linkwright.machine.running import SteadyRunning
 
 ENDINGS = (".csv", ".json")
@@ -73,9 +73,8 @@ def _refuse_contradictions(options: argparse.Namespace) -> None:
 
 
 def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> int:
-    from linkwright.cli.files import csv_of, refuse_output, write_table
-    from linkwright.cli.machine_rows import of_running
-    from linkwright.cli.solve_remarks import closeness
+    from linkwright.cli.files import refuse_output, write_table
+    from linkwright.cli.machine_rows import dimensions
     from linkwright.cli.source import read_model
     from linkwright.kinetostatics.run import solve_forces
     from linkwright.machine.flywheel import FLUCTUATION
@@ -92,18 +91,16 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
         margin=asked.margin,
     )
     columns = _cycle(running) if options.output is not None else {}
-    write_table(options.output, lambda: csv_of(columns), lambda: columns, force=options.force)
-    warnings = closeness(forces.motion, session.language)
-    if running.exact_flywheel == 0:
-        warnings.insert(0, session.say("machine.none_needed"))
-    warnings[:0] = [each.say(session.language) for each in running.remarks]
-    _show(mechanism.name, of_running(running, asked), warnings, session)
+    write_table(options.output, lambda: csv_text(columns), lambda: columns, force=options.force)
+    sized = Block("dimensions", "", dimensions(running.exact_flywheel, running.equivalent.speed, asked))
+    blocks = [*running.blocks(session.say), sized]
+    _show(mechanism.name, blocks, running.notes(session.language), session)
     if not session.json:
         session.show_written(options.output, apart=True)
     return 0
 
 
-def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> tuple[str, list[list[Row]]]:
+def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> tuple[str, list[Block]]:
     from linkwright.cli.machine_options import areas, curve
     from linkwright.cli.machine_rows import of_areas, of_curves
     from linkwright.machine.energy import fluctuation_from_areas
@@ -112,7 +109,7 @@ def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> tup
     if options.areas is not None:
         given, (torque, angle) = areas(options.areas, options.scale)
         energy = fluctuation_from_areas(given, torque_scale=torque, angle_scale=angle)
-        return say("machine.areas_title", count=len(given)), of_areas(energy, asked)
+        return say("machine.areas_title", count=len(given)), of_areas(energy, asked, say)
     driver = curve("--torque", options.torque, options.period)
     load = None if options.load is None else curve("--load", options.load, options.period)
     against = say("machine.its_mean") if options.load is None else options.load
@@ -133,27 +130,9 @@ def _cycle(running: SteadyRunning) -> dict[str, Any]:
     }
 
 
-def _show(title: str, blocks: list[list[Row]], remarks: list[str], session: Session) -> None:
-    from linkwright.words.characters import aligned
-
-    say = session.say
+def _show(title: str, blocks: list[Block], remarks: list[str], session: Session) -> None:
     if session.json:
-        session.show_data(_data(title, blocks, remarks))
+        session.show_data({"ok": True, "name": title, **rows_data(blocks), "remarks": remarks})
         return
-    kept = [block for block in blocks if block]
-    lines = aligned([row.cells(say) for block in kept for row in block], "<><>")
-    session.show(session.strong(title))
-    for block in kept:
-        session.show("")
-        session.show("\n".join(lines[: len(block)]))
-        lines = lines[len(block) :]
-    if remarks:
-        session.show("\n" + "\n".join(remarks))
-
-
-def _data(title: str, blocks: list[list[Row]], remarks: list[str]) -> dict[str, Any]:
-    """Numbers by name; those of the exact flywheel, which come again, under ``exact_…``."""
-    found: dict[str, Any] = {"ok": True, "name": title}
-    for row in (row for block in blocks for row in block):
-        found[f"exact_{row.key}" if row.key in found else row.key] = row.data()
-    return {**found, "remarks": remarks}
+    lines = [session.strong(title), *together(blocks, "machine", session.say)]
+    session.show("\n".join([*lines, *([""] if remarks else []), *remarks]))

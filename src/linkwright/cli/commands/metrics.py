@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
@@ -37,8 +37,9 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Prints or writes the numbers; 1 where the joint forces failed that some of them need, 2 where some of those
     that are named do not apply."""
-    from linkwright.cli.files import csv_of, refuse_output, write_table
+    from linkwright.cli.files import refuse_output, write_table
     from linkwright.cli.source import read_model
+    from linkwright.core.table import csv_text
 
     refuse_output(options.output, ENDINGS, force=options.force)
     names = _names(options.names)
@@ -46,10 +47,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
     table, refused, trouble = _evaluated(mechanism, names, options)
     troubles = [in_language(each, session.language) for each in refused]
     troubles += [] if trouble is None else [trouble.say(session.language)]
-    data = _data(table, troubles, session.language)
-    rows = data["metrics"]
-    columns = {name: [_cell(row[name]) for row in rows] for name in COLUMNS}
-    write_table(options.output, lambda: csv_of(columns), lambda: data, force=options.force)
+    data = {"ok": not troubles, **table.data(session.language)}
+    data |= {"error": "\n".join(troubles)} if troubles else {}
+    columns = {name: [row[name] for row in data["metrics"]] for name in COLUMNS}
+    write_table(options.output, lambda: csv_text(columns), lambda: data, force=options.force)
     if session.json:
         session.show_data(data)
     else:
@@ -165,24 +166,3 @@ def _remarks(row: MetricValue | None, language: str) -> str:
     said = [remark.text(language) for remark in row.remarks if not remark.warning]
     mark = MARK.strip() if row.warnings else ""
     return f"{mark} {say('finding.semicolon', language).join(said)}".strip()
-
-
-def _data(table: MetricsTable, troubles: list[str], language: str) -> dict[str, Any]:
-    rows = []
-    for row, plain in zip(table, table.data(), strict=True):
-        remark = say("finding.semicolon", language).join(remark.text(language) for remark in row.remarks)
-        rows.append({**plain, "limit": row.limit, "remark": remark})
-    found: dict[str, Any] = {
-        "ok": not troubles,
-        "name": table.title,
-        "metrics": rows,
-        "warnings": list(table.warnings_in(language)),
-        "not_applicable": list(table.skipped),
-    }
-    return {**found, "error": "\n".join(troubles)} if troubles else found
-
-
-def _cell(value: Any) -> str | float:
-    if isinstance(value, bool):
-        return str(value).lower()
-    return "" if value is None else value

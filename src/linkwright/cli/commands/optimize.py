@@ -127,8 +127,4 @@ def _show(found: Optimum, options: argparse.Namespace, session: Session) -> None
             write_whole(target, found.model_text(index), force=options.force)
         written.append(str(path) if len(targets) == 1 else f"{path} … {targets[-1]}")
     write_diagram(options.plot, found, session, force=options.force)
-    if session.json:
-        session.show_data({"ok": True, **found.data()})
-        return
-    session.show(found.text(session.language))
-    session.show_written(*written, options.plot)
+    session.show_result(found, *written, options.plot, apart=False)

@@ -88,9 +88,12 @@ def _write(solved: Solved, options: argparse.Namespace, session: Session) -> Non
     from pathlib import Path
 
     from linkwright.cli.files import write_table
-    from linkwright.cli.solve_data import csv_text, data
+    from linkwright.cli.solve_data import data, named_columns
+    from linkwright.core.table import csv_text
 
     asked = solved, options
-    write_table(options.output, lambda: csv_text(*asked), lambda: data(*asked), force=options.force)
+    write_table(
+        options.output, lambda: csv_text(named_columns(*asked)), lambda: data(*asked), force=options.force
+    )
     if not session.json:
         session.show_written(Path(options.output))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.cli.source import read_model
+from linkwright.core.table import Cell, Table
 from linkwright.words import Say
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     rank = rank_sentence(mechanism, "en" if session.json else session.language)
     program = _program(mechanism, options.forces) if options.program or options.forces else None
     if session.json:
-        data: dict[str, object] = {"name": mechanism.name, **built.data(), "rank": rank}
+        data: dict[str, object] = {"ok": True, "name": mechanism.name, **built.data(), "rank": rank}
         if program is not None:
             data["program"] = {"operations": program.counts(), "lines": program.text().splitlines()}
         session.show_data(data)
@@ -65,12 +66,10 @@ def _program(mechanism: Mechanism, forces: bool) -> Program:
 
 def _counts(program: Program, say: Say) -> str:
     """Operations in a table: once per design, once per position."""
-    from linkwright.words.characters import aligned
-
     counts = program.counts()
     design, position = counts["design"], counts["position"]
     kinds = sorted({*design, *position})
-    rows = [(say("structure.operation"), say("structure.per_design"), say("structure.per_position"))]
-    rows += [(kind, str(design.get(kind, 0)), str(position.get(kind, 0))) for kind in kinds]
-    rows.append((say("structure.total"), str(sum(design.values())), str(sum(position.values()))))
-    return "\n".join(aligned(rows, "<>>"))
+    rows: list[list[Cell]] = [[kind, design.get(kind, 0), position.get(kind, 0)] for kind in kinds]
+    rows.append([say("structure.total"), sum(design.values()), sum(position.values())])
+    head = [say(f"structure.{key}") for key in ("operation", "per_design", "per_position")]
+    return "\n".join(Table(head, rows).lines())

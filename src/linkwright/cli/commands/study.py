@@ -77,9 +77,5 @@ def _show(found: Study, options: argparse.Namespace, session: Session) -> None:
 
     write_table(options.output, found.csv, found.data, force=options.force)
     write_diagram(options.plot, found, session, force=options.force)
-    if session.json:
-        session.show_data(found.data())
-        return
     text = found.text(session.language, max(2, options.rows), session.room)
-    session.show("\n".join(session.table(text.splitlines())))
-    session.show_written(options.output, options.plot, apart=True)
+    session.show_result(found, options.output, options.plot, text=text)

@@ -46,20 +46,14 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.words.characters import aligned
+    from linkwright.core.table import Amount, Cell, Table
     from linkwright.words.sentence import in_language
 
     ranges = found.ranges()
     best = found.best(options.best) if options.best is not None else {}
     if session.json:
-        columns = {
-            name: {"least": low, "greatest": high, "designs": count}
-            for name, (low, high, count) in ranges.items()
-        }
-        data = {"folder": str(found.folder), "designs": found.designs, "parts": found.parts, "skipped": found.skipped,
-                "columns": columns, "best": {name: column.tolist() for name, column in best.items()},
-                "notes": [in_language(note, session.language) for note in found.notes]}  # fmt: skip
-        session.show_data(data)
+        data = found.data(session.language) | {"best": {name: each.tolist() for name, each in best.items()}}
+        session.show_data({"ok": True, **data})
         return
     say = session.say
     session.show(
@@ -67,12 +61,14 @@ def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> N
             "sweep.done", designs=found.designs, parts=found.parts, skipped=found.skipped, folder=found.folder
         )
     )
-    rows = [[say(f"sweep.column.{name}") for name in ("number", "least", "greatest", "designs")]]
-    rows += [[name, f"{low:.6g}", f"{high:.6g}", str(count)] for name, (low, high, count) in ranges.items()]
-    session.show("\n" + "\n".join(aligned(rows, "<>>>")))
+    head = [say(f"sweep.column.{name}") for name in ("number", "least", "greatest", "designs")]
+    rows: list[list[Cell]] = [
+        [name, Amount(low), Amount(high), count] for name, (low, high, count) in ranges.items()
+    ]
+    session.show("\n" + "\n".join(Table(head, rows).lines()))
     for note in found.notes:
         session.show("\n" + say("solve.note", text=in_language(note, session.language)))
     if best:
-        rows = [list(best)] + [[f"{value:.6g}" for value in row] for row in zip(*best.values(), strict=True)]
+        found_rows = [[Amount(float(value)) for value in row] for row in zip(*best.values(), strict=True)]
         session.show("\n" + say("sweep.best", number=options.best) + "\n")
-        session.show("\n".join(aligned(rows, ">" * len(rows[0]))))
+        session.show("\n".join(Table(list(best), found_rows, ">" * len(best)).lines()))

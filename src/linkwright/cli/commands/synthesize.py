@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, number_of
 from linkwright.cli.session import Session
+from linkwright.core.table import Amount, Cell, Table
 from linkwright.words import Say
 
 if TYPE_CHECKING:
@@ -135,14 +136,12 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
 
 
 def _effort_lines(efforts: list[dict[str, float]], say: Say) -> list[str]:
-    from linkwright.words.characters import aligned
-
-    rows = [[say(f"synthesize.column.{name}") for name in ("number", "torque", "reaction")]]
-    rows += [
-        [str(number), f"{each['peak_input_torque']:.5g} N·m", f"{each['peak_reaction']:.5g} N"]
+    head = [say(f"synthesize.column.{name}") for name in ("number", "torque", "reaction")]
+    rows: list[list[Cell]] = [
+        [number, Amount(each["peak_input_torque"], "torque", 5), Amount(each["peak_reaction"], "force", 5)]
         for number, each in enumerate(efforts, 1)
     ]
-    return aligned(rows, ">>>")
+    return Table(head, rows, ">>>").lines()
 
 
 def _mass(text: str | None) -> float | None:

@@ -27,7 +27,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     with progress(session.say, "validate.working") as told:
         found = validate(cases, told)
     if session.json:
-        session.show_data({"ok": found.ok, "numbers": found.data()})
+        session.show_data({"ok": found.ok, **found.data()})
     else:
         session.show(found.text(session.language, every=options.every, width=session.room))
     return int(not found.ok)

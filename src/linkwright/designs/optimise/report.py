@@ -6,11 +6,11 @@ import math
 
 from linkwright import units
 from linkwright.core.quantity import in_kind, number, unit_of_kind, with_unit, written
+from linkwright.core.table import Cell, Table
 from linkwright.designs.criteria import Criterion
 from linkwright.designs.optimise.optimum import Choice, Optimum
 from linkwright.errors import speaker
 from linkwright.words import Say, say
-from linkwright.words.characters import aligned
 from linkwright.words.titles import title_said
 
 #: Designs of a front that are listed.
@@ -22,7 +22,7 @@ def text(found: Optimum, language: str = "en") -> str:
     tell = speaker(language)
     name = title_said(found.problem.mechanism.name, language)
     lines = [tell("optimize.title", name=name, goals=_goals(found, language)), ""]
-    lines += aligned(comparison(found, found.best, language), "<>>><")
+    lines += comparison(found, found.best, language).lines()
     if len(found.problem.goals) > 1:
         lines += [
             "",
@@ -61,10 +61,11 @@ def label(found: Optimum, text: str, language: str) -> str:
     return Criterion(text).label(language, kinds.get(found.kinds[text], ""))
 
 
-def comparison(found: Optimum, choice: Choice, language: str) -> list[list[str]]:
-    """A head and a row for every variable and number: name, start, design, change, bounds."""
+def comparison(found: Optimum, choice: Choice, language: str) -> Table:
+    """A row for every variable and number: name, start, design, change, bounds."""
     tell = speaker(language)
-    rows = [[tell(f"optimize.column.{name}") for name in ("what", "start", "found", "change", "bounds")]]
+    head = [tell(f"optimize.column.{name}") for name in ("what", "start", "found", "change", "bounds")]
+    rows: list[list[str]] = []
     for variable, was in zip(found.problem.variables, found.problem.start, strict=True):
         now = choice.values[variable.address]
         bounds = "..".join(written(each, variable.unit, bare=True) for each in (variable.low, variable.high))
@@ -75,7 +76,7 @@ def comparison(found: Optimum, choice: Choice, language: str) -> list[list[str]]
         shown = [in_kind(value, found.kinds[text]) for value in (was, now)]
         name = label(found, text, language)
         rows.append([name, *shown, _change(was, now), _limits(found, choice, text, tell)])
-    return rows
+    return Table(head, rows, "<>>><")
 
 
 def _limits(found: Optimum, choice: Choice, text: str, tell: Say) -> str:
@@ -97,7 +98,8 @@ def _change(was: float, now: float) -> str:
 def _front(found: Optimum, language: str) -> list[str]:
     texts = [goal.text for goal in found.problem.goals]
     addresses = [variable.address for variable in found.problem.variables]
-    rows = [["", *(label(found, text, language) for text in texts), *addresses]]
+    head = ["", *(label(found, text, language) for text in texts), *addresses]
+    rows: list[list[Cell]] = []
     count = len(found)
     listed = {round(k * (count - 1) / max(1, LISTED - 1)) for k in range(LISTED)} if count > LISTED else None
     for index, choice in enumerate(found.choices, 1):
@@ -105,8 +107,8 @@ def _front(found: Optimum, language: str) -> list[str]:
             continue
         cells = [in_kind(choice.numbers[text], found.kinds[text]) for text in texts]
         cells += [each.shown(choice.values[each.address]) for each in found.problem.variables]
-        rows.append([str(index), *cells])
-    return aligned(rows, ">" * len(rows[0]))
+        rows.append([index, *cells])
+    return Table(head, rows, ">" * len(head)).lines()
 
 
 def _worst(found: Optimum) -> list[str]:

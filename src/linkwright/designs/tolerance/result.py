@@ -11,6 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
+from linkwright.core.table import PERCENT, Block, Row
 from linkwright.cycle.summary import Summary
 from linkwright.designs.designs import Sweep, sweep
 from linkwright.designs.sensitivity import Sensitivity, sensitivity
@@ -23,7 +24,7 @@ from linkwright.equations.steps import Step
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.by_name import wanted
-from linkwright.parts.base import PERCENT, Block, Result, Row, fault, put
+from linkwright.parts.base import Result, fault, put
 from linkwright.words import Say
 
 #: Linear and Monte Carlo spread agree within this share.

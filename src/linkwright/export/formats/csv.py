@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import csv
-import io
-
+from linkwright.core.table import csv_text
 from linkwright.export.base import FORMATS, Format
 from linkwright.export.results import Results
 from linkwright.export.tables import wide
-from linkwright.words.characters import cell_text
 
 
 def content(results: Results, *, degrees: bool = False) -> bytes:
@@ -17,12 +14,7 @@ def content(results: Results, *, degrees: bool = False) -> bytes:
     Numbers have all digits that they need to be read back unchanged. ``degrees``: angles in degrees.
     """
     columns = [column.turned if degrees else column for column in wide(results).values()]
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow([cell_text(column.name) for column in columns])
-    for row in zip(*(column.values.tolist() for column in columns), strict=True):
-        writer.writerow(["" if value != value else repr(value) for value in row])
-    return stream.getvalue().encode()
+    return csv_text({column.name: column.values for column in columns}).encode()
 
 
 FORMATS.register("csv")(Format((".csv",), content))

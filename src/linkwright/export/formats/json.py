@@ -57,7 +57,7 @@ def _data(results: Results) -> dict[str, Any]:
             }
             for table in tables(results)
         },
-        "metrics": results.metrics.data(),
+        "metrics": results.metrics.data()["metrics"],
     }
 
 

@@ -174,12 +174,9 @@ def _groups(results: Results) -> Iterable[Sequence[Cell]]:
 
 def _metrics(results: Results) -> Iterable[Sequence[Cell]]:
     for row in results.metrics:
-        data = row.data()
+        data = row.data(results.language)
         label = METRICS[row.metric]().label_in(results.language, row.dimension)
-        remark = say("finding.semicolon", results.language).join(
-            each.text(results.language) for each in row.remarks
-        )
-        yield label, row.subject, row.value, row.unit, row.at, data["at_unit"] or "", remark
+        yield label, row.subject, row.value, row.unit, row.at, data["at_unit"] or "", data["remark"]
 
 
 FORMATS.register("xlsx")(Format((".xlsx",), content))

@@ -6,8 +6,9 @@ import math
 from collections.abc import Mapping, Sequence
 
 from linkwright.core.arrays import Floats
+from linkwright.core.table import ROUNDING
 from linkwright.equations.steps import Step
-from linkwright.parts.base import ROUNDING, signed
+from linkwright.parts.base import signed
 from linkwright.parts.beams.elastic import Hold, Point, Spread
 
 

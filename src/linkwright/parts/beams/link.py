@@ -12,6 +12,7 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross
 from linkwright.core.quantity import shown
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, SelfCheckError
 from linkwright.fields.base import Quantity, Text, given
@@ -21,7 +22,7 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Result, Row, Value, fault, put
+from linkwright.parts.base import Result, Value, fault, put
 from linkwright.parts.beams.axis import LinkAxis, SpreadMass
 from linkwright.parts.beams.balance import polynomial_text
 from linkwright.parts.beams.materials import MATERIAL, Material

@@ -14,6 +14,7 @@ from linkwright.core import expressions
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import in_kind, unit_of_kind
+from linkwright.core.table import Block, Row, in_si, unused
 from linkwright.equations.notation import Atom, row, sign, upright
 from linkwright.equations.reading import filled, measured, of_file, plain, sides
 from linkwright.equations.steps import Step, Written
@@ -22,16 +23,7 @@ from linkwright.fields.base import Field, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
-from linkwright.parts.base import (
-    Block,
-    Problem,
-    Result,
-    Row,
-    fault,
-    in_si,
-    put,
-    unused,
-)
+from linkwright.parts.base import Problem, Result, fault, put
 from linkwright.parts.fields import AnyQuantity, Flag, Listed, Named, Table
 from linkwright.parts.programs.formula import Constraint, Formula, constraint, formula
 from linkwright.parts.programs.linear import conflict, feasible, runaway, solve_linear

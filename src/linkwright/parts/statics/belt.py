@@ -9,10 +9,11 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
-from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put
+from linkwright.parts.base import Problem, Result, Value, fault, put
 from linkwright.words import Say
 
 #: Largest μ θ: e^(μθ) stays a number, with all of its digits.

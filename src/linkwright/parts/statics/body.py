@@ -13,6 +13,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
+from linkwright.core.table import Block, Row
 from linkwright.equations.matrix import Matrices
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError
@@ -20,7 +21,7 @@ from linkwright.fields.base import GivenByFile, Word, given, quantity_schema
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.fields.reading import Place, Reader
-from linkwright.parts.base import Block, Problem, Result, Row, fault, put
+from linkwright.parts.base import Problem, Result, fault, put
 from linkwright.parts.fields import Listed, Named, Table
 from linkwright.parts.motions import plain_motions
 from linkwright.parts.statics.forces import COUPLES, DIRECTION, FORCES, Components, Force, ForceField, spatial

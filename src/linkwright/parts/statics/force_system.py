@@ -12,12 +12,13 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number, shown
+from linkwright.core.table import Block, Row
 from linkwright.equations.matrix import Matrices
 from linkwright.equations.reading import measured
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import given
-from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put, signed
+from linkwright.parts.base import Problem, Result, Value, fault, put, signed
 from linkwright.parts.statics.forces import (
     COUPLES,
     FORCES,

@@ -8,10 +8,11 @@ from functools import cached_property
 from typing import ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
-from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put, signed
+from linkwright.parts.base import Problem, Result, Value, fault, put, signed
 from linkwright.parts.fields import Named, Table
 from linkwright.words import Say
 

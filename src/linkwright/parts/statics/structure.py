@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.table import Block, Row
 from linkwright.equations.matrix import Matrices
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError
@@ -17,7 +18,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Result, Row, fault, put
+from linkwright.parts.base import Result, fault, put
 from linkwright.parts.statics.balance import Balance, structure_balance
 from linkwright.parts.statics.body import describe
 from linkwright.structure import StructureError, structure

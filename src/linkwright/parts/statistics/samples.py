@@ -13,22 +13,12 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
+from linkwright.core.table import PARTS_PER_MILLION, Block, Row, Scale, in_si
 from linkwright.equations.reading import measured
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, Text, Word, given
-from linkwright.parts.base import (
-    PARTS_PER_MILLION,
-    Block,
-    Problem,
-    Result,
-    Row,
-    Scale,
-    Value,
-    fault,
-    in_si,
-    put,
-)
+from linkwright.parts.base import Problem, Result, Value, fault, put
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Numbers, Sample, Table, Whole
 from linkwright.parts.statistics.describe import (
     DISTRIBUTIONS,

@@ -11,13 +11,14 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
+from linkwright.core.table import PERCENT, Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.fields.base import Quantity, Text, given
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import PERCENT, Block, Result, Row, Value, fault, put
+from linkwright.parts.base import Result, Value, fault, put
 from linkwright.parts.fields import Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport

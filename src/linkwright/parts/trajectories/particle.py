@@ -12,12 +12,13 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put
+from linkwright.parts.base import Problem, Result, Value, fault, put
 from linkwright.parts.mechanism_field import load_beside
 from linkwright.words import Say
 

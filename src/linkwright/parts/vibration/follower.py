@@ -14,6 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
 from linkwright.core.quantity import number
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, QuantityError, RequestError
 from linkwright.fields.base import Quantity, given
@@ -24,7 +25,7 @@ from linkwright.laws.base import MOTION_LAWS, MotionLaw
 from linkwright.laws.fitting import motion_law
 from linkwright.laws.program_fields import LawField
 from linkwright.laws.residual import residual
-from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put
+from linkwright.parts.base import Problem, Result, Value, fault, put
 from linkwright.parts.vibration.linear import Linear, largest_between
 from linkwright.words import Say
 

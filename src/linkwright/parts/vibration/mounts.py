@@ -12,13 +12,14 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number, shown
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Block, Result, Row, Value, fault, put
+from linkwright.parts.base import Result, Value, fault, put
 from linkwright.parts.fields import Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.vibration.linear import largest_between

@@ -14,13 +14,14 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
+from linkwright.core.table import Block, Row
 from linkwright.equations.matrix import Matrices
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
-from linkwright.parts.base import Block, Problem, Result, Row, Value, fault, put
+from linkwright.parts.base import Problem, Result, Value, fault, put
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
 from linkwright.parts.vibration.excitation import (
     EXCITATION,

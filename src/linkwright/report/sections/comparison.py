@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from linkwright.designs.evaluation import ranking, sentences, table_rows
+from linkwright.designs.evaluation import ranking, sentences, table
 from linkwright.errors import LinkwrightError
-from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal
+from linkwright.report.document import Block, Figure, Heading, Paragraph, literal, printed
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 
@@ -26,10 +26,7 @@ def blocks(cases: Sequence[Case]) -> Iterator[Block]:
         if error.code == "study.no_common_output":
             raise Missing(error.sentence) from None
         raise
-    head, *rows = table_rows(found, say)
-    body = tuple(tuple(literal(cell.strip()) for cell in row) for row in rows)
-    yield Table(say("report.comparison_table"), tuple(map(literal, head)), body, "<" + ">" * len(found.labels),
-                "comparison")  # fmt: skip
+    yield printed(table(found, say), say("report.comparison_table"), first.language, "comparison")
     yield Paragraph(literal(say("compare.marked")))
     yield Heading(say("report.ranking"), 2)
     for line in ranking(found, say):

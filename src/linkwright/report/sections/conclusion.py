@@ -171,15 +171,17 @@ class _Conclusion:
             running = case.running
         except LinkwrightError:
             return
-        numbers = running.data()
-        low, high = (typeset(shown(numbers[f"energy_{end}_at"], "angle")) for end in ("lowest", "highest"))
-        energy = typeset(shown(numbers["energy_fluctuation"], "energy"))
+        at, excess = running.equivalent.input_at, running.energy
+        low, high = (typeset(shown(at(end), "angle")) for end in (excess.low, excess.high))
+        energy = typeset(shown(excess.value, "energy"))
         yield say("stretch", low=low, high=high, energy=energy)
         fluctuation = f"{running.required:g}"
         if not running.exact_flywheel:
             yield say("none_needed", fluctuation=fluctuation)
             return
-        inertia, formula = (typeset(shown(numbers[key], "inertia")) for key in ("exact_flywheel", "flywheel"))
+        inertia, formula = (
+            typeset(shown(each, "inertia")) for each in (running.exact_flywheel, running.flywheel)
+        )
         yield say("needed", fluctuation=fluctuation, inertia=inertia, formula=formula)
         yield say("own", own=typeset(f"{running.own:.4g}"))
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.core.quantity import number, shown_unit
 from linkwright.equations.notation import quantity, row, sign
 from linkwright.equations.reading import read, read_name
 from linkwright.errors import LinkwrightError
@@ -33,12 +32,10 @@ def blocks(case: Case) -> Iterator[Block]:
     yield Formula(tuple(shown), "flywheel-formula")
     if not running.flywheel:
         yield Paragraph(say("report.flywheel_none", most=f"{running.required:g}"))
-    rows = tuple(
-        (literal(label), number(value, dimension), shown_unit(dimension))
-        for label, value, dimension in running.labelled(say)
-    )
-    head = (say("report.number"), say("report.value"), say("report.unit"))
-    yield Table(say("report.flywheel_table"), head, rows, "<><", "flywheel")
+    cells = (row.cells("machine", say) for block in running.blocks(say) for row in block.rows)
+    rows = tuple(tuple(literal(cell.strip()) for cell in each) for each in cells)
+    head = tuple(say(f"report.{key}") for key in ("number", "value", "unit", "at_input"))
+    yield Table(say("report.flywheel_table"), head, rows, "<><>", "flywheel")
     yield from _speed(case)
     yield from pictures(case, ("energy",))
 
