@@ -88,8 +88,8 @@ if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism as Mechanism
     from linkwright.metrics import MetricsTable as MetricsTable
     from linkwright.metrics import metrics as metrics
-    from linkwright.page.living import LivingPage as LivingPage
-    from linkwright.page.living import living_page as living_page
+    from linkwright.page.content import LivingPage as LivingPage
+    from linkwright.page.content import living_page as living_page
     from linkwright.pictures.diagram import Diagram as Diagram
     from linkwright.pictures.drawing import Drawing as Drawing
     from linkwright.plot.animation import Animation as Animation

@@ -20,7 +20,7 @@ from linkwright.drivers.base import Law
 from linkwright.errors import RequestError, speaker
 from linkwright.files.write import to_data
 from linkwright.plot.drawing.draw import draw
-from linkwright.plot.drawing.view import DIAGONAL
+from linkwright.plot.drawing.machine import DIAGONAL
 from linkwright.words import Say
 
 #: Width of the pictures of questions, pixels.

@@ -23,7 +23,7 @@ from linkwright.designs.designs import sweep
 from linkwright.designs.ranges import Range
 from linkwright.designs.varied_dimensions import varied_ranges
 from linkwright.errors import RequestError
-from linkwright.export.base import package
+from linkwright.export.export import package
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import METRICS
 from linkwright.metrics.by_name import wanted

@@ -1,4 +1,4 @@
-"""The file of a living page: model, kernels, words and front end in one text."""
+"""The file of a living page: model, kernels, words and front end in one text, which notebooks show and files keep."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ from collections.abc import Sequence
 from functools import cache
 from html import escape
 from importlib.resources import files
+from pathlib import Path
 
 import numpy as np
 
+from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.json_data import Plain
@@ -32,8 +34,8 @@ from linkwright.page.glyphs import glyphs, undrawn
 from linkwright.page.positions import packed, positions
 from linkwright.page.programs import SIZES, PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
-from linkwright.plot.drawing.machine import Machine
-from linkwright.plot.drawing.view import fitted
+from linkwright.plot.drawing.machine import Machine, fitted
+from linkwright.whole_files import write_whole
 from linkwright.words import LANGUAGES, catalogue, say
 from linkwright.words.sentence import in_language
 
@@ -191,3 +193,45 @@ def _built(name: str) -> str:
 
 def _hash(text: str) -> str:
     return base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+@dataclass(frozen=True)
+class LivingPage:
+    """A living page: ``html`` is the whole file. Notebooks show it in a frame of its own, ``height`` pixels tall."""
+
+    html: str
+    height: int = 720
+
+    def save(self, path: str | Path, *, force: bool = False) -> Path:
+        """Writes the file, whole or not at all.
+
+        Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
+        """
+        return write_whole(path, self.html.encode(), force=force)
+
+    def _repr_html_(self) -> str:
+        return (
+            f'<iframe srcdoc="{escape(self.html)}" sandbox="allow-scripts allow-downloads" '
+            f'style="width:100%;height:{self.height}px;border:0"></iframe>'
+        )
+
+    def __repr__(self) -> str:
+        return f"LivingPage({len(self.html)} characters)"
+
+
+def living_page(
+    machine: Mechanism | Document, *beside: Mechanism | Document, steps: int = 360, language: str = "en"
+) -> LivingPage:
+    """The living page of a machine, with others beside it for comparison.
+
+    Args:
+        machine: a mechanism, or a document, whose text the page gives back with the changed numbers.
+        *beside: further ones on the same page.
+        steps: positions over the cycle.
+        language: ``en`` or ``zh``, in which it opens.
+
+    Raises:
+        PositionError: a position of a cycle cannot be reached.
+        StructureError, AssemblyError, CycleError: as :func:`linkwright.solve_motion`.
+    """
+    return LivingPage(page([solved(each, steps) for each in (machine, *beside)], language))

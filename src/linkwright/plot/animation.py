@@ -27,11 +27,18 @@ from linkwright.pictures.svg.element import group
 from linkwright.pictures.svg.render import png
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.drawing.draw import Names, all_arrows, solved
-from linkwright.plot.drawing.frames import frame_indices, key_indices, usual_seconds
 from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_marks, moving_springs
-from linkwright.plot.drawing.moving import moving_links, moving_torques, moving_vectors, shift_text, shifted
-from linkwright.plot.drawing.panel import Panel, panel
+from linkwright.plot.drawing.moving import (
+    Panel,
+    moving_links,
+    moving_torques,
+    moving_vectors,
+    panel,
+    shift_text,
+    shifted,
+)
+from linkwright.plot.drawing.positions import frame_indices, key_indices, usual_seconds
 from linkwright.plot.drawing.scene import Scene, laid_out, point_labels
 from linkwright.plot.drawing.vectors import Arrows, scale_of
 from linkwright.plot.drawing.video import gif, mp4

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from linkwright.pictures.svg.render import natural_size
+from linkwright.plot.drawing.machine import DIAGONAL
 from linkwright.plot.drawing.scene import LINK_SIZE
-from linkwright.plot.drawing.view import DIAGONAL
 from linkwright.report.typst_pages import TEXT
 
 #: A point of printers, mm.

@@ -15,8 +15,8 @@ from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.labels import TO_UNITS, UNIT, Label, Name, put
 from linkwright.pictures.picture import LEAST, Picture, as_runs, indexed, joined
 from linkwright.plot.drawing.loads import load_labels, load_marks
+from linkwright.plot.drawing.machine import View
 from linkwright.plot.drawing.scene import Scene, laid_out, link_labels, point_labels
-from linkwright.plot.drawing.view import View
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.sheets.positions import Positions
 from linkwright.sheets.scene import draw_elements, draw_machine, outline_machine

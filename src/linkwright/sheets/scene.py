@@ -1,4 +1,4 @@
-"""A machine's drawing on a sheet: the symbols of pictures/symbols in the lines of GB/T 4457.4."""
+"""Machines and symbols on a sheet, in the lines of GB/T 4457.4."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.pictures.labels import TO_UNITS
-from linkwright.pictures.picture import Circle, Fill, Line, Pen, Picture
-from linkwright.pictures.symbols.base import vec
+from linkwright.pictures.picture import Circle, Fill, Line, Pen, Picture, Vec
+from linkwright.pictures.symbols.base import SYMBOLS, vec
 from linkwright.plot.drawing.scene import Scene
 
 #: Line and filling of the classes of drawings; those that are not named are thin and not filled.
@@ -48,3 +49,27 @@ def outline_machine(picture: Picture, scene: Scene, index: int, style: str) -> N
         item for part, item in scene.items(index) if part.carrier != "frame" and part.layer in _OUTLINED
     )
     draw_elements(picture, outlines, style)
+
+
+#: Half the length of the walls between which a stem slides, and their distance, in units of symbols.
+_HALF, _ROOM = 20.0, 5.0
+
+
+def frame_pin(picture: Picture, at: Floats, toward: Vec) -> None:
+    """A pin on the frame, which lies in the direction ``toward``."""
+    place = vec(at * TO_UNITS)
+    for shape in (SYMBOLS["fixed_pivot"](at=place, toward=_turned(toward)), SYMBOLS["pin"](at=place)):
+        draw_elements(picture, shape.elements)
+
+
+def guide(picture: Picture, at: Floats, along: Floats) -> None:
+    """The hatched walls between which a rod slides."""
+    place = {"at": vec(at * TO_UNITS), "along": _turned(vec(along))}
+    for side in (-1, 1):
+        walls = SYMBOLS["ground_guide"](**place, start=-_HALF, end=_HALF, height=_ROOM, side=side)
+        draw_elements(picture, walls.elements)
+
+
+def _turned(way: Vec) -> Vec:
+    """A direction in the axes of symbols, whose y is down."""
+    return vec(np.sign(TO_UNITS) * way)

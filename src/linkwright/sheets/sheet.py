@@ -16,14 +16,13 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
 from linkwright.pictures.picture import CAPTION, LEAST, TEXT, Box, Picture, Text
 from linkwright.registry import listed
-from linkwright.sheets.frame import BAR, BAR_HEIGHT, control_bar, frame
 from linkwright.sheets.kind import SHEETS, Content, Subject
 from linkwright.sheets.layout import GAP, Room, laid_out
 from linkwright.sheets.panel import Block, Panel, block_of
-from linkwright.sheets.paper import SIZES, Paper
+from linkwright.sheets.paper import BAR, BAR_HEIGHT, SIZES, Paper, control_bar, frame
 from linkwright.sheets.settings import Placed, Settings, settings
-from linkwright.sheets.svg import svg
 from linkwright.sheets.title_block import TitleBlock, gb_block, iso_block, school_block
+from linkwright.sheets.written import svg
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
@@ -67,7 +66,7 @@ class Sheet:
 
             return pdf(self.svg(), fonts=fonts, millimetres=(self.paper.width, self.paper.height))
         if ending == ".dxf":
-            from linkwright.sheets.dxf import dxf
+            from linkwright.sheets.written import dxf
 
             return dxf(self.picture.items, self.paper)
         raise RequestError("sheet.bad_ending", ending=ending, endings=ENDINGS)

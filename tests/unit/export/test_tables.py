@@ -10,8 +10,7 @@ from tests.refusals import refused
 
 from linkwright.errors import RequestError
 from linkwright.export import export
-from linkwright.export.base import FORMATS
-from linkwright.export.export import chosen_format
+from linkwright.export.export import FORMATS, chosen_format
 from linkwright.export.formats import xlsx
 from linkwright.export.formats.xlsx import number_format
 

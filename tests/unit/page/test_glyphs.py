@@ -11,8 +11,7 @@ import pytest
 import linkwright as lw
 from linkwright.kinematics.placement import placements
 from linkwright.page.glyphs import glyphs
-from linkwright.plot.drawing.machine import Machine
-from linkwright.plot.drawing.view import fitted
+from linkwright.plot.drawing.machine import Machine, fitted
 
 ENGINE = """
 format: 1

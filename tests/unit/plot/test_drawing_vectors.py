@@ -80,7 +80,7 @@ def _output(name: str) -> str:
 
 def _paper_scale(motion: lw.Motion) -> float:
     from linkwright.kinematics.placement import placements
-    from linkwright.plot.drawing.view import fitted
+    from linkwright.plot.drawing.machine import fitted
 
     return fitted(motion, placements(motion)).scale
 

@@ -4,7 +4,7 @@ import pytest
 from tests import store
 
 from linkwright.plot.animation import animate
-from linkwright.plot.drawing.frames import parting
+from linkwright.plot.drawing.positions import parting
 
 
 @pytest.mark.parametrize("name", ["crank_rocker", "peaucellier", "oldham_coupling", "dyad_rpp"])

@@ -6,8 +6,8 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
+from linkwright.pictures.drawing import CSS
 from linkwright.pictures.picture import Circle
-from linkwright.pictures.style import CSS
 from linkwright.pictures.svg.element import element, group, number
 from linkwright.pictures.symbols.base import SYMBOLS, hatching, placed
 

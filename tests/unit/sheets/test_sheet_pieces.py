@@ -5,12 +5,12 @@ import pytest
 
 from linkwright.errors import speaker
 from linkwright.pictures.picture import Box, Circle, Line, Picture
-from linkwright.sheets.dxf import visible
-from linkwright.sheets.frame import zone_count
 from linkwright.sheets.layout import GAP, Room, packed
 from linkwright.sheets.panel import Block, drawing_scale, preferred, scale_text
+from linkwright.sheets.paper import zone_count
 from linkwright.sheets.settings import settings
 from linkwright.sheets.title_block import Fields, gb_block, iso_block, school_block
+from linkwright.sheets.written import visible
 
 
 @pytest.mark.parametrize(

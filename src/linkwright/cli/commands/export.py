@@ -110,8 +110,7 @@ def _of_page(file: str, beside: Sequence[str]) -> dict[str, Any]:
 def _checked(path: Path, options: argparse.Namespace) -> tuple[str, dict[str, Any]]:
     """The format and its options; raises UsageError before any work is done."""
     from linkwright.errors import LinkwrightError
-    from linkwright.export.base import FORMATS
-    from linkwright.export.export import check_options, chosen_format
+    from linkwright.export.export import FORMATS, check_options, chosen_format
 
     given = {name: getattr(options, name) for name in OPTIONS}
     form = {name: value for name, value in given.items() if value is not None}

@@ -12,7 +12,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
-from linkwright.export.base import package
+from linkwright.export.export import package
 from linkwright.export.results import Results
 from linkwright.pictures.labels import Candidate, Label, Obstacles, place
 from linkwright.pictures.picture import Circle, Line, Vec

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkwright.core.table import csv_text
-from linkwright.export.base import FORMATS, Format
+from linkwright.export.export import FORMATS, Format
 from linkwright.export.results import Results
 from linkwright.export.tables import wide
 

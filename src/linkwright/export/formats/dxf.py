@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.export.base import FORMATS, Format
 from linkwright.export.dxf.sheet import (
     LAYERS,
     Sheet,
@@ -15,6 +14,7 @@ from linkwright.export.dxf.sheet import (
     new_document,
     prepare,
 )
+from linkwright.export.export import FORMATS, Format
 from linkwright.export.results import Results
 
 

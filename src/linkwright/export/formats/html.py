@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from linkwright.export.base import FORMATS, Format
+from linkwright.export.export import FORMATS, Format
 from linkwright.export.results import Results
 from linkwright.files.document import Document
 from linkwright.mechanism.mechanism import Mechanism

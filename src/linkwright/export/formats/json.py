@@ -7,7 +7,7 @@ from typing import Any
 
 from linkwright.core import VERSION
 from linkwright.core.json_data import plain
-from linkwright.export.base import FORMATS, Format
+from linkwright.export.export import FORMATS, Format
 from linkwright.export.results import Results
 from linkwright.export.tables import tables
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 
-from linkwright.export.base import FORMATS, Format
+from linkwright.export.export import FORMATS, Format
 from linkwright.export.mjcf.bodies import Bodies, loops, tendons
 from linkwright.export.mjcf.drives import actuators, key, laws, reflected_inertia
 from linkwright.export.mjcf.text import numbers, seconds, written

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkwright.errors import RequestError
-from linkwright.export.base import FORMATS, Format
+from linkwright.export.export import FORMATS, Format
 from linkwright.export.mjcf.text import seconds
 from linkwright.export.modelica.equations import Equations, indented
 from linkwright.export.modelica.names import identifier, number, quoted

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 
-from linkwright.export.base import FORMATS, Format, package
+from linkwright.export.export import FORMATS, Format, package
 from linkwright.export.results import Results
 from linkwright.export.tables import wide
 

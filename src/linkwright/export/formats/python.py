@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from linkwright.dyads.listing import Listing
 from linkwright.errors import speaker
-from linkwright.export.base import FORMATS, Format
+from linkwright.export.export import FORMATS, Format
 from linkwright.export.results import Results
 
 

@@ -12,8 +12,8 @@ import numpy as np
 from linkwright.core.arrays import largest
 from linkwright.designs.ranges import dimension_of
 from linkwright.errors import RequestError
-from linkwright.export.base import FORMATS, Format, package
 from linkwright.export.charts import Charts, Place, write_charts
+from linkwright.export.export import FORMATS, Format, package
 from linkwright.export.results import Results
 from linkwright.export.tables import Column, Table, tables
 from linkwright.metrics.base import METRICS

@@ -13,11 +13,10 @@ from linkwright.core.arrays import Floats
 from linkwright.core.quantity import significant
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
-from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.drawing import BLUE, GREEN, ORANGE, PURPLE, TEAL, Drawing, arrow_rules
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import indexed, joined
 from linkwright.pictures.sketch import Sketch
-from linkwright.pictures.style import BLUE, GREEN, ORANGE, PURPLE, TEAL, arrow_rules
 from linkwright.pictures.symbols.base import vec
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon

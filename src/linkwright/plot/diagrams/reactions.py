@@ -1,4 +1,4 @@
-"""Joint forces, and what the inertia of the links does to the frame, over the input."""
+"""Joint forces over the cycle, and their hodographs: the polar load diagrams of pins."""
 
 from __future__ import annotations
 
@@ -6,17 +6,20 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from linkwright.core.arrays import largest
+from linkwright.core.arrays import Floats, largest
 from linkwright.core.outputs import Output
 from linkwright.core.search import first_largest
 from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import chosen_pairs
+from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.reactions import size as magnitude
-from linkwright.pictures.diagram import COLOURS
-from linkwright.plot.diagrams.base import DIAGRAMS, Request
-from linkwright.plot.diagrams.marks import Curve
-from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_output
+from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
+from linkwright.plot.diagrams.axes import Legend, Unit, equal, unit_of
+from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request, framed
+from linkwright.plot.diagrams.marks import Curve, draw_curve, jumps, mark_inputs
+from linkwright.plot.diagrams.names import Names, write_names
+from linkwright.plot.diagrams.outputs import joint_and_link, known_link, loaded, main_output
 from linkwright.plot.diagrams.panels import OverInput, Panel, look
 from linkwright.plot.diagrams.source import Extremes, Source
 
@@ -112,3 +115,133 @@ class Shaking(OverInput):
             Panel(f"{say('shaking_force')} F", "force", curves),
             Panel(f"{say('shaking_moment')} M", "torque", (moment,)),
         ]
+
+
+@DIAGRAMS.register("hodograph")
+class Hodograph(Kind):
+    """The end of the force that a joint exerts on a link, drawn from one origin over the cycle.
+
+    Left in the frame's axes, right in the link's: where the force goes round in space, and on the link's own pin.
+    With ``axes`` one of the two alone. Both scales of an axis pair are equal; inputs are marked along the curve.
+    """
+
+    options = ("joint", "on", "axes", "static")
+
+    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+        require_forces(sources[0].forces)
+        joint, link = joint_and_link(sources[0].forces, request.joint, request.on)
+        views = ("frame", link) if request.axes is None else (request.axes,)
+        for view in views:
+            known_link(sources[0].mechanism, view)
+        figure = new_figure(request.size or (4.6 * len(views) + 0.8 * (len(views) == 1), 4.9))
+        legend = Legend()
+        names = [
+            draw_hodograph(place, sources, (joint, link, view), request, legend)
+            for place, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True)
+        ]
+        subject = request.say("hodograph_of", joint=joint, link=link)
+        framed(
+            figure, request.titled(sources[0].label if len(sources) == 1 else "", subject), request, legend
+        )
+        write_names(figure, names)
+        return figure
+
+
+def draw_hodograph(
+    axes: Axes,
+    sources: Sequence[Source],
+    what: tuple[str, str, str],
+    request: Request,
+    legend: Legend,
+    *,
+    largest: bool = True,
+) -> Names:
+    """One hodograph, and what is to be named in it: ``what`` is the joint, the link on which it acts, and the link in
+    whose axes it is drawn; ``largest``: whether the largest force is an arrow that the legend names."""
+    view, noted = what[2], Names(axes)
+    say = request.say
+    curves = [_curve(source, what) for source in sources]
+    unit = unit_of("force", curves)
+    for number, (source, curve) in enumerate(zip(sources, curves, strict=True)):
+        colour = COLOURS[number % len(COLOURS)]
+        line = draw_curve(axes, curve * unit.factor, jumps(source), colour)
+        noted.line(curve * unit.factor)
+        if len(sources) > 1:
+            legend.add(source.label, line)
+        elif request.marks and curve.any():
+            mark_inputs(noted, curve * unit.factor, source.axis, colour)
+            if largest:
+                _largest(axes, source, what, curve, unit, legend, request)
+    names = ("x", "y") if view == "frame" else ("ξ", "η")
+    axes.set_title(say("in_frame") if view == "frame" else say("in_link", link=view), color=INK)
+    axes.set_xlabel(f"F{names[0]} ({unit.name})")
+    axes.set_ylabel(f"F{names[1]} ({unit.name})")
+    equal(axes)
+    axes.plot([0], [0], "+", color=INK, markersize=9, zorder=4)
+    axes.margins(0.13)
+    if not any(curve.any() for curve in curves):
+        axes.update_datalim([(-1.0, -1.0), (1.0, 1.0)])
+    return noted
+
+
+def _curve(source: Source, what: tuple[str, str, str]) -> Floats:
+    """The joint force (n, 2) N, zero where a joint carries nothing but rounding."""
+    joint, link, view = what
+    found = source.closed(source.forces.reaction(joint, on=link, axes=view))
+    return found if np.nanmax(np.abs(found), initial=0.0) > source.forces.rounding else np.zeros_like(found)
+
+
+def _largest(
+    axes: Axes,
+    source: Source,
+    what: tuple[str, str, str],
+    curve: Floats,
+    unit: Unit,
+    legend: Legend,
+    request: Request,
+) -> None:
+    """The largest force as an arrow from the origin: between the positions, where it can be found there."""
+    joint, link, view = what
+    size = magnitude(joint, link)
+    found = source.extremes(size, "forces")("max")
+    if found is not None and np.isfinite(found.value):
+        forces, (row,) = Analysis.of(source.forces).resolver.forces_at([(size, found.time, found.value)])
+        force, length = forces.reaction(joint, on=link, axes=view)[row], found.value
+    else:
+        force = curve[first_largest(np.hypot(curve[:, 0], curve[:, 1]))]
+        length = float(np.hypot(*force))
+    x, y = force * unit.factor
+    axes.annotate("", (x, y), (0, 0), arrowprops={"arrowstyle": "-|>", "color": FAINT, "linewidth": 1.1,
+                  "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0}, zorder=3)  # fmt: skip
+    legend.line(request.say("largest_force", value=unit.text(length)), FAINT, "-")
+
+
+#: Panels in a row, and inches of one.
+ROW, WIDE, HIGH = 3, 3.3, 3.1
+
+
+@DIAGRAMS.register("hodographs")
+class Hodographs(Kind):
+    """A hodograph of every joint force, or of the joints that ``of`` names, in the axes of the frame."""
+
+    options = ("of", "static")
+
+    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+        require_forces(sources[0].forces)
+        pairs = chosen_pairs(sources[0].mechanism, request.of)
+        columns = min(ROW, len(pairs))
+        rows = -(-len(pairs) // columns)
+        figure = new_figure(request.size or (WIDE * columns, HIGH * rows))
+        places = list(figure.subplots(rows, columns, squeeze=False).flat)
+        legend = Legend()
+        names = []
+        for place, (joint, link) in zip(places, pairs, strict=False):
+            view = (joint, link, "frame")
+            names.append(draw_hodograph(place, sources, view, request, legend, largest=False))
+            place.set_title(request.say("force_on", joint=joint, link=link), color=INK)
+        for place in places[len(pairs) :]:
+            place.set_axis_off()
+        title = request.say("kind.hodographs")
+        framed(figure, request.titled(sources[0].label if len(sources) == 1 else "", title), request, legend)
+        write_names(figure, names)
+        return figure

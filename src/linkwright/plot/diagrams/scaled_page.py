@@ -16,8 +16,8 @@ from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import element, group
 from linkwright.pictures.svg.text import fold
 from linkwright.plot.diagrams.axes import round_up
+from linkwright.plot.drawing.machine import View
 from linkwright.plot.drawing.scene import laid_out, point_labels
-from linkwright.plot.drawing.view import View
 from linkwright.words import Say
 
 #: Printed width of a unit of the paper, mm.

@@ -1,19 +1,30 @@
-"""What the drivers must supply, torque and power, with its mean."""
+"""Effort, power, energy and speed of the input over the cycle."""
 
 from __future__ import annotations
 
 from functools import partial
 
+import numpy as np
+
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.errors import RequestError
+from linkwright.core.quantity import significant
+from linkwright.cycle.summary import SummaryValue
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinetostatics.forces import Forces
-from linkwright.metrics.analysis import Analysis
+from linkwright.machine.energy import EnergyFluctuation
+from linkwright.machine.equivalent import Equivalent, equivalent
+from linkwright.machine.running import SteadyRunning
+from linkwright.machine.speed import SpeedCurve
+from linkwright.metrics.analysis import Analysis, Kind
+from linkwright.metrics.true_speed import steady_cycle
+from linkwright.pictures.diagram import COLOURS
+from linkwright.plot.diagrams.axes import InputAxis, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.outputs import main_output
-from linkwright.plot.diagrams.panels import OverInput, Panel, with_mean
-from linkwright.plot.diagrams.source import Source
+from linkwright.plot.diagrams.panels import Level, OverInput, Panel, with_mean
+from linkwright.plot.diagrams.source import Extremes, Source
 
 
 @DIAGRAMS.register("torque")
@@ -61,3 +72,94 @@ class Power(OverInput):
 
 def _total(forces: Forces) -> Floats:
     return forces.power
+
+
+@DIAGRAMS.register("energy")
+class Energy(OverInput):
+    """Torque at constant speed with its mean and the areas between, and the energy E(φ) that the areas leave.
+
+    ΔE = max E - min E is what a flywheel has to take up. Angles are those turned from the cycle's begin.
+    """
+
+    options = ("static",)
+
+    def axis(self, source: Source) -> InputAxis:
+        reduced, found = _reduced(source)
+        return InputAxis("", "angle", reduced.start + reduced.direction * found.angle)
+
+    def panels(self, source: Source, request: Request) -> list[Panel]:
+        say = request.say
+        reduced, found = _reduced(source)
+        place = reduced.start + reduced.direction * np.append(reduced.angle, reduced.period)
+        steady = reduced.torque + 0.5 * reduced.slope * reduced.speed**2
+        torque = reduced.direction * np.append(steady, steady[0])
+        mean = reduced.direction * reduced.load.mean
+        title = f"{say('input_torque')} T"
+        curve = Curve("", torque, x=place, extremes=_of_torque(reduced))
+        change = say("energy_fluctuation", value=unit_of("energy", [found.energy]).text(found.value))
+        return [
+            with_mean(title, "torque", curve, mean, request, fill=True),
+            Panel(f"{say('energy')} E", "energy", (Curve(change, found.energy),)),
+        ]
+
+
+def _of_torque(reduced: Equivalent) -> Extremes | None:
+    """Extremes of the driver's torque at constant speed."""
+    forces = reduced.forces
+    if forces.static:
+        return None
+    return lambda kind: Analysis.of(forces).extreme(lambda each: each.input_torque, kind, of="forces")
+
+
+def _reduced(source: Source) -> tuple[Equivalent, EnergyFluctuation]:
+    if source.result_running is not None:
+        return source.result_running.equivalent, source.result_running.energy
+    reduced = source.once("energy", lambda: equivalent(source.forces))
+    return reduced, reduced.energy
+
+
+@DIAGRAMS.register("speed")
+class Speed(OverInput):
+    """ω(φ) of steady running under a constant motor torque: with the flywheel for a required δ, and without any."""
+
+    options = ("fluctuation", "static")
+
+    def axis(self, source: Source) -> InputAxis:
+        if source.result_running is None:
+            return source.axis
+        reduced = source.result_running.equivalent
+        return InputAxis("", "angle", reduced.start + reduced.direction * np.array([0.0, reduced.period]))
+
+    def panels(self, source: Source, request: Request) -> list[Panel]:
+        running = source.once(f"running {request.fluctuation}", lambda: source.running(request.fluctuation))
+        say, mean = request.say, running.equivalent.speed
+        title = f"{say('input_speed')} ω"
+        level = Level(say("mean", value=f"{significant(mean)} rad/s"), mean)
+        first = _curve(running, running.exact_speed, running.exact_flywheel, say("flywheel"), COLOURS[0])
+        found = [Panel(title, "angular_velocity", (first,), (level,))]
+        alone = _alone(running) if running.exact_flywheel > 0 else None
+        if alone is not None:
+            bare = _curve(running, alone, 0.0, say("no_flywheel"), COLOURS[4])
+            found.append(Panel(title, "angular_velocity", (bare,), (level,)))
+        return found
+
+
+def _curve(running: SteadyRunning, speed: SpeedCurve, flywheel: float, name: str, colour: str) -> Curve:
+    inertia = f", J = {significant(flywheel)} kg·m²" if flywheel else ""
+    label = f"{name}{inertia}: δ = {significant(speed.fluctuation, 3)}"
+    reduced = running.equivalent
+
+    def exact(kind: Kind) -> SummaryValue:
+        angle, value = speed.fastest if kind == "max" else speed.slowest
+        return SummaryValue(value, angle / reduced.speed, reduced.input_at(angle), True)
+
+    x = reduced.start + reduced.direction * speed.angle
+    return Curve(label, speed.speed, colour=colour, x=x, extremes=exact)
+
+
+def _alone(running: SteadyRunning) -> SpeedCurve | None:
+    """The speed without a flywheel; None where the machine would stop within its cycle."""
+    try:
+        return steady_cycle(running.equivalent.forces)[1].curve(motor_torque=running.mean_torque)
+    except LinkwrightError:
+        return None

@@ -15,8 +15,7 @@ from linkwright.pictures.labels import Label, Obstacles
 from linkwright.pictures.picture import Vec
 from linkwright.pictures.symbols.base import SYMBOLS, Shape, placed, points, vec, way
 from linkwright.plot.drawing.guides import direction, line_start
-from linkwright.plot.drawing.machine import Machine
-from linkwright.plot.drawing.view import moved
+from linkwright.plot.drawing.machine import Machine, moved
 
 Dimension = str | tuple[str, str]
 _OFFSETS = (24.0, -24.0, 40.0, -40.0, 58.0, -58.0)

@@ -22,6 +22,7 @@ from linkwright.pictures.symbols.base import points
 from linkwright.plot.drawing.dimensions import Dimension, dimension_lines
 from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_labels, load_marks, unmarked
+from linkwright.plot.drawing.machine import DIAGONAL
 from linkwright.plot.drawing.positions import At, Shown, at_input, at_time, with_limits
 from linkwright.plot.drawing.scene import Scene, laid_out, link_labels, point_labels
 from linkwright.plot.drawing.vectors import (
@@ -32,7 +33,6 @@ from linkwright.plot.drawing.vectors import (
     same_motion,
     scale_of,
 )
-from linkwright.plot.drawing.view import DIAGONAL
 from linkwright.words import say
 from linkwright.words.sentence import Sentence, in_language
 

@@ -18,9 +18,19 @@ from linkwright.pictures.svg.element import group, number
 from linkwright.pictures.symbols.base import SYMBOLS, points, vec
 from linkwright.plot.drawing.guides import guides, welds
 from linkwright.plot.drawing.inputs import input_arrows
-from linkwright.plot.drawing.machine import LAYERS, Machine, Part, bodies, flat, pins
-from linkwright.plot.drawing.view import DIAGONAL, View, fitted, moved
-from linkwright.plot.drawing.wheels import wheels
+from linkwright.plot.drawing.joint_marks import wheels
+from linkwright.plot.drawing.machine import (
+    DIAGONAL,
+    LAYERS,
+    Machine,
+    Part,
+    View,
+    bodies,
+    fitted,
+    flat,
+    moved,
+    pins,
+)
 
 
 @dataclass(frozen=True)

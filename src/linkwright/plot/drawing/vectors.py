@@ -20,7 +20,7 @@ from linkwright.mechanism.force_names import Symbol, reaction_index, reaction_pa
 from linkwright.pictures.labels import Label
 from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, joined, vec
 from linkwright.plot.drawing.joint_marks import touching
-from linkwright.plot.drawing.view import View
+from linkwright.plot.drawing.machine import View
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion

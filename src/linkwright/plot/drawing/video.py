@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from linkwright.errors import LinkwrightError
-from linkwright.pictures.style import COLOURS
+from linkwright.pictures.drawing import COLOURS
 
 
 def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:

@@ -14,8 +14,8 @@ from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Line, SvgNode
 from linkwright.pictures.svg.element import group
 from linkwright.pictures.symbols.base import SYMBOLS, points, vec
+from linkwright.plot.drawing.machine import View
 from linkwright.plot.drawing.vectors import NAME_SIZE
-from linkwright.plot.drawing.view import View
 from linkwright.plot.free_bodies.actions import STYLES, Action
 
 #: Printed width of a unit of the paper, mm.

@@ -16,9 +16,8 @@ from linkwright.pictures.drawing import Box, bounds
 from linkwright.pictures.labels import Label, Obstacles, place, written
 from linkwright.pictures.picture import SvgNode
 from linkwright.pictures.symbols.base import SYMBOLS, points
-from linkwright.plot.drawing.machine import Machine, Part
+from linkwright.plot.drawing.machine import Machine, Part, View
 from linkwright.plot.drawing.scene import Scene, parts_of
-from linkwright.plot.drawing.view import View
 from linkwright.plot.free_bodies.actions import FreeBody
 from linkwright.plot.free_bodies.arrows import MILLIMETRE, arcs, arranged
 

@@ -1,4 +1,4 @@
-"""What a synthesis found: target, candidates and their curves."""
+"""What a synthesis found: target, candidates and their curves; deviations; a coupler curve."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.errors import speaker
+from linkwright.metrics.coupler_curve import CouplerCurve
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend
+from linkwright.plot.diagrams.axes import Legend, unit_of
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.machine_in_axes import draw_support
 from linkwright.synthesis.result import Candidate, Synthesis, title_said
@@ -96,3 +97,70 @@ def _links(axes: Axes, each: Candidate, colour: str) -> Any:
     for name in each.linkage.frame:
         draw_support(axes, np.ravel(_places(np.array([points[name]]))))
     return line
+
+
+#: Share of an angle (rad) or of a length (m) below which deviations are rounding.
+ROUNDING = 1e-11
+#: Error names whose deviations are angles.
+ANGLES = ("angle", "rest")
+
+
+def has_deviations(result: Synthesis) -> bool:
+    """Whether the first candidate deviates anywhere."""
+    off = result.best.deviations if len(result) else np.empty(0)
+    return bool(off.size and np.abs(off).max() > ROUNDING * max(result.extent, 1e-3))
+
+
+@result_diagram("structural_error", Synthesis, usual=False, when=has_deviations)
+def draw_structural_error(result: Synthesis, request: Request) -> Figure:
+    """The error curve: over the input of a function, else over the number of the position."""
+    figure = new_figure(request.size or (7.2, 3.2))
+    axes = figure.subplots()
+    off, angles = result.best.deviations, result.error_name in ANGLES
+    factor = np.degrees(1.0) if angles else 1e3
+    x, label = _abscissa(result, request.language)
+    axes.axhline(0.0, color=FAINT, linewidth=0.8)
+    axes.vlines(x, 0.0, factor * off, color=COLOURS[0], linewidth=1.0)
+    order = np.argsort(x)
+    axes.plot(x[order], factor * off[order], "o-", color=COLOURS[0], ms=4, linewidth=0.8)
+    if result.error_name not in ("angle", "length"):
+        axes.locator_params(axis="x", integer=True)
+    axes.set_xlabel(label)
+    key = "angle" if angles else "length"
+    axes.set_ylabel(say(f"synthesis_steps.axis.deviation_{key}", request.language))
+    axes.margins(x=0.05, y=0.15)
+    framed(figure, title_said(result, speaker(request.language)), request)
+    return figure
+
+
+def _abscissa(result: Synthesis, language: str) -> tuple[Floats, str]:
+    """Where the deviations are drawn, and the label of that axis."""
+    target = result.target
+    if target is not None and not np.iscomplexobj(target):
+        return np.degrees(target[0]), say("synthesize.axis.input", language)
+    return np.arange(1.0, len(result.best.deviations) + 1), say("synthesis_steps.axis.position", language)
+
+
+@result_diagram("coupler_curve", CouplerCurve)
+def draw_coupler_curve(result: CouplerCurve, request: Request) -> Figure:
+    """The path, both axes to one scale; double points ringed, cusps as diamonds; length and area in the title."""
+    unit, legend = unit_of("length"), Legend()
+    figure = new_figure(request.size or (6.2, 5.2))
+    axes = figure.subplots()
+    x, y = (np.concatenate([result.path, result.path[:1]]) * unit.factor).T
+    axes.plot(x, y, color=COLOURS[0])
+    doubles = [spot for spot, _ in result.double_points]
+    cusps = [spot for spot, _ in result.cusps]
+    if request.marks:
+        for name, spots, sign in (("double_point", doubles, "o"), ("cusp", cusps, "D")):
+            if spots:
+                (dots,) = axes.plot(*(np.array(spots).T * unit.factor), sign, color=COLOURS[1], markersize=7,
+                                    fillstyle="none", markeredgewidth=1.4)  # fmt: skip
+                legend.add(request.say(name), dots)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.margins(0.1)
+    axes.set_xlabel(unit.label("x"))
+    axes.set_ylabel(unit.label("y"))
+    length, area = unit.text(result.length, 6), unit_of("area").text(result.area, 6)
+    framed(figure, request.say("curve_of", point=result.point, length=length, area=area), request, legend)
+    return figure

@@ -15,8 +15,21 @@ from linkwright.pictures.labels import Name
 from linkwright.pictures.picture import Picture, Runs, as_runs, indexed, joined
 from linkwright.sheets.cams.division import divided, widest_gap
 from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of, sharpest
-from linkwright.sheets.cams.scales import equal
 from linkwright.words import Say
+
+
+def equal(symbol: Runs, value: float, unit: str, digits: int = 4) -> Runs:
+    """``r₀ = 40.43 mm``"""
+    gap = "" if unit in ("", "°") else " "
+    return joined(symbol, f" = {significant(value, digits)}{gap}{unit}")
+
+
+def graphical(index: str, value: float, unit: str) -> Runs:
+    """``μ_s = 0.5 mm/mm``: a quantity per millimetre of paper; ``unit`` empty for a plain number."""
+    over = f"({unit})/mm" if "/" in unit else f"{unit}/mm"
+    gap = "" if over[0] in "°/" else " "
+    return joined(indexed("μ", index), f" = {significant(value)}{gap}{over}")
+
 
 #: Gap of the followers below which they are close together, rad.
 _CLOSE = math.radians(50)

@@ -14,7 +14,7 @@ from linkwright.core.quantity import significant
 from linkwright.laws.program import TURN
 from linkwright.pictures.picture import LEAST, TEXT, Picture, Runs, as_runs, indexed, joined, runs_width
 from linkwright.sheets.cams.division import Phase, divided, phases
-from linkwright.sheets.cams.scales import graphical
+from linkwright.sheets.cams.marks import graphical
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.words import Say
 

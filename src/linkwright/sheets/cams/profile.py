@@ -16,10 +16,9 @@ from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import Picture, Runs, as_runs, joined
 from linkwright.sheets.cams.division import divided, widest_gap
 from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of
-from linkwright.sheets.cams.marks import marked, said
-from linkwright.sheets.cams.scales import graphical
-from linkwright.sheets.cams.symbols import frame_pin, guide
+from linkwright.sheets.cams.marks import graphical, marked, said
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
+from linkwright.sheets.scene import frame_pin, guide
 from linkwright.words import Say
 
 _DENSE = 1440

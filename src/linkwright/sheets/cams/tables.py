@@ -14,8 +14,7 @@ from linkwright.laws.smoothest import FoundProgram
 from linkwright.pictures.picture import Runs, Words, as_runs, indexed, joined
 from linkwright.sheets.cams.division import Phase, divided, phases
 from linkwright.sheets.cams.geometry import pitch_of
-from linkwright.sheets.panel import Drawn
-from linkwright.sheets.table import TablePanel
+from linkwright.sheets.panel import Drawn, TablePanel
 from linkwright.words import Say, has
 
 Row = list[Words]

@@ -1,4 +1,4 @@
-"""A sheet as DXF in millimetres: a layer for each kind of line with its type and width, texts in millimetres."""
+"""A sheet as SVG and as DXF, in millimetres."""
 
 from __future__ import annotations
 
@@ -11,10 +11,62 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.export.dxf.sheet import STYLE, add, content_of, new_document
 from linkwright.pictures.picture import CAPITAL, Circle, Item, Line, Text
+from linkwright.pictures.svg.element import element, number
 from linkwright.pictures.svg.fonts import needs_chinese
+from linkwright.pictures.svg.text import FAMILY_LIST
 from linkwright.sheets.paper import Paper
-from linkwright.sheets.svg import width_of
 from linkwright.words.characters import one_line
+
+#: Dashes and gaps of the kinds of lines in widths of a thin line (GB/T 17450, shortened for small pictures).
+DASHES = {
+    "dashed": (12.0, 3.0),
+    "chain": (24.0, 3.0, 0.5, 3.0),
+    "double_chain": (24.0, 3.0, 0.5, 3.0, 0.5, 3.0),
+}
+
+
+def width_of(pen: str, paper: Paper) -> float:
+    """Width of a line, mm."""
+    return paper.thick if pen in ("frame", "thick") else paper.thick / 2
+
+
+def svg(items: Iterable[Item], paper: Paper, title: str) -> str:
+    """The document, one unit a millimetre."""
+    root = element(
+        "svg",
+        {
+            "xmlns": "http://www.w3.org/2000/svg",
+            "viewBox": f"0 0 {number(paper.width)} {number(paper.height)}",
+            "width": f"{number(paper.width)}mm",
+            "height": f"{number(paper.height)}mm",
+            "role": "img",
+        },
+        element("title", None, title),
+        element("style", None, _style(paper)),
+        element("rect", {"fill": "#fff", "x": 0, "y": 0, "width": paper.width, "height": paper.height}),
+        *(item.placed(np.array([0.0, paper.height]), scale=(1.0, -1.0)) for item in items),
+    )
+    return str(root)
+
+
+def _style(paper: Paper) -> str:
+    rules = [
+        f".{pen}{{stroke-width:{number(width_of(pen, paper))}" + _dash(pen, paper) + "}"
+        for pen in ("frame", "thick", "thin", "dashed", "chain", "double_chain")
+    ]
+    shapes = "path,circle{fill:none;stroke:#000;stroke-linejoin:round;stroke-linecap:round}"
+    chains = ".dashed,.chain,.double_chain{stroke-linecap:butt}"
+    fills = ".paper{fill:#fff}.ink{fill:#000}"
+    return f"{shapes}{''.join(rules)}{chains}{fills}text{{font-family:{FAMILY_LIST};fill:#000}}"
+
+
+def _dash(pen: str, paper: Paper) -> str:
+    """The dashes of a kind of line."""
+    if pen not in DASHES:
+        return ""
+    unit = 0.25 if paper.thick < 0.6 else 0.3
+    return ";stroke-dasharray:" + " ".join(number(max(each * unit, 0.3)) for each in DASHES[pen])
+
 
 #: Layers with their colour (7: black or white, as the ground demands), type of line and pattern, mm.
 _TYPES = {"frame": "CONTINUOUS", "thick": "CONTINUOUS", "thin": "CONTINUOUS", "dashed": "SHEET_DASHED",
@@ -49,12 +101,12 @@ def dxf(items: Iterable[Item], paper: Paper) -> bytes:
     document.header["$LTSCALE"] = 1.0
     document.header["$EXTMIN"], document.header["$EXTMAX"] = (0, 0, 0), (paper.width, paper.height, 0)
     _limits(document, paper)
-    for number, item in enumerate(rows):
+    for place, item in enumerate(rows):
         if isinstance(item, Text):
             _text(space, item)
         else:
             covers = [
-                each for each in rows[number + 1 :] if not isinstance(each, Text) and each.fill == "paper"
+                each for each in rows[place + 1 :] if not isinstance(each, Text) and each.fill == "paper"
             ]
             _shape(space, item, covers)
     return content_of(document)

@@ -1,14 +1,17 @@
-"""What counterweights do: shaking force, shaking moment and input torque without and with them."""
+"""Diagrams of machines: balancing, torque curves of motors."""
 
 from __future__ import annotations
 
+import numpy as np
+
 from linkwright.core.arrays import Floats, largest
 from linkwright.machine.balancing import Balancing
+from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.pictures.diagram import COLOURS, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, equal, label_input, unit_of
+from linkwright.plot.diagrams.axes import InputAxis, Legend, equal, label_input, unit_of
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.marks import Curve
-from linkwright.plot.diagrams.panels import DASHES, Panel, draw_panel
+from linkwright.plot.diagrams.panels import DASHES, Panel, draw_panel, stacked, with_mean
 from linkwright.plot.diagrams.source import Source
 
 #: A shaking force of this share of the one before is zero but for rounding.
@@ -65,3 +68,25 @@ def _hodograph(
     equal(axes)
     axes.plot([0], [0], "+", color=INK, markersize=9, zorder=5)
     axes.margins(0.13)
+
+
+STEPS = 720
+#: How far before a jump the curve is drawn, as a share of its period.
+BEFORE = 1e-9
+
+
+@result_diagram("torque_curve", TorqueCurve)
+def draw_torque_curve(result: TorqueCurve, request: Request) -> Figure:
+    """T(φ) over one period; jumps are drawn upright."""
+    angle = _angles(result)
+    panel = with_mean(f"{request.say('torque')} T", "torque", Curve("", result(angle)), result.mean, request)
+    return stacked([panel], InputAxis("", "angle", angle), request, request.titled(""))[0]
+
+
+def _angles(curve: TorqueCurve) -> Floats:
+    """Angles over one period, each kink or jump on both of its sides."""
+    end = curve.start + curve.period
+    knots = np.array(curve.knots)
+    near = np.concatenate([knots - BEFORE * curve.period, knots, [end - BEFORE * curve.period]])
+    within = near[(near >= curve.start) & (near <= end)]
+    return np.unique(np.concatenate([np.linspace(curve.start, end, STEPS + 1), within]))
