@@ -10,20 +10,16 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
-from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import LEAST, Picture, as_runs, indexed, joined
 from linkwright.plot.diagrams.force_polygon import (
     SHARES,
     SHORT,
-    LinkForce,
     arrows,
     corners,
-    link_forces,
-    ordered,
 )
-from linkwright.plot.diagrams.motion_polygons import arrows as vectors
+from linkwright.plot.diagrams.motion_polygons import arrows as motion_arrows
 from linkwright.plot.diagrams.motion_polygons import gathered
 from linkwright.plot.diagrams.motion_vectors import (
     MotionPolygon,
@@ -31,6 +27,7 @@ from linkwright.plot.diagrams.motion_vectors import (
     velocity_polygon,
 )
 from linkwright.plot.diagrams.names import LOW
+from linkwright.plot.free_bodies.actions import Action
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.sheets.positions import Positions, Shown
 
@@ -99,7 +96,7 @@ class MotionPolygonPanel(ScaledPanel):
 
     def picture(self, scale: float) -> Picture:
         found = Picture()
-        pairs = vectors(self.polygon, scale)
+        pairs = motion_arrows(self.polygon, scale)
         for step, (start, end) in zip(self.polygon.steps, pairs, strict=True):
             if step.role == "absolute":
                 found.arrow(start, end)
@@ -166,11 +163,11 @@ class ForcePanel(ScaledPanel):
     smallest, largest = 28.0, 90.0
 
     def __init__(
-        self, name: str, rank: float, positions: Positions, shown: Shown, forces: Forces, link: str
+        self, name: str, rank: float, positions: Positions, shown: Shown, link: str, vectors: list[Action]
     ) -> None:
         super().__init__(name, rank, positions, shown)
-        self.link, self.forces = link, forces
-        self.vectors: list[LinkForce] = ordered(link_forces(forces, link, shown.index))
+        self.link = link
+        self.vectors = vectors
         self.corners = corners(self.vectors)
 
     def reach(self) -> float:
@@ -189,9 +186,7 @@ class ForcePanel(ScaledPanel):
             found.arrow(start, end, "thick" if vector.role == "reaction" else "thin")
             if np.hypot(*(end - start)) > SHORT:
                 spots = [start + share * (end - start) for share in SHARES]
-                runs = vector.symbol
-                if vector.role == "inertia":
-                    runs = indexed("F", f"I{link_numbers(self.positions.mechanism)[self.link]}")
+                runs = indexed(vector.letter, vector.index)
                 names.append(Name(runs, spots, self.letters, clear=1.2, symbol=True))
         put(found, names)
         return found

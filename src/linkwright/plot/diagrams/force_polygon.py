@@ -8,16 +8,13 @@ from itertools import pairwise
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import row_names
 from linkwright.core.quantity import significant
 from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
-from linkwright.kinetostatics.link_balance import driver_wrenches
-from linkwright.mechanism.force_names import link_numbers, reaction_index
+from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.labels import Label
-from linkwright.pictures.picture import Runs, indexed, joined
+from linkwright.pictures.picture import indexed, joined
 from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.text import fold
 from linkwright.pictures.symbols.base import vec
@@ -40,71 +37,35 @@ from linkwright.plot.diagrams.scaled_page import (
     units,
 )
 from linkwright.plot.diagrams.source import Source
+from linkwright.plot.free_bodies.actions import STYLES, Action, free_bodies
 from linkwright.words.sentence import links_said
 
 #: Longest extent of a polygon on the paper, mm, and how many pictures stand in a row.
 EXTENT, IN_ROW = 58.0, 3
 #: Forces that are shorter on the paper have no name of their own, mm; where along a force its name may stand.
 SHORT, SHARES = 1.5, (0.5, 0.35, 0.65, 0.2, 0.8)
-#: Roles with the classes of their arrows, in the order of the graphical method: what is known first.
-ROLES = {
-    "load": "lw-load",
-    "weight": "lw-weight",
-    "inertia": "lw-inertia",
-    "driver": "lw-driver",
-    "reaction": "lw-force",
-}
+#: Roles in the order of the graphical method; what the key calls some of them.
+ORDER = ("load", "friction", "weight", "inertia", "driver", "reaction")
+PLAIN = {"friction": "load"}
 
 
-@dataclass(frozen=True)
-class LinkForce:
-    """A force on a link, N in frame axes; ``role``: ``load``, ``weight``, ``inertia``, ``driver``, ``reaction``.
+def link_forces(forces: Forces, index: int) -> dict[str, list[Action]]:
+    """The forces on every link at a position as the graphical method takes them: known ones first, joint forces last.
 
-    ``letter`` and ``index`` make its symbol: F with 12 is what link 1 exerts on link 2.
+    Links come in the order of statics, the last of the motion first; the forces on each add up to zero.
     """
-
-    letter: str
-    role: str
-    force: Floats
-    index: str = ""
-
-    @property
-    def symbol(self) -> Runs:
-        """Letter and index."""
-        return indexed(self.letter, self.index)
-
-    @property
-    def size(self) -> float:
-        """Its size, N."""
-        return float(np.hypot(*self.force))
+    found = {body.link: sorted(body.forces, key=_turn) for body in free_bodies(forces, index)}
+    order = [link for group in reversed(forces.motion.structure.groups) for link in reversed(group.links)]
+    return {link: found[link] for link in order if found.get(link)}
 
 
-def link_forces(forces: Forces, link: str, index: int) -> list[LinkForce]:
-    """Loads, weight, inertia force -m a, drivers and joint forces on a link; their sum is zero but for rounding.
-
-    Forces of less than 1e-9 of the largest are left out.
-    """
-    mechanism = forces.mechanism
-    part, number = mechanism.links[link], str(link_numbers(mechanism)[link])
-    applied = np.array([row[index] for row in forces.fetch(row_names("applied", link))])
-    found = [LinkForce(_load_name(forces, link), "load", applied)]
-    found.append(LinkForce("G", "weight", part.mass * np.asarray(mechanism.gravity), number))
-    if not forces.static:
-        inertia = -part.mass * forces.motion.link(link).centre.acceleration[index]
-        found.append(LinkForce("−m·a", "inertia", inertia))
-    for name, force, _ in driver_wrenches(forces, link):
-        found.append(LinkForce(name, "driver", force[index]))
-    for name, joint in mechanism.joints.items():
-        if link in joint.joined:
-            force = forces.reaction(name, on=link)[index]
-            found.append(LinkForce("F", "reaction", force, reaction_index(mechanism, name, link)))
-    largest = max(each.size for each in found)
-    return [each for each in found if each.size > 1e-9 * largest]
+def _turn(force: Action) -> int:
+    return ORDER.index(force.role)
 
 
-def _load_name(forces: Forces, link: str) -> str:
-    names = [name for name, load in forces.mechanism.loads.items() if load.acts_on == link]
-    return names[0] if len(names) == 1 else "ΣP"
+def worth_drawing(found: dict[str, list[Action]]) -> dict[str, list[Action]]:
+    """The links with three forces or more; all where there are none."""
+    return {link: acting for link, acting in found.items() if len(acting) > 2} or found
 
 
 @DIAGRAMS.register("force_polygon")
@@ -123,10 +84,11 @@ class ForcePolygon(Kind):
         source, say = sources[0], request.say
         forces = source.forces_at(request.at)
         require_forces(forces)
-        parts = _links(forces, request)
-        say = request.say
+        found = link_forces(forces, 0)
+        named = [known_link(forces.mechanism, name) for name in request.of]
+        parts = {link: found[link] for link in named if link in found} or worth_drawing(found)
         cells = [position_cell(forces.motion, say), *(polygon_cell(forces, *each) for each in parts.items())]
-        roles = {force.role for each in parts.values() for force in each}
+        roles = {PLAIN.get(force.role, force.role) for each in parts.values() for force in each}
         wide = page_width(cells[:IN_ROW], IN_ROW)
         heading = request.titled(
             source.label, f"{say('kind.force_polygon')}, {source.place_text(forces.motion, say)}"
@@ -136,7 +98,7 @@ class ForcePolygon(Kind):
             cells,
             IN_ROW,
             [
-                key([(say(f"force.{role}"), style) for role, style in ROLES.items() if role in roles]),
+                key([(say(f"force.{role}"), style) for role, style in STYLES.items() if role in roles]),
                 *([((line, "lw-legend"), 0.0)] for line in numbered),
             ],
             heading if request.title is None else request.title,
@@ -144,12 +106,12 @@ class ForcePolygon(Kind):
         )
 
 
-def polygon_cell(forces: Forces, link: str, found: list[LinkForce]) -> Cell:
+def polygon_cell(forces: Forces, link: str, found: list[Action]) -> Cell:
     """The polygon of a link with the sizes of its forces."""
     scale = scale_of_picture(corners(found), EXTENT)
     sketch = Sketch()
     for each, (start, end) in zip(found, arrows(found, scale), strict=True):
-        style = ROLES[each.role]
+        style = STYLES[each.role]
         sketch.arrow(units(start), units(end), style)
         if np.hypot(*(end - start)) > SHORT:
             spots = tuple(vec(units(start + share * (end - start))) for share in SHARES)
@@ -161,7 +123,8 @@ def polygon_cell(forces: Forces, link: str, found: list[LinkForce]) -> Cell:
     bar = BAR * MILLIMETRE * scale
     unit = unit_of("force", [each.force for each in found])
     notes = tuple(
-        (joined(each.symbol, f" = {unit.text(each.size)}"), f"{ROLES[each.role]}-name") for each in found
+        (joined(indexed(each.letter, each.index), f" = {unit.text(each.size)}"), f"{STYLES[each.role]}-name")
+        for each in found
     )
     return Cell(
         sketch,
@@ -177,32 +140,12 @@ def _title(forces: Forces, link: str) -> str:
     return f"{group.signature}: {link_numbers(forces.mechanism)[link]} {link}"
 
 
-def _links(forces: Forces, request: Request) -> dict[str, list[LinkForce]]:
-    """Forces by link, the last group first: of the links that are named, else of those with three forces or more."""
-    if request.of:
-        names = [known_link(forces.mechanism, name) for name in request.of]
-        return {name: ordered(link_forces(forces, name, 0)) for name in names}
-    return {link: ordered(link_forces(forces, link, 0)) for link in polygon_links(forces, 0)}
-
-
-def polygon_links(forces: Forces, index: int) -> list[str]:
-    """Links with three forces or more at a position, the last group first; where there are none, those with any."""
-    order = [link for group in reversed(forces.motion.structure.groups) for link in reversed(group.links)]
-    count = {link: len(link_forces(forces, link, index)) for link in order}
-    return [link for link in order if count[link] > 2] or [link for link in order if count[link]]
-
-
-def ordered(found: list[LinkForce]) -> list[LinkForce]:
-    """Forces in the order of the graphical method: what is known first, joint forces last."""
-    return sorted(found, key=lambda each: list(ROLES).index(each.role))
-
-
-def corners(found: list[LinkForce]) -> Floats:
+def corners(found: list[Action]) -> Floats:
     """Corners of the polygon, (forces + 1, 2) N, from zero back to zero."""
     steps = np.array([each.force for each in found]).reshape(-1, 2)
     return np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
 
 
-def arrows(found: list[LinkForce], scale: float) -> list[tuple[Floats, Floats]]:
+def arrows(found: list[Action], scale: float) -> list[tuple[Floats, Floats]]:
     """Starts and ends of the forces in paper mm, end to end."""
     return side_by_side(list(pairwise(corners(found) / scale)))

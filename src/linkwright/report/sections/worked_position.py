@@ -119,8 +119,9 @@ def _polygons(case: Case) -> Iterator[Block]:
 def _sheets(forces: Forces, index: int) -> list[list[str]]:
     """Links whose force polygons share a page: groups in the order of statics, links with three forces or more."""
     sheets: list[list[str]] = [[]]
+    found = link_forces(forces, index)
     for group in reversed(forces.motion.structure.groups):
-        links = [link for link in reversed(group.links) if len(link_forces(forces, link, index)) > 2]
+        links = [link for link in reversed(group.links) if len(found.get(link, ())) > 2]
         if sheets[-1] and len(sheets[-1]) + len(links) > ON_PAGE:
             sheets.append([])
         sheets[-1] += links

@@ -14,7 +14,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.picture import as_runs, indexed
 from linkwright.plot.diagrams.axes import InputAxis
 from linkwright.plot.diagrams.base import Request
-from linkwright.plot.diagrams.force_polygon import link_forces, polygon_links
+from linkwright.plot.diagrams.force_polygon import link_forces, worth_drawing
 from linkwright.plot.diagrams.outputs import main_output
 from linkwright.plot.diagrams.panels import Panel as Plotted
 from linkwright.plot.diagrams.source import Source
@@ -67,11 +67,10 @@ def _force_polygons(positions: Positions, forces: Forces) -> Iterator[Panel]:
     """The force polygons of the links in the order of statics, for each position."""
     for shown in positions.shown:
         rank = 5.0 if shown.number == "I" else 8.0
-        for link in polygon_links(forces, shown.index):
-            if positions.mechanism.drivers and len(link_forces(forces, link, shown.index)) < 3:
-                continue
-            name = f"force_{len(shown.number)}_{link}"
-            yield ForcePanel(name, rank, positions, shown, forces, link)
+        found = link_forces(forces, shown.index)
+        for link, acting in worth_drawing(found).items():
+            if len(acting) > 2 or not positions.mechanism.drivers:
+                yield ForcePanel(f"force_{len(shown.number)}_{link}", rank, positions, shown, link, acting)
 
 
 def _curves(positions: Positions) -> Iterator[Panel]:
