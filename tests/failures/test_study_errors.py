@@ -238,7 +238,6 @@ def test_bounds_that_make_no_design_movable() -> None:
         ("B.velocty max", "study.no_such_output", {"offer": "B.velocity", "name": "B.velocty"}),
         ("stroke", "study.does_not_apply", {"name": "stroke"}),
         ("crank.angle range", "study.turns_through", {"link": "crank"}),
-        ("rocker.angle rms", "study.angle_summary", {"name": "rocker.angle rms"}),
         ("reaction C on coupler max", "study.no_such_output", {"name": "reaction C on coupler"}),
         ("reaction A max", "study.say_link", {"name": "reaction A", "joint": "A"}),
         (

@@ -100,14 +100,12 @@ def test_loads_and_registered_metrics_of_every_design() -> None:
         {"pitman.length": "1.2, 1.3 m", "jaw.mass": "700, 900 kg"},
         metrics=["rms_input_torque", "driver.effort rms", "peak_reaction O5", "reaction O5 on jaw max"],
     )
-    assert found["rms_input_torque"] == pytest.approx(
-        found["driver.effort rms"], rel=1e-5
-    )  # refined between positions
-    assert np.all(found["peak_reaction O5"] >= found["reaction O5 on jaw max"] * (1 - 1e-12))
+    assert found["rms_input_torque"].tolist() == found["driver.effort rms"].tolist()
+    assert found["peak_reaction O5"].tolist() == found["reaction O5 on jaw max"].tolist()
     for index in range(4):
-        forces = lw.solve_forces(found.design(index))
+        forces = lw.solve_forces(found.design(index), steps=7200)
         assert found["driver.effort rms"][index] == pytest.approx(
-            np.sqrt((forces.input_torque**2).mean()), rel=1e-9
+            np.sqrt((forces.input_torque**2).mean()), rel=1e-7
         )
 
 

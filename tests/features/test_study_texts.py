@@ -74,8 +74,7 @@ def test_the_table_of_a_study(study: lw.Study, rows: int) -> None:
 
 
 def test_the_best_designs_and_what_failed(study: lw.Study) -> None:
-    best, failed, note = study.text().split("\n\n")[2:]
-    assert "B.velocity max" in note and "positions" in note
+    best, failed = study.text().split("\n\n")[2:]
     designs = [(b, c) for b in np.linspace(1.2, 3.6, 7) for c in (2.4, 2.6)]
     angles = [transmission(*each) if turns(*each) else 0.0 for each in designs]
     k = int(np.argmax(angles))

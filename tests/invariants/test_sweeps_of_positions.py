@@ -52,10 +52,7 @@ def test_a_sweep_of_metrics_alone_has_nothing_to_say() -> None:
 def test_the_note_stands_at_the_place(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     machine = lw.loads(PRESS)
     study = lw.study(machine, {"crank.length": "0.1..0.2 m:2"}, metrics=["driver.effort max"], steps=36)
-    assert [note.code for note in study.notes] == ["study.of_positions_off"]
-    crushers = ["gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"]
-    compared = lw.compare(crushers, metrics=["driver.effort max"], steps=36)
-    assert {note.values["cause"].key for note in compared.notes} == {"study.of_positions_off"}
+    assert study["driver.effort max"][1] == pytest.approx(torque(42.0), rel=1e-9) and not study.notes
     path = tmp_path / "press.yaml"
     path.write_text(PRESS)
     arguments = ["sweep", str(path), "--vary", "crank.length=100..200mm:2", "--numbers", "driver.effort max"]

@@ -52,8 +52,9 @@ class Criterion:
     def measure(self, each: Alternative) -> MetricValue | None:
         """The value of an alternative: of a subject, of the shared output, else the governing one. None where it does
         not apply."""
-        if (found := metric_named(self.name, each.asked)) is None or self.metric is None:
-            return _summary(each, self.name)
+        found = None if self.metric is None else metric_named(self.name, each.asked)
+        if found is None:
+            return measured(self.name, each.analysis)
         if self.name in SIZED and not each.takes_flywheel:
             return None
         if not found[0].applies(each.analysis):
@@ -92,20 +93,6 @@ def _better(name: str) -> str | None:
     forces = ("reaction", "couple", "shaking", "input_torque", "power", "load")
     heavy = output.startswith(forces) or output.endswith((".effort", "acceleration"))
     return "lower" if heavy and kind in ("max", "rms", "peak", "range") else None
-
-
-def _summary(each: Alternative, name: str) -> MetricValue:
-    """A summary of an output, from the program of sweeps."""
-    from linkwright.designs.designs import sweep
-
-    found = sweep(
-        each.mechanism, {"gravity.x": [each.mechanism.gravity[0]]}, outputs=[name], steps=each.steps
-    )
-    summary = next(iter(found.summaries))
-    if found.unloaded:
-        raise LinkwrightError(found.unloaded[0])
-    each.notes += [Sentence("cli.about", name=each.label, cause=note) for note in found.notes]
-    return MetricValue(name, "", float(found.summaries[summary][0]), found.dimension(summary))
 
 
 #: What is compared when nobody says what.

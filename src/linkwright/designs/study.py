@@ -35,7 +35,7 @@ from linkwright.formula.threads import chunks
 from linkwright.kinematics.names import place_meant
 from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.by_name import ask, is_summary
+from linkwright.metrics.by_name import ask
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.of_output import Asked
 from linkwright.metrics.outputs import usual_output
@@ -231,7 +231,7 @@ def _criteria(mechanism: Mechanism, metrics: Iterable[str] | str | None) -> list
 
 
 class _Work:
-    """One study: summaries of outputs by one sweep, the other metrics design by design."""
+    """One study: which designs pass by one sweep, then their numbers."""
 
     def __init__(
         self,
@@ -253,25 +253,18 @@ class _Work:
         self.troubled: dict[int, str] = {}
 
     def study(self, ranges: tuple[Range, ...], sampling: str, *, usual: bool) -> Study:
-        summaries = [each.name for each in self.asked if is_summary(each.name)]
-        probe = summaries or ["closeness min" if self._closed() else self._any_output()]
-        numbers = [each for each in self.asked if not is_summary(each.name)]
-        parts = 1 + bool(numbers)
-        first = part_of(self.progress, 0, parts)
+        probe = ["closeness min" if self._closed() else self._any_output()]
+        first = part_of(self.progress, 0, 2)
         found = sweep(self.mechanism, self.columns, outputs=probe, steps=self.steps, progress=first)
-        self.progress = part_of(self.progress, parts - 1, parts)
-        for name in summaries:
-            summary = next(s for s in found.summaries if s.name == name or f"{s.output}.{s.kind}" == name)
-            self.values[name] = found.summaries[summary]
-            self.dimensions[name] = found.dimension(summary)
+        self.progress = part_of(self.progress, 1, 2)
         ok = found.ok.copy()
         if not ok.any():
             raise LinkwrightError(_none_moves(self.count, found.failures()))
         client, designs = current(), np.flatnonzero(ok)
-        if client is not None and numbers and len(designs) > PIECE:
-            self._shared(client, numbers, designs)
-        elif numbers:
-            self.found(numbers, designs, len(designs) >= FEW)
+        if client is not None and len(designs) > PIECE:
+            self._shared(client, self.asked, designs)
+        else:
+            self.found(self.asked, designs, len(designs) >= FEW)
         failures = [*found.failures(), *self._troubles()]
         ok[list(self.troubled)] = False
         if not ok.any():
@@ -282,7 +275,7 @@ class _Work:
         better = {each.name: each.better for each in self.asked}
         return Study(
             self.mechanism, ranges, self.columns, self.values, self.dimensions, better, ok, tuple(failures), sampling,
-            (*(found.notes if summaries else found.of_motion), *self.notes),
+            (*found.of_motion, *self.notes),
         )  # fmt: skip
 
     def found(

@@ -153,13 +153,13 @@ class Analysis:
         for part in parts:
             if part.of_cycle:
                 self._asked[part] = None
-                if not self._meant(part.output).of_course:
+                if not self.meant(part.output).of_course:
                     self._words[words_name(part.output)] = None
 
     def signal(self, output: str) -> Callable[[Motion | Forces], Floats]:
         """An output in words (see ``kinetostatics.named``) as a function of motion or forces, (n,)."""
         kept = self._words
-        meant = self._meant(output)
+        meant = self.meant(output)
         if meant.of_course:
             return partial(self._of_course, output=meant)
 
@@ -230,7 +230,7 @@ class Analysis:
 
     def _tells(self, words: str, machine: Machine) -> bool:
         """Whether the cycle's formulas give an output."""
-        return not self._meant(words).of_course or machine.tells(words)
+        return not self.meant(words).of_course or machine.tells(words)
 
     @cached_property
     def _together(self) -> dict[Summary, SummaryValue | None]:
@@ -258,11 +258,12 @@ class Analysis:
         return float(self.forces.roundings[near.argmin()])
 
     def output(self, words: str) -> Output | None:
-        """The output of the mechanism that words mean."""
-        meant = self._meant(words)
+        """The output that words mean, if it is one of the mechanism's own."""
+        meant = self.meant(words)
         return meant if meant in self.outputs else None
 
-    def _meant(self, words: str) -> Output:
+    def meant(self, words: str) -> Output:
+        """The output that words mean."""
         if words not in self._outputs:
             self._outputs[words] = output_meant(self.motion.mechanism, words)
         return self._outputs[words]
@@ -281,7 +282,7 @@ class Analysis:
             return _FINDERS[type(part)](part, self)
         output, reversals = self.output(part.output), None
         if isinstance(part, StrokeSummary):
-            driven = self._meant(part.by)
+            driven = self.meant(part.by)
             reversals = driven, self.limits(driven)
         elif (
             output and part.kind in OF_LIMITS and self.resolver.closes and self.whole and self.limits(output)

@@ -20,6 +20,7 @@ from linkwright.kinematics.names import PHRASES
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number
 from linkwright.metrics.of_output import OWN, Asked, own_metric
+from linkwright.metrics.outputs import turns_fully
 from linkwright.registry import offered
 
 
@@ -123,7 +124,7 @@ def number_named(name: str, analysis: Analysis, asked: Asked | None = None) -> N
     designs may have such a number. Raises RequestError for another subject that the metric does not have.
     """
     if is_summary(name):
-        return Number("", wanted([name])[:1])
+        return _of_summary(name, analysis)
     found = metric_named(name, asked)
     if found is None or not found[0].fits(analysis):
         return None
@@ -138,20 +139,33 @@ def number_named(name: str, analysis: Analysis, asked: Asked | None = None) -> N
     return replace(number, dimension=number.dimension or metric.dimension, passed_over=passed_over)
 
 
+def _of_summary(name: str, analysis: Analysis) -> Number:
+    """A summary as a number; raises RequestError for the angle of a link that turns through."""
+    (summary,) = wanted([name])
+    meant = analysis.meant(summary.output)
+    if turns_fully(analysis.motion, meant):
+        raise RequestError("study.turns_through", link=meant.owner)
+    place = summary.kind in ("argmin", "argmax")
+    return Number("", (summary,), dimension=analysis.input_dimension if place else meant.dimension)
+
+
 def ask(names: Iterable[str], analysis: Analysis, asked: Asked | None = None) -> None:
-    """Says which summaries of a machine some metrics will want, so that these are found together."""
-    found = {name: metric_named(name, asked) for name in names if not is_summary(name)}
-    metrics = {name: each[0] for name, each in found.items() if each is not None}
-    for name in sorted(metrics, key=lambda name: metrics[name].judged_last):
+    """Says which summaries of a machine some numbers will want, so that these are found together."""
+    found = {name: None if is_summary(name) else metric_named(name, asked) for name in names}
+    for name in sorted(found, key=lambda name: (each := found[name]) is not None and each[0].judged_last):
         with suppress(LinkwrightError):  # where something is in the way, measuring tells
             number = number_named(name, analysis, asked)
             analysis.ask(number.summaries if number else ())
 
 
 def measured(name: str, analysis: Analysis, asked: Asked | None = None) -> MetricValue | None:
-    """The value of a metric of one machine: of the asked subject, or the governing one, that of the shared output
-    before others; None where it has no such number. Raises LinkwrightError for an output that has none here while
-    others have; RequestError for a subject that no design can have."""
+    """The value of a summary, or of a metric, of one machine: of the asked subject, or the governing one, that of the
+    shared output before others; None where it has no such number. Raises LinkwrightError for an output that has none
+    here while others have; RequestError for a subject that no design can have."""
+    if is_summary(name):
+        summary = _of_summary(name, analysis)
+        value, at, exact = summary.measured(analysis)
+        return MetricValue(name, "", value, summary.dimension or "", at=at, exact=exact)
     found = metric_named(name, asked)
     if found is None:
         return None

@@ -132,15 +132,8 @@ class NumbersOfDesigns(MetricsOfDesigns):
         never = (output for number in numbers.values() for output in number.passed_over)
         even = (EFFORT, INERTIA) if self.running else ()
         self.cycle = Cycle(machine, (each for each in summaries if each.of_cycle), limited, never, even)
-        self.kinds = {name: number.dimension or self._kind(number) for name, number in numbers.items()}
+        self.kinds = {name: number.dimension or "" for name, number in numbers.items()}
         self._slopes: dict[tuple[tuple[str, float], ...], tuple[Program, list[str]]] = {}
-
-    def _kind(self, number: Number) -> str:
-        """Name of the dimension of a summary."""
-        (summary,) = number.summaries
-        if summary.kind in ("argmin", "argmax"):
-            return "angle"
-        return self.machine.traces.quantity(summary.output).dimension
 
     @property
     def dimensions(self) -> tuple[str, ...]:
