@@ -2,6 +2,7 @@
 
 import json
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from tests import store
@@ -83,3 +84,41 @@ def test_designs_have_their_units() -> None:
     data = found.data()
     assert data["units"] == {"crank.length": "m"}
     assert all(each["unit"] == "rad" for each in every(data["metrics"].values()))
+
+
+NAMED_LIKE_NUMBERS = """\
+format: 1
+name: named like numbers
+parameters: {value: 1 m, assembled: 3.5 m, quick_return_ratio: 2.5 m}
+frame: {points: {O2: [0 m, 0 m], O4: [3 m, 0 m]}}
+links:
+  crank: {points: [O2, A], length: value}
+  coupler: {points: [A, B], length: assembled}
+  rocker: {points: [O4, B], length: quick_return_ratio}
+driver: {turn: crank, about: O2, speed: 60 rpm}
+drawing: {B: [3.5 m, 2.4 m]}
+"""
+
+
+def test_parameters_named_like_numbers_keep_their_columns() -> None:
+    machine = lw.loads(NAMED_LIKE_NUMBERS)
+    found = lw.study(machine, {"quick_return_ratio": "2.5, 2.6 m"}, metrics=["quick_return_ratio"], steps=36)
+    assert list(found.columns()) == ["quick_return_ratio", "quick_return_ratio (2)"]
+    swept = lw.sweep(machine, {"assembled": [3.5, 3.6]}, outputs=["B.x range"], steps=36)
+    columns = swept.columns()
+    assert columns["assembled"].tolist() == [3.5, 3.6] and columns["assembled (2)"].tolist() == [36, 36]
+    table = lw.sensitivity(machine, of=["B.x range"], by=["value"], steps=36).to_dataframe()
+    assert list(table.columns) == ["value", "value (2)"]
+
+
+def test_an_alternative_named_like_the_first_column_keeps_its_own(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("metric", "other"):
+        text = NAMED_LIKE_NUMBERS.replace("name: named like numbers", f"name: {name}")
+        (tmp_path / f"{name}.yaml").write_text(text, "utf-8")
+    files = [str(tmp_path / f"{name}.yaml") for name in ("metric", "other")]
+    output = tmp_path / "found.csv"
+    assert main(["compare", *files, "--metrics", "swing_angle", "--output", str(output)]) == 0
+    head, row = output.read_text("utf-8").splitlines()
+    assert head == "metric,metric,other" and row.split(",")[1] == row.split(",")[2]

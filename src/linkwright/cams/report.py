@@ -95,7 +95,7 @@ def _remarks(design: CamDesign, say: Say) -> list[str]:
     words = ("cams.acceleration_jumps", "cams.jerk_jumps")
     found = []
     for order, key in zip((2, 3), words, strict=True):
-        places = [f"{math.degrees(each):.6g}°" for each in program.places_of_jumps(order)]
+        places = [shown(each, "angle") for each in program.places_of_jumps(order)]
         if places:
             found.append(say(key, places=", ".join([*places[:MANY], *(["…"] if len(places) > MANY else [])])))
     return found
@@ -163,7 +163,7 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
         place = at(pressure.place, say)
         rows.append(Row("largest_contact_pressure", pressure.value, "pressure", note=place))
     if design.cam.closure != "force":
-        places = ", ".join(f"{math.degrees(each):.6g}°" for each in design.wall_changes)
+        places = ", ".join(shown(each, "angle") for each in design.wall_changes)
         if places:
             remarks.append(say("cams.wall_changes", places=places))
     return Block("forces", say("cams.forces"), rows, remarks)

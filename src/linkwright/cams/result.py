@@ -16,6 +16,7 @@ from linkwright.cams.vibration import residual_amplitude, steady_deviation
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import number
 from linkwright.core.search import ends, first_largest
 from linkwright.core.table import Block
 from linkwright.curves.curve import Curve, Extreme
@@ -251,7 +252,9 @@ class CamDesign(Result):
         contact = self.cam.walls[wall].contact(self.places(points))
         hollow = -float(contact.bend.min())
         if hollow * radius > 1 + 1e-9:
-            raise RequestError("cams.cutter_large", radius=f"{1e3 * radius:.6g}", most=f"{1e3 / hollow:.6g}")
+            raise RequestError(
+                "cams.cutter_large", radius=number(radius, "length"), most=f"{1e3 / hollow:.6g}"
+            )
         path = contact.point + radius * contact.normal
         return np.stack([path.real, path.imag], axis=1)
 

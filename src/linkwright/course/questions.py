@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from xml.sax.saxutils import escape, quoteattr
 
+from linkwright.core.quantity import shown
 from linkwright.core.table import csv_rows
 from linkwright.course.mistakes import RPM, passed
 from linkwright.course.task import Question
@@ -80,23 +81,23 @@ def _speed(law: Law) -> str:
     """A constant speed as machines state it."""
     speed = law.constant_speed
     assert speed is not None
-    return f"{speed / RPM:.6g} rpm" if law.rotary else f"{speed:.6g} m/s"
+    return f"{speed / RPM:.6g} rpm" if law.rotary else shown(speed, "velocity")
 
 
 def _quantity(key: str, value: float) -> str:
     last = key.rpartition(".")[2]
     if last == "mass":
-        return f"{value:.6g} kg"
+        return shown(value, "mass")
     if last == "inertia":
-        return f"{value:.6g} kg·m²"
-    return f"{57.29577951308232 * value:.6g}°" if last == "angle" else f"{1e3 * value:.6g} mm"
+        return shown(value, "inertia")
+    return shown(value, "angle") if last == "angle" else shown(value, "length")
 
 
 def position_text(found: Variants, say: Say) -> str:
     """The position asked for, in words."""
     driver = next(iter(found.task.mechanism.drivers.values()))
     turning = found.task.mechanism.joints[driver.joint].coordinate == "turn"
-    place = f"{57.29577951308232 * found.task.at:.6g}°" if turning else f"{1e3 * found.task.at:.6g} mm"
+    place = shown(found.task.at, "angle") if turning else shown(found.task.at, "length")
     return say("course.position", input=place, link=driver.link)
 
 

@@ -16,7 +16,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_of, require, whole
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
-from linkwright.core.table import columns_table
+from linkwright.core.table import columns_table, unused
 from linkwright.cycle.summary import Summary
 from linkwright.designs.cluster import current, in_order, in_turn
 from linkwright.designs.design_numbers import numbers_of
@@ -95,8 +95,11 @@ class Sweep(Plotted, Frozen):
 
     def columns(self) -> dict[str, Floats | Whole]:
         """Varied dimensions, assembled positions and summaries by name."""
-        named = {summary.name: values for summary, values in self.summaries.items()}
-        return {**self.varied, "assembled": self.assembled, **named}
+        found: dict[str, Floats | Whole] = {**self.varied}
+        found[unused("assembled", found)] = self.assembled
+        for summary, values in self.summaries.items():
+            found[unused(summary.name, found)] = values
+        return found
 
     def dimension(self, summary: Summary) -> str:
         """Name of the dimension of a summary's values; an extreme's place has the input's."""

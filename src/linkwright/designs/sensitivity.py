@@ -13,7 +13,7 @@ from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_of, one_or_more, require
 from linkwright.core.read_only import Frozen, locked
-from linkwright.core.table import Amount, Cell, Table
+from linkwright.core.table import Amount, Cell, Table, unused
 from linkwright.cycle.summary import Summary
 from linkwright.designs.known_loads import known_loads
 from linkwright.designs.objective import over_metrics
@@ -93,7 +93,8 @@ class Sensitivity(Plotted, Frozen):
         from linkwright.kinematics.table import dataframe
 
         table = {"value": np.array(list(self.values.values()))}
-        table |= {by: np.array([row[i] for row in self.gradients.values()]) for i, by in enumerate(self.by)}
+        for i, by in enumerate(self.by):
+            table[unused(by, table)] = np.array([row[i] for row in self.gradients.values()])
         frame = dataframe(table)
         frame.index = [summary.name for summary in self.gradients]
         return frame

@@ -17,7 +17,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
-from linkwright.core.table import columns_table, csv_text
+from linkwright.core.table import columns_table, csv_text, unused
 from linkwright.designs.alternatives import Alternative
 from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import Criterion, criteria
@@ -114,7 +114,7 @@ class Study(Plotted, Frozen):
         found = {f"{each.address}": np.asarray(self.varied[each.address]) for each in self.ranges}
         for name, values in self.metrics.items():
             unit = si_unit(self.dimensions[name])
-            found[f"{name} [{unit}]" if unit else name] = np.asarray(values)
+            found[unused(f"{name} [{unit}]" if unit else name, found)] = np.asarray(values)
         return found
 
     @attached

@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import shown
 from linkwright.elements.model import Drawing, Model, Sizes
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.fields.references import LinkName, PointName
@@ -198,7 +199,7 @@ class CamJoint(HigherPair):
         found = Geometry.of(self, mechanism)
         if not found.reach > 0:
             word = "cam_reach_remedy" if found.most < math.inf else "cam_reach_above"
-            least, most = (f"{1e3 * each:.5g} mm" for each in (found.least, found.most))
+            least, most = (shown(each, "length", 5) for each in (found.least, found.most))
             report(
                 "base_radius",
                 Sentence("joints.cam_reach"),

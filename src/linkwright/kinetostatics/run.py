@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.given import require
 from linkwright.core.outputs import Output, kind_of, row_name
+from linkwright.core.quantity import shown
 from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import over_cycle
@@ -107,7 +108,7 @@ def _contacts_lost(forces: Forces) -> Iterable[Message]:
             name=name,
             kind=joint.word(),
             places=together(places),
-            most=f"{most:.4g} N",
+            most=shown(most, "force", 4),
             where=spelled(where, *unit),
         )
 

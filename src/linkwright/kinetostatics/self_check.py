@@ -10,6 +10,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, kind_of
+from linkwright.core.quantity import shown
 from linkwright.errors import SelfCheckError
 from linkwright.kinematics.reach_sentences import input_at
 from linkwright.words.sentence import Sentence
@@ -109,8 +110,8 @@ class ForceChecks:
             where=input_at(motion, place),
             joint=at.owner,
             link=at.on,
-            gap=f"{left[row, place]:.3g} N",
-            size=f"{largest[place]:.3g} N",
+            gap=shown(left[row, place], "force", 3),
+            size=shown(largest[place], "force", 3),
             check_failed=Sentence("forces.check_failed"),
         )
 

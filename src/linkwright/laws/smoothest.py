@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import number
 from linkwright.errors import Finding, ModelError
 from linkwright.laws.pieces import Pieces
 from linkwright.laws.program import TURN, Program
@@ -181,7 +182,7 @@ class FoundProgram(Program):
         """Points, and dwells: all control values that reach into one are its lift."""
         rows = [space.at(np.array([x]))[0] for x, _ in self.points]
         right = [lift for _, lift in self.points]
-        names = [Sentence("laws.point", place=f"{math.degrees(x):.6g}") for x, _ in self.points]
+        names = [Sentence("laws.point", place=number(x, "angle")) for x, _ in self.points]
         for k, each in enumerate(self.windows):
             if each.least != each.most:
                 continue

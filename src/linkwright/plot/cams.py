@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.cams.curves import RollerCurve
 from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Floats
+from linkwright.core.quantity import number
 from linkwright.errors import require_language
 from linkwright.pictures.drawing import Drawing, bounds, captioned
 from linkwright.pictures.picture import Circle, Line, SvgNode
@@ -155,8 +156,8 @@ def _second(
 
 def _line(design: CamDesign, angle: float, language: str) -> str:
     cam = design.cam
-    degrees = f"{math.degrees(angle):.6g}"
+    degrees = number(angle, "angle")
     if cam.barrel_radius is not None:
-        return say("cams.drawn_barrel", language, radius=f"{1e3 * cam.barrel_radius:.6g}", angle=degrees)
-    radius = f"{1e3 * (cam.base_radius or 0.0):.6g}"
+        return say("cams.drawn_barrel", language, radius=number(cam.barrel_radius, "length"), angle=degrees)
+    radius = number((cam.base_radius or 0.0), "length")
     return say("cams.drawn", language, radius=radius, angle=degrees)

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.quantity import number
 from linkwright.errors import require_language
 from linkwright.gears.gear import Gear
 from linkwright.gears.pair import GearPair
@@ -57,9 +58,9 @@ def draw_rack(rack: Rack, language: str = "en") -> Drawing:
         "gears.rack",
         language,
         teeth=rack.teeth,
-        module=f"{1e3 * rack.module:.6g}",
-        pitch=f"{1e3 * rack.pitch:.7g}",
-        angle=f"{math.degrees(rack.pressure_angle):.6g}",
+        module=number(rack.module, "length"),
+        pitch=number(rack.pitch, "length", 7),
+        angle=number(rack.pressure_angle, "angle"),
     )
     content = [Line(paper, "lw-gear", closed=True), Line(datum, "lw-pitch")]
     wider: Box = (box[0] - 12.0, box[1], box[2] + 12.0, box[3])
@@ -99,9 +100,9 @@ def _lines(pair: GearPair, language: str) -> list[str]:
         language,
         first=pair.pinion.teeth,
         second=pair.wheel.teeth,
-        module=f"{1e3 * pair.pinion.module:.6g}",
-        distance=f"{1e3 * pair.centre_distance:.7g}",
-        angle=f"{math.degrees(pair.working_pressure_angle):.6g}",
+        module=number(pair.pinion.module, "length"),
+        distance=number(pair.centre_distance, "length", 7),
+        angle=number(pair.working_pressure_angle, "angle"),
         ratio=f"{pair.contact_ratio:.4g}",
     )
     said = [each.say(language) if isinstance(each, Message) else each for each in pair.findings]

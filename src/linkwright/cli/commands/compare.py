@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
@@ -92,15 +91,12 @@ def _fluctuation(text: str | None) -> float:
 
 def _show(found: Comparison, options: argparse.Namespace, session: Session) -> None:
     from linkwright.cli.files import curve_columns, curve_data, write_diagram, write_table
-    from linkwright.core.table import csv_text
+    from linkwright.core.table import csv_rows, csv_text
 
-    table: dict[str, Sequence[str] | Sequence[float]] = {
-        "metric": [
-            f"{row.criterion.name} [{unit}]" if unit else row.criterion.name for row, unit in found.units()
-        ]
-    }
-    table |= {label: found.column(i) for i, label in enumerate(found.labels)}
-    write_table(options.output, lambda: csv_text(table), found.data, force=options.force)
+    names = [f"{row.criterion.name} [{unit}]" if unit else row.criterion.name for row, unit in found.units()]
+    columns = [found.column(index) for index in range(len(found.labels))]
+    rows = [["metric", *found.labels], *map(list, zip(names, *columns, strict=True))]
+    write_table(options.output, lambda: csv_rows(rows), found.data, force=options.force)
     curves = options.curves
     write_table(
         curves, lambda: csv_text(curve_columns(found)), lambda: curve_data(found), force=options.force

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 import os
-from math import degrees
 from pathlib import Path
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.core.quantity import number
 
 COUNT = 30
 
@@ -50,6 +50,6 @@ def run(options: argparse.Namespace, session: Session) -> int:
         if found_angles is None:
             session.show(say("variants.spread", ratio=ratio))
         else:
-            low, high = (f"{degrees(each):.3g}" for each in found_angles)
+            low, high = (number(each, "angle", 3) for each in found_angles)
             session.show(say("variants.difficulty", low=low, high=high, ratio=ratio))
     return 0

@@ -260,7 +260,10 @@ class LinkStress(Result):
         most = max(float(each.max()) for each in sizes)
         if gap > LIMIT * most:
             raise SelfCheckError(
-                "beam.not_closed", link=self.problem.link, gap=f"{gap:.3g} N", size=f"{most:.3g} N"
+                "beam.not_closed",
+                link=self.problem.link,
+                gap=shown(gap, "force", 3),
+                size=shown(most, "force", 3),
             )
 
     def _below(self, place: Floats) -> Floats:

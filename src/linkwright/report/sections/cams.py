@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Iterator
 
 import numpy as np
 
 from linkwright.cams.joint import cam_of
 from linkwright.cams.result import CamDesign
+from linkwright.core.quantity import number
 from linkwright.errors import with_remedy
 from linkwright.joints.cam import CamJoint
 from linkwright.laws.program import MotionProgram
@@ -59,13 +59,13 @@ def _speed(case: Case, joint: CamJoint) -> float:
 
 def _program(case: Case, program: MotionProgram, lift_unit: str) -> Table:
     """The segments of a program: from where to where, lifts, law."""
-    say, factor = case.say, 180.0 / math.pi if lift_unit == "°" else 1e3
+    say, kind = case.say, "angle" if lift_unit == "°" else "length"
     ends = list(itertools.pairwise(program.edges))
     lifts = list(itertools.pairwise(program.lift_at_edges))
     rows = tuple(
-        (str(number), *(f"{math.degrees(each):.6g}" for each in place), *(f"{factor * each:.6g}" for each in lift),
+        (str(index), *(number(each, "angle") for each in place), *(number(each, kind) for each in lift),
          literal(say(f"report.law_{law}") if has(f"report.law_{law}") else law))
-        for number, (place, lift, law) in enumerate(zip(ends, lifts, program.law_names, strict=True), 1)
+        for index, (place, lift, law) in enumerate(zip(ends, lifts, program.law_names, strict=True), 1)
     )  # fmt: skip
     head = (
         say("report.position_number"), say("report.from_angle"), say("report.to_angle"),

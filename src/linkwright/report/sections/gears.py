@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
+from linkwright.core.quantity import number
 from linkwright.equations.notation import Fraction, Row, row, sign
 from linkwright.equations.reading import read, read_name
 from linkwright.errors import LinkwrightError
@@ -121,8 +122,8 @@ def _teeth(case: Case, same: Sequence[str], sizes: WheelSizes) -> Iterator[Block
     yield Paragraph(say("report.teeth_text"))
     yield _diameters(case, mesh, names)
     yield Paragraph(
-        say("report.contact", ratio=f"{mesh.contact_ratio:.4g}", distance=f"{1e3 * mesh.centre_distance:.6g}",
-            angle=f"{math.degrees(mesh.working_pressure_angle):.6g}")
+        say("report.contact", ratio=f"{mesh.contact_ratio:.4g}", distance=number(mesh.centre_distance, "length"),
+            angle=number(mesh.working_pressure_angle, "angle"))
     )  # fmt: skip
     for sentence in mesh.findings:
         yield Paragraph(literal(case.sentence(sentence)), "note")
@@ -133,7 +134,7 @@ def _teeth(case: Case, same: Sequence[str], sizes: WheelSizes) -> Iterator[Block
 def _diameters(case: Case, mesh: GearPair, names: list[str]) -> Table:
     say = case.say
     rows = tuple(
-        (literal(name), str(gear.teeth), *(f"{1e3 * each:.6g}" for each in _circles(gear)))
+        (literal(name), str(gear.teeth), *(number(each, "length") for each in _circles(gear)))
         for name, gear in zip(names, (mesh.pinion, mesh.wheel), strict=True)
     )
     head = (say("report.link"), "$z$", "$d$ / mm", "$d_{b}$ / mm", "$d_{a}$ / mm", "$d_{f}$ / mm", "$s$ / mm")

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.quantity import number
 from linkwright.files.write import to_data
 from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.machine_results import Case
@@ -62,7 +63,7 @@ def blocks(case: Case) -> Iterator[Block]:
 def _points(case: Case) -> Table:
     say = case.say
     rows = tuple(
-        (literal(name), f"{1e3 * x:.6g}", f"{1e3 * y:.6g}")
+        (literal(name), number(x, "length"), number(y, "length"))
         for name, (x, y) in case.mechanism.frame.points.items()
     )
     return Table(
@@ -72,17 +73,16 @@ def _points(case: Case) -> Table:
 
 def _links(case: Case) -> Table:
     say, rows = case.say, []
-    for number, (name, link) in enumerate(case.mechanism.links.items(), 1):
-        points = [f"{point} ({1e3 * x:.6g}; {1e3 * y:.6g})" for point, (x, y) in link.points.items()]
+    for index, (name, link) in enumerate(case.mechanism.links.items(), 1):
+        points = [f"{point} {_place(*at)}" for point, at in link.points.items()]
         named = list(link.points)
         size = ""
         if len(named) > 1:
             (ax, ay), (bx, by) = (link.points[each] for each in named[:2])
-            size = f"{1e3 * float(np.hypot(bx - ax, by - ay)):.6g}"
-        x, y = link.centre
-        centre = f"({1e3 * x:.6g}; {1e3 * y:.6g})" if link.mass else "–"
+            size = number(float(np.hypot(bx - ax, by - ay)), "length")
+        centre = _place(*link.centre) if link.mass else "–"
         rows.append(
-            (str(number), literal(name), literal(", ".join(points)), size, _or_dash(link.mass),
+            (str(index), literal(name), literal(", ".join(points)), size, _or_dash(link.mass),
              _or_dash(link.inertia), centre)
         )  # fmt: skip
     head = (
@@ -90,6 +90,10 @@ def _links(case: Case) -> Table:
         "$J_G$ / kg·m²", say("report.mass_centre"),
     )  # fmt: skip
     return Table(say("report.links"), head, tuple(rows), "<<<>>><", "links")
+
+
+def _place(x: float, y: float) -> str:
+    return f"({number(x, 'length')}; {number(y, 'length')})"
 
 
 def _or_dash(value: float) -> str:

@@ -13,6 +13,7 @@ from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.core.progress import current_progress, part_of
+from linkwright.core.quantity import number
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.function_generation.exact import (
@@ -351,7 +352,7 @@ def _short(quality: Quality, nearest: Synthesis, linkage: str, how: str) -> Synt
         rule,
         nearest,
         linkage=note(f"type.{linkage}"),
-        asked=f"{math.degrees(quality.transmission):.5g}",
+        asked=number(quality.transmission, "angle", 5),
         most=f"{math.floor(100 * math.degrees(nearest.best.transmission_angle)) / 100:g}",
         hint=note(f"function.hint.{how}"),
     )

@@ -14,6 +14,7 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import number
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.linkage import Guide, Linkage
@@ -153,7 +154,7 @@ def _none(swing: float, k: float, frame: float, count: int) -> SynthesisError:
     nearest = crank_rocker(possible, near, frame, count=count)
     rule = "crank_rocker.range" if possible < swing else "crank_rocker.none"
     said = {"swing": f"{math.degrees(swing):g}", "k": f"{k:g}", "most": f"{_ratio(border):.5g}"}
-    return refuse(rule, nearest, near_swing=f"{math.degrees(possible):.5g}", near=f"{near:.5g}", **said)
+    return refuse(rule, nearest, near_swing=number(possible, "angle", 5), near=f"{near:.5g}", **said)
 
 
 def _ratio(theta: float) -> float:
@@ -165,7 +166,11 @@ def _not_both(swing: float, k: float, frame: float, rocker: float) -> SynthesisE
     theta = angle_between_limits(k)
     rockers = frame / np.abs(_family(swing, theta)[0][_good(swing, theta)])
     near = float(rockers[np.abs(rockers - rocker).argmin()])
-    told = {"frame": f"{1e3 * frame:.6g}", "rocker": f"{1e3 * rocker:.6g}", "near": f"{1e3 * near:.6g}"}
+    told = {
+        "frame": number(frame, "length"),
+        "rocker": number(rocker, "length"),
+        "near": number(near, "length"),
+    }
     return refuse("crank_rocker.both", crank_rocker(swing, k, frame, rocker=near), **told)
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import number
 from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.function_generation.generators import Stephenson
 from linkwright.synthesis.linkage import Linkage
@@ -84,7 +85,7 @@ def dwell(crank_angle: float, swing_angle: float, *, frame: float = 1.0, seed: i
             with the nearest swing.
     """
     positive(crank_angle=crank_angle, swing_angle=swing_angle, frame=frame)
-    degrees = {"swing": f"{np.degrees(swing_angle):.4g}", "crank": f"{np.degrees(crank_angle):.4g}"}
+    degrees = {"swing": number(swing_angle, "angle", 4), "crank": number(crank_angle, "angle", 4)}
     possible = min(crank_angle, MOST_REST), min(swing_angle, MOST_SWING)
     if possible != (crank_angle, swing_angle):
         try:
@@ -111,7 +112,7 @@ def _none(
         if np.isfinite(fans[i].travel):
             found = _output(arcs, i, fans[i], crank_angle, fans[i].travel, frame)
             if found is not None:
-                near = f"{np.degrees(fans[i].travel):.4g}"
+                near = number(fans[i].travel, "angle", 4)
                 nearest = Synthesis("dwell", (found[0],), "rest", derivation=found[1])
                 return refuse("dwell.none", nearest, near=near, **degrees)
     return refuse("dwell.no_arc", None, **degrees)

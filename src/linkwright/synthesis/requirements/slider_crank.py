@@ -15,6 +15,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
+from linkwright.core.quantity import number
 from linkwright.synthesis.assessment import assess_slider_cranks
 from linkwright.synthesis.build import candidate, slider_crank
 from linkwright.synthesis.result import Derivation, Synthesis, refuse
@@ -130,7 +131,7 @@ def slider_crank_from_transmission(
     positive(stroke=stroke)
     not_negative(offset=offset)
     if not 0 < transmission_angle < math.pi / 2:
-        raise refuse("transmission_range", given=f"{math.degrees(transmission_angle):.6g}")
+        raise refuse("transmission_range", given=number(transmission_angle, "angle"))
     slope = math.cos(transmission_angle)
 
     def excess(crank: float) -> float:

@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.quantity import shown
 from linkwright.equations.matrix import Entries
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import TWO, Term, cosine, root, sine, symbol
@@ -229,7 +230,7 @@ def _search(w: Writer, d: FunctionDerivation) -> None:
     places = w.found.error_name == "length"
     told = {
         "symbol": "s" if places else "ψ",
-        "constant": w.length_text(constant) if places else f"{math.degrees(constant):.6g}°",
+        "constant": w.length_text(constant) if places else shown(constant, "angle"),
     }
     if scale == 1.0:
         step.say(w.words("function.outputs", **told))

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from linkwright.core.quantity import number
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import Pair, symbol, total
 from linkwright.synthesis.free_curve.generate import FreeCurveDerivation
@@ -186,9 +187,7 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
     ]
     w.table(step, "table.rest", columns)
     step.say(
-        w.words(
-            "dwell.rest", error=f"{math.degrees(best.error):.4g}", swing=f"{math.degrees(d.swing_angle):.6g}"
-        )
+        w.words("dwell.rest", error=number(best.error, "angle", 4), swing=number(d.swing_angle, "angle"))
     )
     w.picture("structural_error")
 
