@@ -1,5 +1,8 @@
 """What the generated pages say in Chinese: the meaning of every key of a model file, and of every public name."""
 
+from linkwright.synthesis.catalogue import FORMS as DEMANDS
+from linkwright.synthesis.section import form_of
+
 #: By the English words of the schema.
 MEANINGS = {
     "1, in the first line": "第一行写 format: 1",
@@ -70,6 +73,13 @@ MEANINGS = {
     "own text by the name of a section, Markdown": "各节中自己的文字（Markdown），按节名",
     "own sources": "自己的参考文献",
     "mistakes of the source": "原资料的错误",
+    "where it stands in the source": "在原资料中的位置",
+    "what is printed there": "原资料所印",
+    "what is right": "正确的内容",
+    "why": "理由",
+    "the task": "综合任务",
+    "unit of bare lengths in lists": "列表中不带单位的长度的单位",
+    "unit of bare angles in lists": "列表中不带单位的角的单位",
     "numbered positions of the tables": "数据表的位置",
     "limit position that is number 1, such as rocker min": "作为 1 号位置的极限位置，如 rocker min",
     "coefficient of speed fluctuation": "速度不均匀系数",
@@ -370,3 +380,4 @@ NAMES = {
     "Worked": "一个位置的解题过程",
     "worked": "逐式代入数值的解题过程",
 }
+MEANINGS |= {str(each): each.translate("zh") for each in map(form_of, DEMANDS.values())}

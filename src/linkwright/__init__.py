@@ -153,7 +153,10 @@ ATTACHED.update(
     }
 )
 
-SECTIONS.update({"report": "linkwright.report.settings:SECTION"})
+SECTIONS.update({
+    "report": "linkwright.report.settings:SECTION",
+    "synthesis": "linkwright.synthesis.section:SECTION",
+})  # fmt: skip
 
 #: Public names by the module that has them.
 PUBLIC = offer(__name__)

@@ -78,12 +78,12 @@ def checked_text(text: str, place: str, folder: str = "", source: str = "") -> C
             found = [*found, *_placed(_of_report(problem.report, None, folder), source, root, place)]
         return Checked(found, {"kind": kind})
     if not faults and below(root, "synthesis") is not None:
-        from linkwright.synthesis.tasks import check_section, check_task
+        from linkwright.synthesis.section import check_task, read_section
 
         if is_task(root):
             found, task = check_task(root, place, folder)
             return Checked(found, {"kind": f"synthesis, {task}"})
-        faults, _ = check_section(below(root, "synthesis"), place, folder)
+        _, _, faults = read_section(below(root, "synthesis"), place, folder)
     mechanism, found = read_tree(root, faults, place)
     if mechanism is None:
         return Checked(found)

@@ -19,9 +19,18 @@ if TYPE_CHECKING:
     from linkwright.units import Dimension
 
 K = TypeVar("K", bound="Kind")
-#: Codes and sentences that a section has of its own instead of the general ones: by the key of such a one, from its
-#: values.
-Sayings = Mapping[str, tuple[str, Callable[..., Message]]]
+
+
+@dataclass(frozen=True)
+class Saying:
+    """What a section says of its own instead of a general sentence: a code, and the sentence from the values."""
+
+    code: str
+    said: Callable[..., Message]
+
+
+#: Sayings by the keys of the general sentences.
+Sayings = Mapping[str, Saying]
 
 
 @dataclass(frozen=True)

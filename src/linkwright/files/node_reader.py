@@ -124,8 +124,8 @@ class PlainReader:
         """Note a finding of the catalogue at a node: the problem ``model.KEY`` and its remedy, ``model.KEY_do`` with
         the same ``values`` where no other is given; or what the section says of its own."""
         if key in self._own:
-            code, said = self._own[key]
-            self.error(node, place, said(**values), "", code, severity=severity)
+            own = self._own[key]
+            self.error(node, place, own.said(**values), "", own.code, severity=severity)
             return
         told = remedy or Sentence(f"model.{key}_do", **values)
         self.error(node, place, Sentence(f"model.{key}", **values), told, code, severity=severity)

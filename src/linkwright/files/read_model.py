@@ -40,7 +40,7 @@ HEADER: Mapping[str, Field] = {
     "purpose": WordedText(doc="what it is for, one sentence"),
     "source": WordedText(doc="where it is taken from"),
     "expected": Free(doc="numbers to compare results with; not interpreted"),
-    "synthesis": Free(doc="a task with its demands for the command synthesize"),
+    "synthesis": Free(section="synthesis", doc="a task with its demands for the command synthesize"),
     "report": Free(
         doc="title, own text, order of sections and more for the command report", section="report"
     ),

@@ -12,7 +12,7 @@ from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityErro
 from linkwright.events.position_list import PositionList, known_outputs, of_value
 from linkwright.fields.base import Field, Schema, Text, given, given_by_file, table_schema
 from linkwright.fields.nodes import Node, Scalar
-from linkwright.fields.reading import Place, Reader, Sayings
+from linkwright.fields.reading import Place, Reader, Saying, Sayings
 from linkwright.fields.tables import AsWritten, ByAddress, Either, Keys, Line, Listed, Table
 from linkwright.files.reader import read_data
 from linkwright.files.write import flow
@@ -35,14 +35,14 @@ LIMITS = ("min", "max")
 #: Most numbered positions.
 MOST = 10_000
 SAYINGS: Sayings = {
-    "unknown_key": (
+    "unknown_key": Saying(
         "unknown-key",
         lambda key_, names, **_: Sentence("report.unknown_key", name=key_, hint=offered(key_, names)),
     ),
-    "missing_key": ("missing-key", lambda key_, **_: Sentence("report.lacks", name=key_)),
-    "where_list": ("not-a-list", lambda **_: Sentence("report.not_a_list")),
-    "where_mapping": ("not-a-mapping", lambda **_: Sentence("report.not_a_mapping")),
-    "where_text": ("not-a-text", lambda **_: Sentence("report.not_a_text")),
+    "missing_key": Saying("missing-key", lambda key_, **_: Sentence("report.lacks", name=key_)),
+    "where_list": Saying("not-a-list", lambda **_: Sentence("report.not_a_list")),
+    "where_mapping": Saying("not-a-mapping", lambda **_: Sentence("report.not_a_mapping")),
+    "where_text": Saying("not-a-text", lambda **_: Sentence("report.not_a_text")),
 }
 
 
@@ -104,7 +104,7 @@ class SectionName(Field):
         if name is None or name in self.names:
             return name
         hint = listed(name, self.names)
-        reader.error(node, place, Sentence("report.no_section", name=name, hint=hint), code="no-section")
+        reader.error(node, place, Sentence("report.no_section", name=name, hint=hint), "", "no-section")
         return None
 
     def shape(self) -> Schema:
@@ -133,7 +133,7 @@ class Position(Line):
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
         if isinstance(node, Scalar):
             return super().read(reader, node, place, given)
-        reader.error(node, place, Sentence("report.not_a_position"), code="not-a-position")
+        reader.error(node, place, Sentence("report.not_a_position"), "", "not-a-position")
         return None
 
 
@@ -335,7 +335,7 @@ class _Reading:
         try:
             return picture_of(name, self.folder).svg if name else ""
         except LinkwrightError as error:
-            self.note(place, error.sentence, "wrong-picture")
+            self.note(place, error.sentence, code="wrong-picture")
             return ""
 
     def position(self, text: str, place: str) -> None:

@@ -1,0 +1,262 @@
+"""The section ``synthesis`` of a file: a task with its demands, read as fields."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import field
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from linkwright import units
+from linkwright.core.dataclass import dataclass
+from linkwright.core.expressions import amount
+from linkwright.errors import Finding, QuantityError, with_remedy
+from linkwright.fields.base import Field, Schema, Word, quantity_schema
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.fields.reading import Place, Reader, Saying, Sayings
+from linkwright.files.read_model import TASK_KEYS
+from linkwright.files.reader import Reader as FileReader
+from linkwright.registry import listed, nearest
+from linkwright.synthesis.result import note
+from linkwright.words import Message
+from linkwright.words.sentence import Sentence
+
+if TYPE_CHECKING:
+    from linkwright.synthesis.catalogue import Task
+
+#: The line that gives the unit of bare numbers in lists, by their dimension.
+UNIT_KEYS = {"length": "unit: mm", "angle": "angle_unit: deg"}
+#: Forms of values: dimensions of the entries, and how deep the list is.
+SHAPES: Mapping[str, tuple[tuple[str, ...], int]] = {
+    "length": (("length",), 0),
+    "angle": (("angle",), 0),
+    "number": (("dimensionless",), 0),
+    "count": (("dimensionless",), 0),
+    "point": (("length", "length"), 1),
+    "angles": (("angle",), 1),
+    "lengths": (("length",), 1),
+    "points": (("length", "length"), 2),
+    "window": (("length", "length"), 2),
+    "poses": (("length", "length", "angle"), 2),
+}
+_ANY: Schema = {"type": ["string", "number"]}
+
+
+def tasks() -> dict[str, Task]:
+    """All tasks by name."""
+    from linkwright.synthesis.catalogue import TASKS
+
+    return dict(TASKS)
+
+
+def form_of(form: str) -> Message:
+    """A form in words."""
+    return Sentence(f"synthesize.task.form.{form}")
+
+
+@dataclass(frozen=True)
+class UnitOf(Field):
+    """The unit of bare numbers in lists."""
+
+    dimension: str
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+        unit = node.text if isinstance(node, Scalar) else ""
+        try:
+            units.parse(f"1 {unit}", self.dimension)
+        except QuantityError as error:
+            reader.error(node, place, error.sentence, "", error.code)
+            return None
+        return unit
+
+    def shape(self) -> Schema:
+        return {"type": "string"}
+
+
+@dataclass(frozen=True)
+class Demand(Field):
+    """What a task demands, in one of the forms: a word, a file's name, quantities in lists."""
+
+    form: str
+    #: Keys of the same table that give units of bare numbers.
+    given_units: Mapping[str, str] = field(default_factory=lambda: {"length": "unit", "angle": "angle_unit"})
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        if self.form not in SHAPES:
+            flag = self.form == "flag"
+            if not isinstance(node, Scalar) or (flag and node.text not in ("true", "false")):
+                return self._wrong(reader, node, place)
+            return node.text == "true" if flag else node.text
+        dimensions, depth = SHAPES[self.form]
+        found = self._nested(partial(self._quantity, reader, place, given, set()), reader, node, place,
+                             dimensions, depth)  # fmt: skip
+        if self.form != "count" or found is None:
+            return found
+        return int(found) if found.is_integer() else self._wrong(reader, node, place)
+
+    def _nested(
+        self, one: Any, reader: Reader, node: Node, place: Place, dimensions: tuple[str, ...], depth: int
+    ) -> Any:
+        """Quantities in lists; each is read by ``one``."""
+        if depth == 0:
+            return one(node, dimensions[0])
+        if not isinstance(node, Sequence):
+            return self._wrong(reader, node, place)
+        if depth == 2 or len(dimensions) == 1:
+            return [self._nested(one, reader, each, place, dimensions, depth - 1) for each in node.items]
+        count = len(node.items)
+        if count != len(dimensions) and not (self.form == "poses" and count == 2):
+            return self._wrong(reader, node, place)
+        values = [one(each, kind) for each, kind in zip(node.items, dimensions, strict=False)]
+        return [*values, *[math.nan] * (len(dimensions) - count)]
+
+    def _quantity(
+        self,
+        reader: Reader,
+        place: Place,
+        given: Mapping[str, Any],
+        bare: set[str],
+        node: Node,
+        dimension: str,
+    ) -> float | None:
+        """One quantity; the first ``bare`` number of a list is told that the unit of all can be given at once."""
+        if not isinstance(node, Scalar):
+            self._wrong(reader, node, place)
+            return None
+        unit = given.get(self.given_units.get(dimension, ""))
+        try:
+            return amount(f"{node.text} {unit}" if unit and _is_bare(node.text) else node.text, dimension)
+        except QuantityError as error:
+            told = error.sentence
+            if error.code == "missing-unit" and SHAPES[self.form][1]:
+                if dimension in bare:
+                    return None
+                bare.add(dimension)
+                told = with_remedy(error.message, note("task.unit_of_all", line=UNIT_KEYS[dimension]))
+            reader.error(node, place, told, "", error.code)
+            return None
+
+    def _wrong(self, reader: Reader, node: Node, place: Place) -> None:
+        kind = "model.a_list" if isinstance(node, Sequence) else "model.a_mapping"
+        said = node.text if isinstance(node, Scalar) else Sentence(kind)
+        demand = place.key.rpartition(".")[2]
+        told = note("task.value", demand=demand, form=form_of(self.form), given=said)
+        reader.error(node, place, told, "", "type")
+
+    def shape(self) -> Schema:
+        if self.form == "flag":
+            return {"type": "boolean"}
+        if self.form not in SHAPES:
+            return {"type": "string"}
+        dimensions, depth = SHAPES[self.form]
+        found: Schema = _ANY if depth else quantity_schema(dimensions[0])
+        for _ in range(depth):
+            found = {"type": "array", "items": found}
+        return found
+
+
+@dataclass(frozen=True)
+class TaskSection(Field):
+    """A task's name with its demands (SI)."""
+
+    def read(
+        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+    ) -> tuple[str, dict[str, Any]] | None:
+        section = reader.mapping(node, place)
+        if section is None:
+            return None
+        said, known = section.get("task"), tasks()
+        task = said.text if isinstance(said, Scalar) else ""
+        if task not in known:
+            near = nearest(task, list(known))
+            told = note("task", task=task, known=near or tuple(known))
+            reader.error(said or section, place.child("task"), told, "", "unknown-task")
+            return None
+        with reader.saying(_sayings(known[task], task)):
+            demands = reader.table(section, place, _fields(known[task])) or {}
+        for key in ("task", "unit", "angle_unit"):
+            demands.pop(key, None)
+        places = section.get("outputs")
+        if places is not None and demands.get("linkage") == "slider_crank":
+            told = note("function.places")
+            reader.error(places, place.child("outputs"), told, "", "angles-for-places")
+        return task, demands
+
+    def shape(self) -> Schema:
+        fields = {key: each for task in tasks().values() for key, each in _fields(task).items()}
+        of_task = [
+            {
+                "if": {"properties": {"task": {"const": name}}},
+                "then": {"propertyNames": {"enum": list(_fields(task))}, "required": list(task.needed)},
+            }
+            for name, task in tasks().items()
+        ]
+        properties = {key: each.schema() for key, each in fields.items()}
+        return {"type": "object", "properties": properties, "required": ["task"], "allOf": of_task}
+
+
+#: The section of a file.
+SECTION = TaskSection(doc="a task with its demands for the command synthesize")
+
+
+def _fields(task: Task) -> dict[str, Field]:
+    needed = task.needed
+    return {
+        "task": Word(tuple(tasks()), doc="the task"),
+        "unit": UnitOf("length", doc="unit of bare lengths in lists"),
+        "angle_unit": UnitOf("angle", doc="unit of bare angles in lists"),
+        **{
+            key: Demand(form, required=key in needed, doc=str(form_of(form)))
+            for key, form in task.demands.items()
+        },
+    }
+
+
+def _sayings(task: Task, name: str) -> Sayings:
+    """What is said of demands that the task does not have, and of those that it lacks."""
+    known = task.demands
+    return {
+        "unknown_key": Saying(
+            "unknown-demand",
+            lambda key_, **_: note("task.unknown", demand=key_, task=name, hint=listed(key_, known)),
+        ),
+        "missing_key": Saying(
+            "missing-demand",
+            lambda key_, **_: note("task.missing", task=name, demand=key_, form=form_of(known[key_])),
+        ),
+    }
+
+
+def read_section(
+    section: Node | None, name: str, folder: str = ""
+) -> tuple[str, dict[str, Any], list[Finding]]:
+    """Task, demands (SI) and findings of a section; files that the demands name lie in ``folder``."""
+    reader = FileReader(name)
+    found = None
+    if isinstance(section, MappingNode):
+        found = SECTION.read(reader, section, Place("synthesis", "synthesis"), {})
+    else:
+        reader.mapping(section, "synthesis")
+    task, demands = found or ("", {})
+    if demands.get("file"):
+        demands["file"] = os.path.join(folder, demands["file"])
+    return task, demands, reader.findings
+
+
+def check_task(root: Node | None, name: str, folder: str = "") -> tuple[list[Finding], str]:
+    """Findings about a tree that holds a task and no model, and the task."""
+    assert isinstance(root, MappingNode)
+    reader = FileReader(name)
+    root, _ = reader.unknown_keys(root, Place("", ""), list(TASK_KEYS))
+    task, _, found = read_section(root.get("synthesis"), name, folder)
+    return [*reader.findings, *found], task
+
+
+def _is_bare(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
