@@ -29,7 +29,13 @@ class Entries:
     @classmethod
     def of(cls, matrix: Floats | Sequence[str]) -> Entries:
         """Of numbers (m, n), or of names (a column); numbers that are rounding beside the largest are zero."""
-        return cls(tuple(map(tuple, _texts(matrix))))
+        if not isinstance(matrix, np.ndarray):
+            return cls(tuple((str(each),) for each in matrix))
+        least = ROUNDING * (float(np.abs(matrix).max()) if matrix.size else 0.0)
+        texts = (
+            ("0" if abs(c) <= least else f"{c:.6g}" for c in row) for row in np.atleast_2d(matrix).tolist()
+        )
+        return cls(tuple(map(tuple, texts)))
 
     @property
     def lines(self) -> list[str]:
@@ -74,43 +80,21 @@ def side_by_side(
     return Written(text, tuple(map(row, sides)), tuple(table))
 
 
-@dataclass(frozen=True)
-class Matrices:
-    """Matrices beside each other, each with its symbol: ``("A", rows)`` of numbers, or of names (a column)."""
-
-    first: tuple[str, Floats | Sequence[str]]
-    rest: tuple[tuple[str, Floats | Sequence[str]], ...] = ()
-    rows: tuple[str, ...] = ()
-
-    def written(self) -> Written:
-        """One matrix as ``K = [ … ]``; several as ``A·X = B``, the last one behind the equal sign."""
-        own = [Entries.of(matrix) for _, matrix in (self.first, *self.rest)]
-        if not self.rest:
-            return side_by_side([self.first[0], "=", own[0]], self.rows)
-        parts: list[Entries | str] = [*own[:-1], "=", own[-1]]
-        wide = len(own) == 3 and len(own[0].rows[0]) > WIDEST
-        return side_by_side(parts, self.rows, self._cells(own) if wide else ())
-
-    def _cells(self, own: Sequence[Entries]) -> tuple[tuple[str, ...], ...]:
-        """A·X = B as rows of a table: names of the unknowns over the columns of A, then B; zeros left out."""
-        a, x, b = (each.rows for each in own)
-        head = ("", *(each[0] for each in x), self.rest[-1][0])
-        body = (
-            (name, *("" if each == "0" else each for each in row), *right)
-            for name, row, right in zip(self.rows, a, b, strict=True)
-        )
-        return (head, *body)
+def named_matrix(symbol: str, matrix: Floats) -> Written:
+    """A matrix with its symbol: ``K = [ … ]``."""
+    return side_by_side([symbol, "=", Entries.of(matrix)])
 
 
-def _texts(matrix: Floats | Sequence[str]) -> list[list[str]]:
-    """The entries as they are printed."""
-    if not isinstance(matrix, np.ndarray):
-        return [[str(each)] for each in matrix]
-    largest = float(np.abs(matrix).max()) if matrix.size else 0.0
-    return [
-        ["0" if abs(c) <= ROUNDING * largest else f"{c:.6g}" for c in row]
-        for row in np.atleast_2d(matrix).tolist()
-    ]
+def system(a: Floats, unknowns: Sequence[str], b: Floats, rows: Sequence[str]) -> Written:
+    """A·X = B with the names of the unknowns and of the rows; as a table for reports where it is wide: names of the
+    unknowns over the columns of A, then B, zeros left out."""
+    left, names, right = Entries.of(a), Entries.of(unknowns), Entries.of(b[:, None])
+    table: list[tuple[str, ...]] = []
+    if len(unknowns) > WIDEST:
+        table.append(("", *unknowns, "B"))
+        for name, factors, known in zip(rows, left.rows, right.rows, strict=True):
+            table.append((name, *("" if each == "0" else each for each in factors), *known))
+    return side_by_side([left, names, "=", right], rows, table)
 
 
 def _entry(text: str) -> Row:

@@ -209,6 +209,10 @@ class Step:
         self.items.append(item)
         return replace(result, amount=0.0) if item.result == "0" else result
 
+    def define(self, name: str, formula: Term, what: str | Output, *, degrees: bool = False) -> Term:
+        """Adds a quantity by its formula alone."""
+        return self.find(symbol(name, formula.value, degrees=degrees), formula, what)
+
     def find_pair(self, name: str, values: complex, formula: Pair, force: Output | None) -> Pair:
         """Adds both components of a force."""
         found = []

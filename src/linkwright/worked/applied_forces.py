@@ -74,7 +74,7 @@ class KnownForces:
     def _named(self, step: Step, name: str, formula: Term, unit: str) -> Term:
         if formula.is_zero:
             return ZERO
-        return step.find(symbol(name, formula.value), formula, unit)
+        return step.define(name, formula, unit)
 
     def _gravity(self) -> list[Term]:
         named = zip("xy", self.book.mechanism.gravity, strict=True)

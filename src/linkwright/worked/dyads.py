@@ -65,17 +65,10 @@ class DyadWriter:
             return size, ZERO if ahead.amount > 0 else self.book.degrees(math.pi)
         parts = []
         for name, part in (("u", ahead), ("w", aside)):
-            if part.is_zero:
-                parts.append(ZERO)
-                continue
-            term = symbol(f"{name}_{sub}", part.value)
-            parts.append(
-                self.step.give(term, "m") if part.op == "symbol" else self.step.find(term, part, "m")
-            )
+            known = part.op == "symbol" and self.step.give(symbol(f"{name}_{sub}", part.value), "m")
+            parts.append(known or (ZERO if part.is_zero else self.step.define(f"{name}_{sub}", part, "m")))
         self.step.find(size, root(parts[0].squared + parts[1].squared), "m")
-        lean = direction(parts[1], parts[0])
-        own = symbol(f"ε_{sub}", lean.value, degrees=True)
-        return size, self.step.find(own, lean, "°")
+        return size, self.step.define(f"ε_{sub}", direction(parts[1], parts[0]), "°", degrees=True)
 
     def apart(self, p: Spot, q: Pair) -> tuple[Pair, Term]:
         """The vector d from P to Q and the square of its length."""
@@ -84,7 +77,7 @@ class DyadWriter:
         self.step.find(named.x, d.x, "m")
         self.step.find(named.y, d.y, "m")
         square = named.x.squared + named.y.squared
-        return named, self.step.find(symbol("d²", square.value), square, "m²")
+        return named, self.step.define("d²", square, "m²")
 
     def root(self, square: Term, unit: str) -> Term:
         value = square.value
@@ -107,16 +100,13 @@ class DyadWriter:
         start = attach(steps[0], steps[0].parent, self.book)
         base = self.book.spot(steps[0].parent, start)
         way = trail(self.book, steps, steps[0].parent, start, self.tip.key, local=False)
-        zero = Pair(
-            symbol(f"x_{name}", (base.place.x + way.reach.x).value),
-            symbol(f"y_{name}", (base.place.y + way.reach.y).value),
-        )
         if way.reach == NOWHERE:
             return base.place, way
         self.step.say(self.book.say("worked.zero_slide", name=name, b=self.tip.label))
-        self.step.find(zero.x, base.place.x + way.reach.x, "m")
-        self.step.find(zero.y, base.place.y + way.reach.y, "m")
-        return zero, way
+        zero = base.place + way.reach
+        return Pair(
+            self.step.define(f"x_{name}", zero.x, "m"), self.step.define(f"y_{name}", zero.y, "m")
+        ), way
 
 
 @singledispatch
@@ -132,8 +122,7 @@ def _(dyad: RRR, write: DyadWriter) -> bool:
     r1, lean_1 = write.length(p, way_1.reach)
     r2, lean_2 = write.length(q, way_2.reach)
     d, dd = write.apart(p, q.place)
-    t_is = dd + r1.squared - r2.squared
-    t = step.find(symbol("t", t_is.value), t_is, "m²")
+    t = step.define("t", dd + r1.squared - r2.squared, "m²")
     rho = write.root(FOUR * r1.squared * dd - t.squared, "m²")
     write.note_mode("mode_rrr", p, q, tip)
     side = d.perp.times(rho)
@@ -154,8 +143,8 @@ def _(dyad: RRP, write: DyadWriter) -> bool:
     zero, way = write.frame_chain(write.ends[1], f"{tip.label}0")
     guide, n, _ = way.slides[0]
     f = p.place - zero
-    h = step.find(symbol("h", n.cross(f).value), n.cross(f), "m")
-    along = step.find(symbol("f", n.dot(f).value), n.dot(f), "m")
+    h = step.define("h", n.cross(f), "m")
+    along = step.define("f", n.dot(f), "m")
     rho = write.root(r.squared - h.squared, "m")
     write.note_mode("mode_rrp", p, p, tip)
     slide = write.book.slide(guide.joint)
@@ -173,17 +162,16 @@ def _(dyad: RPR, write: DyadWriter) -> bool:
     p, joint, way = write.arm(write.ends[0])
     guide, m, heading = way.slides[0]
     aside, ahead = m.cross(way.reach), m.dot(way.reach)
-    e = ZERO if aside.is_zero else step.find(symbol("e", aside.value), aside, "m")
-    b = ZERO if ahead.is_zero else step.find(symbol("b", ahead.value), ahead, "m")
+    e = ZERO if aside.is_zero else step.define("e", aside, "m")
+    b = ZERO if ahead.is_zero else step.define("b", ahead, "m")
     d, dd = write.apart(p, tip.place)
     rho = write.root(dd - e.squared, "m")
     write.note_mode("mode_rpr", p, tip, tip)
     reach = rho if mode > 0 else -rho
     slide = write.book.slide(guide.joint)
     write.placing.displacement(step, slide, reach - b)
-    cosine_is, sine_is = (reach * d.x + e * d.y) / dd, (reach * d.y - e * d.x) / dd
-    nx = step.find(symbol("n_x", cosine_is.value), cosine_is, "")
-    ny = step.find(symbol("n_y", sine_is.value), sine_is, "")
+    nx = step.define("n_x", (reach * d.x + e * d.y) / dd, "")
+    ny = step.define("n_y", (reach * d.y - e * d.x) / dd, "")
     write.placing.angle(step, joint.child, direction(ny, nx) - heading)
     return True
 
@@ -195,12 +183,8 @@ def _slides(write: DyadWriter, *, apart: bool) -> bool:
     zero_2, way_2 = write.frame_chain(write.ends[1], f"{tip.label}2")
     (g1, n1, _), (g2, n2, _) = [*way_1.slides, *way_2.slides]
     f = zero_2 - zero_1
-    f = Pair(
-        step.find(symbol("f_x", f.x.value), f.x, "m"),
-        step.find(symbol("f_y", f.y.value), f.y, "m"),
-    )
-    sine_is = n1.cross(n2)
-    det = step.find(symbol("k", sine_is.value), sine_is, "")
+    f = Pair(step.define("f_x", f.x, "m"), step.define("f_y", f.y, "m"))
+    det = step.define("k", n1.cross(n2), "")
     write.placing.displacement(step, write.book.slide(g1.joint), f.cross(n2) / det)
     write.placing.displacement(
         step, write.book.slide(g2.joint), (f.cross(n1) if apart else n1.cross(f)) / det

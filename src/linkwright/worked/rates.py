@@ -32,17 +32,14 @@ def name_matrix(step: Step, group: Group, cuts: Sequence[Closure]) -> System:
     for i, row in enumerate(formulas, 1):
         named = []
         for j, entry in enumerate(row, 1):
-            term = symbol(f"J{i}{j}", entry.value)
             unit = "m" if group.unknowns[j - 1].turns else ""
-            named.append(ZERO if entry.is_zero else step.find(term, entry, unit))
+            named.append(ZERO if entry.is_zero else step.define(f"J{i}{j}", entry, unit))
         entries.append(named)
     if len(entries) != 2:
         return System(entries, None)
     (a, b), (c, d) = entries
-    value = a * d - b * c
-    det = symbol("det J", value.value)
     turning = sum(each.turns for each in group.unknowns)
-    return System(entries, step.find(det, value, ("", "m", "m²")[turning]))
+    return System(entries, step.define("det J", a * d - b * c, ("", "m", "m²")[turning]))
 
 
 def solve(
@@ -136,12 +133,8 @@ class RateWriter:
         found = []
         step.say(self.book.say("worked.right_sides"))
         for i, gap in enumerate(gaps, 1):
-            term = symbol(f"{letter}{i}", gap.value)
-            if gap.is_zero:
-                step.find(term, gap, unit)
-                found.append(ZERO)
-            else:
-                found.append(step.find(term, gap, unit))
+            term = step.define(f"{letter}{i}", gap, unit)
+            found.append(ZERO if gap.is_zero else term)
         return found
 
     def _bend(self, step: Step, closure: ChainClosure) -> Pair:

@@ -236,8 +236,7 @@ class Reactions:
                     at = book.spot(hung.parent, hung.joint)
                     parts.append((at.place - pivot.place).cross(self._resultant(list(subtree(group, hung)))))
             formula, unit = -total(parts), "N·m"
-        term = symbol(f"Q{number}", formula.value)
-        step.find(term, formula, unit)
+        term = step.define(f"Q{number}", formula, unit)
         return ZERO if formula.is_zero else term
 
     def _resultant(self, links: list[str]) -> Pair:
@@ -343,9 +342,9 @@ class Reactions:
         size = root(force.x.squared + force.y.squared)
         if force.x.is_zero or force.y.is_zero or not size.value:
             return
-        step.find(symbol(name, size.value), size, output or "N")
+        step.define(name, size, output or "N")
         turn = direction(force.y, force.x)
-        step.find(symbol(f"∠{name}", turn.value, degrees=True), turn, "°")
+        step.define(f"∠{name}", turn, "°", degrees=True)
 
     def shares(self, number: int) -> Step | None:
         """What every link carries on pins of several links."""

@@ -74,9 +74,9 @@ def power_step(forces: Forces, book: Book, known: KnownForces, number: int) -> S
         parts = [each.force.dot(each.velocity) + each.couple * book.omega(link) for each in acting]
         formula = total(parts)
         if not formula.is_zero:
-            powers.append(step.find(symbol(f"P{n}", formula.value), formula, "W"))
+            powers.append(step.define(f"P{n}", formula, "W"))
     whole = total(powers)
-    sum_of = step.find(symbol("ΣP", whole.value), whole, "W") if powers else ZERO
+    sum_of = step.define("ΣP", whole, "W") if powers else ZERO
     _drivers(step, forces, book, sum_of)
     return step
 

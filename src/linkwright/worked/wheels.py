@@ -209,8 +209,7 @@ class Wheels:
         across, pressed = self._parts(step, cut, contact, force)
         pushed = along.perp.times(across)
         if not pressed.is_zero:
-            named = symbol(f"S_{cut.joint}", pressed.value)
-            pushed = pushed + along.times(step.find(named, pressed, "N"))
+            pushed = pushed + along.times(step.define(f"S_{cut.joint}", pressed, "N"))
         arm = self._arm(step, cut, contact)
         if contact.strands:
             return pushed, place, arm * force

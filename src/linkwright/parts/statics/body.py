@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import field, replace
 from functools import cached_property
 from pathlib import Path
@@ -14,7 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
 from linkwright.core.table import Block, Row
-from linkwright.equations.matrix import Matrices
+from linkwright.equations.matrix import system
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile, Word, given, quantity_schema
@@ -263,11 +263,6 @@ class Reactions(Result):
         own = np.where([".M" in name for name in state.names], state.scale, 1.0)
         return state.columns * rows[:, None] / own, -state.load * rows
 
-    def matrices(self, rows: Sequence[str]) -> Matrices:
-        """The system with the names of its unknowns."""
-        a, b = self.matrix
-        return Matrices(("A", a), (("X", list(self.values)), ("B", b[:, None])), tuple(rows))
-
     def blocks(self, say: Say) -> list[Block]:
         rows = [Row(name, value, _dimension(name), name) for name, value in self.values.items()]
         return [Block("reactions", say("statics.reactions"), rows)]
@@ -291,7 +286,8 @@ class Reactions(Result):
             rest = "" if not load else f" {'+' if load > 0 else '−'} {number(abs(load))}"
             balance.law(f"{name} = {sides.removeprefix('+ ') or '0'}{rest} = 0")
         found.say(say("statics.matrix"))
-        found.items.append(self.matrices(names).written())
+        a, b = self.matrix
+        found.items.append(system(a, list(self.values), b, names))
         for name, value in self.values.items():
             put(found, name, "", value, _dimension(name))
         return [balance, found]

@@ -13,7 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number, shown
 from linkwright.core.table import Block, Row
-from linkwright.equations.matrix import Matrices
+from linkwright.equations.matrix import system
 from linkwright.equations.reading import measured
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding
@@ -404,9 +404,7 @@ class PointEquilibrium(Result):
         for i, row in enumerate(rows):
             sums.law(f"{row} = {_row(a[i], list(self.magnitudes), -b[i])} = 0")
         solved.say(say("statics.matrix"))
-        solved.items.append(
-            Matrices(("A", a), (("X", list(self.magnitudes)), ("B", b[:, None])), tuple(rows)).written()
-        )
+        solved.items.append(system(a, list(self.magnitudes), b, rows))
         for name, value in self.magnitudes.items():
             put(solved, name, "", value, "force")
             if value < 0:

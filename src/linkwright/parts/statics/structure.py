@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.table import Block, Row
-from linkwright.equations.matrix import Matrices
+from linkwright.equations.matrix import system
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError
 from linkwright.kinematics.constraint_equations import ConstraintEquations
@@ -147,10 +147,7 @@ def balance_step(balance: Balance | None, number: str, say: Say) -> Step:
     step.say(say("statics.matrix_order", links=", ".join(links)))
     acting = ", ".join(f"{name} → {link}" for name, link in zip(balance.names, balance.on, strict=True))
     step.say(say("statics.matrix_of", names=acting))
-    matrices = Matrices(
-        ("A", balance.a), (("X", list(balance.names)), ("B", balance.b[:, None])), balance.rows
-    )
-    step.items.append(matrices.written())
+    step.items.append(system(balance.a, list(balance.names), balance.b, balance.rows))
     for name, unit, value in zip(balance.names, balance.units, balance.x.tolist(), strict=True):
         put(step, name, "", value, "force" if unit == "N" else "torque")
     return step

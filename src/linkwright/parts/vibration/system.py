@@ -15,7 +15,7 @@ from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
 from linkwright.core.table import Block, Row
-from linkwright.equations.matrix import Matrices
+from linkwright.equations.matrix import named_matrix
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
@@ -469,7 +469,7 @@ class Vibration(Result):
             ("K", self.linear.stiffness),
         ):
             if symbol != "C" or matrix.any():
-                matrices.items.append(Matrices((symbol, matrix)).written())
+                matrices.items.append(named_matrix(symbol, matrix))
         one = len(self.frequencies) == 1
         modes.say(say("vibration.characteristic"))
         modes.law("det(K − ω²·M) = 0")
@@ -482,7 +482,7 @@ class Vibration(Result):
                 put(modes, f"ζ{i + 1}", "c/(2·√(k·m))" if one else "", float(self.damping_ratios[i]), of=of)
         if not one:
             for i in range(len(self.frequencies)):
-                modes.items.append(Matrices((f"φ{i + 1}", self.shapes[:, i : i + 1])).written())
+                modes.items.append(named_matrix(f"φ{i + 1}", self.shapes[:, i : i + 1]))
         found = [matrices, modes]
         if self.harmonic:
             forced = Step("3", say("vibration.step_forced"))

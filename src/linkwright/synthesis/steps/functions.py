@@ -199,7 +199,7 @@ def _five_pairs(w: Writer, d: FunctionDerivation) -> None:
     for term in (a, b, c):
         step.give(term, w.unit)
     for name, formula in zip(P, _coefficients((a, b, c, frame)), strict=True):
-        step.find(symbol(name, formula.value), formula, "")
+        step.define(name, formula, "")
 
 
 def _lengths(w: Writer, d: FunctionDerivation) -> tuple[Term, Term, Term, Term]:
