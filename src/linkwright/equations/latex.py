@@ -16,21 +16,10 @@ from linkwright.equations.notation import (
     Row,
     Script,
 )
+from linkwright.equations.signs import FUNCTIONS, SYMBOLS
 
-_FUNCTIONS = ("cos", "sin", "tan", "arccos", "arcsin", "arctan", "ln", "exp", "min", "max", "det")
-_GREEK = dict(
-    zip(
-        "αβγδεζηθικλμνξπρστυφχψωΓΔΘΛΞΠΣΦΨΩ",
-        ("alpha", "beta", "gamma", "delta", "varepsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu",
-         "nu", "xi", "pi", "rho", "sigma", "tau", "upsilon", "varphi", "chi", "psi", "omega", "Gamma", "Delta",
-         "Theta", "Lambda", "Xi", "Pi", "Sigma", "Phi", "Psi", "Omega"), strict=True,
-    )
-)  # fmt: skip
-_SIGNS = {
-    "−": "-", "⋅": r"\cdot", "×": r"\times", "±": r"\pm", "∓": r"\mp", "≤": r"\le", "≥": r"\ge", "≈": r"\approx",
-    "→": r"\to", "∈": r"\in", "…": r"\ldots", "∑": r"\sum", "∫": r"\int", "∂": r"\partial", "∇": r"\nabla",
-    "∠": r"\angle", "∘": r"\circ", "′": r"\prime", "⊥": r"\perp",
-}  # fmt: skip
+#: Commands by the signs that they stand for, the usual one of several.
+_COMMANDS = {text: name for name, text in reversed(SYMBOLS.items())} | {"φ": "varphi"}
 _SPACES = {",": r"\,", ":": r"\:", ";": r"\;", " ": r"\ ", "quad": r"\quad ", "qquad": r"\qquad "}
 _STYLES = {"bold": "mathbf", "slanted bold": "bm", "script": "mathcal", "double": "mathbb"}
 #: Signs with room on both sides, behind something.
@@ -71,7 +60,7 @@ def _row(items: tuple[Node, ...]) -> str:
         text = f" {latex(item)} " if apart and found and not found.endswith(" ") else latex(item)
         command = re.search(r"\\[A-Za-z]+$", found)
         found += (
-            f" {text}" if command and (text[0].isalnum() or command[0][1:] in (*_FUNCTIONS, "cdot")) else text
+            f" {text}" if command and (text[0].isalnum() or command[0][1:] in (*FUNCTIONS, "cdot")) else text
         )
     return found.strip()
 
@@ -84,22 +73,13 @@ def _atom(atom: Atom) -> str:
     kind, text = atom.kind, atom.text
     if kind == "space":
         return _SPACES[text]
-    if kind == "letter" or (kind == "upright" and len(text) == 1):
-        return (
-            rf"\{_GREEK[text]}"
-            if text in _GREEK
-            else text
-            if kind == "letter" or not text.isascii()
-            else _upright(text)
-        )
-    if kind == "upright" and text in _FUNCTIONS:
+    if text in _COMMANDS and kind in ("letter", "upright", "sign"):
+        return rf"\{_COMMANDS[text]}"
+    if kind == "upright" and text in FUNCTIONS:
         return rf"\{text}"
     if kind in _STYLES:
         return rf"\{_STYLES[kind]}{{{text}}}"
-    return _upright(text) if kind == "upright" else _SIGNS.get(text, text)
-
-
-def _upright(text: str) -> str:
-    if text == "atan2":
-        return r"\operatorname{atan2}"
-    return rf"\mathrm{{{re.sub(r'([ {}%&#_$])', lambda found: chr(92) + found[1], text)}}}"
+    if kind == "upright" and (text.isascii() or len(text) > 1):
+        name = "operatorname" if text == "atan2" else "mathrm"
+        return rf"\{name}{{{re.sub(r'([ {}%&#_$])', lambda found: chr(92) + found[1], text)}}}"
+    return text.replace("−", "-")

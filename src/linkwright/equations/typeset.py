@@ -7,6 +7,7 @@ from linkwright.equations.notation import (
     COMMA,
     THIN,
     TIMES,
+    Atom,
     Bracket,
     Fraction,
     Node,
@@ -104,7 +105,9 @@ def _printed(term: Term, digits: int | None, level: int = 0, *, first: bool = Tr
             nodes = (Fraction(group(show(0, first=True)), group(show(1, first=True))),)
         case "square":
             base = show(0, 4)
-            nodes = (raised(base[0] if len(base) == 1 else Bracket(row(base)), number("2")[0]),)
+            if len(base) > 1 and TIMES in base:
+                base = (Bracket(row(base)),)
+            nodes = (*base[:-1], raised(base[-1], Atom("number", "2")))
         case "root":
             nodes = (Root(group(show(0, first=True))),)
         case "size":

@@ -12,7 +12,7 @@ from linkwright.report.document import Block, Figure, Heading, Paragraph, Table,
 from linkwright.report.given_data import given_data
 from linkwright.report.machine_results import picture
 from linkwright.report.sections.errata import errata_blocks
-from linkwright.report.sections.worked_position import with_numbers
+from linkwright.report.sections.method import printed
 from linkwright.report.settings import Settings
 from linkwright.words import Say
 from linkwright.words.sentence import in_language
@@ -77,7 +77,7 @@ def numbers_and_way(found: Result, say: Say, language: str, level: int) -> Itera
     yield Heading(say("report.way"), level)
     for step in found.tidy_steps(say):
         yield Heading(symbols(step.title), level + 1)
-        yield from with_numbers(step)
+        yield from printed(step)
     yield Heading(say("report.results"), level)
     yield from _results(found, say)
     yield from _pictures(found, say, language)

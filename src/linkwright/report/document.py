@@ -310,6 +310,20 @@ class Numbers:
         """What stands before the text of a heading: its number."""
         return f"{self.of[index]}  " if index in self.of else ""
 
+    def shown(self, span: Span) -> tuple[str, str]:
+        """What a part of a text shows, and where it leads: an address, ``#b`` and the place of a block, or ``#s`` and
+        the number of a source."""
+        if span.kind == "source":
+            number = self.sources.get(span.text)
+            listed = any(isinstance(each, Sources) for each in self.blocks)
+            return (f"[{number}]" if number else span.text), (f"#s{number}" if number and listed else "")
+        label = span.text if span.kind == "reference" else span.link[1:] if span.link[:1] == "#" else ""
+        index = self.labels.get(label)
+        text = self.name(index) if span.kind == "reference" and index is not None else span.text
+        if label:
+            return text, "" if index is None else f"#b{index}"
+        return text, span.link
+
     def name(self, index: int) -> str:
         """How a block is called in a sentence: ``Table 3.1``."""
         block, say = self.blocks[index], self.document.say

@@ -26,8 +26,7 @@ from linkwright.equations.notation import (
     letter,
     sign,
 )
-from linkwright.errors import LinkwrightError
-from linkwright.report.formula_signs import (
+from linkwright.equations.signs import (
     ACCENTS,
     BARE,
     BELOW,
@@ -40,6 +39,7 @@ from linkwright.report.formula_signs import (
     STYLES,
     SYMBOLS,
 )
+from linkwright.errors import LinkwrightError
 
 _TEXT = r"\\(?:text|textrm|textit|textbf|mbox)\s*\{[^{}]*\}"
 _TOKEN = re.compile(rf"{_TEXT}|\\[A-Za-z]+\*?|\\.|\d+(?:\.\d+)?|[^\s]", re.DOTALL)

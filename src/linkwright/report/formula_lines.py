@@ -18,7 +18,7 @@ from linkwright.equations.notation import (
     Row,
     Script,
 )
-from linkwright.report.formula_signs import LARGE, RELATIONS
+from linkwright.equations.signs import LARGE, RELATIONS
 from linkwright.words.characters import cells
 
 #: Binary signs and relations: a line may break before them.

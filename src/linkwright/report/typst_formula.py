@@ -14,7 +14,7 @@ from linkwright.equations.notation import (
     Row,
     Script,
 )
-from linkwright.report.formula_signs import ACCENTS, BRACES
+from linkwright.equations.signs import ACCENTS, BRACES
 
 _ACCENTS = {
     "dot": "dot", "ddot": "dot.double", "dddot": "dot.triple", "vec": "arrow", "overrightarrow": "arrow",

@@ -352,35 +352,23 @@ class _Writer:
         return "".join(self._span(span) for span in spans(text))
 
     def _span(self, span: Span) -> str:
+        text, target = self.numbers.shown(span)
         match span.kind:
             case "formula" | "symbol" if span.formula:
                 found = f"${typst(span.formula)}$"
             case "code":
-                found = f"#raw({quoted(span.text)});"
+                found = f"#raw({quoted(text)});"
             case "break":
                 return "#linebreak();"
-            case "reference":
-                found = self._leading(self.numbers.labels.get(span.text), span.text)
-            case "source":
-                number = self.numbers.sources.get(span.text)
-                found = _words(f"[{number}]") if number else _words(span.text)
-                if number and any(isinstance(each, Sources) for each in self.numbers.blocks):
-                    found = f"#link(<{_source(number)}>)[{found}]"
             case _:
-                found = _emphasised(span.text) if "emphasis" in span.styles else _words(span.text)
+                found = _emphasised(text) if "emphasis" in span.styles else _words(text)
         for style, command in _COMMANDS.items():
             found = f"#{command}[{found}]" if style in span.styles else found
-        if not span.link:
+        if not target:
             return found
-        index = self.numbers.labels.get(span.link[1:]) if span.link[0] == "#" else None
-        if span.link[0] != "#":
-            return f"#lw-url({quoted(span.link)}, [{found}])"
-        return found if index is None else f"#link(<{_place(index)}>)[{found}]"
-
-    def _leading(self, index: int | None, label: str) -> str:
-        if index is None:
-            return _words(label)
-        return f"#link(<{_place(index)}>)[{_words(self.numbers.name(index))}]"
+        return (
+            f"#link(<{target[1:]}>)[{found}]" if target[0] == "#" else f"#lw-url({quoted(target)}, [{found}])"
+        )
 
 
 #: Styles in Typst.

@@ -17,8 +17,8 @@ from linkwright.equations.notation import (
     Row,
     Script,
 )
+from linkwright.equations.signs import ACCENTS, BRACES, INTEGRALS
 from linkwright.report.formula_lines import large, relation
-from linkwright.report.formula_signs import ACCENTS, BRACES, INTEGRALS
 
 SPACE = "http://schemas.openxmlformats.org/officeDocument/2006/math"
 _SPACES = {

@@ -340,24 +340,11 @@ class _Writer:
             if span.kind == "break":
                 line.add_run().add_break()
                 continue
-            shown, target = self._shown(span)
+            shown, target = self.numbers.shown(span)
             run = line.add_run(printable(shown))
             self._look(run, span)
             if target:
                 self._link(line, run, target)
-
-    def _shown(self, span: Span) -> tuple[str, str]:
-        """What a part of a text shows, and where it leads: an address, or ``#`` and a bookmark."""
-        if span.kind == "source":
-            number = self.numbers.sources.get(span.text)
-            listed = any(isinstance(each, Sources) for each in self.numbers.blocks)
-            return (f"[{number}]" if number else span.text), (f"#s{number}" if number and listed else "")
-        label = span.text if span.kind == "reference" else span.link[1:] if span.link[:1] == "#" else ""
-        index = self.numbers.labels.get(label)
-        shown = self.numbers.name(index) if span.kind == "reference" and index is not None else span.text
-        if label:
-            return shown, "" if index is None else f"#b{index}"
-        return shown, span.link
 
     def _look(self, run: Any, span: Span) -> None:
         from docx.oxml.ns import qn

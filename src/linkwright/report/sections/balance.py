@@ -10,7 +10,7 @@ from linkwright.parts.statics.structure import balance_step
 from linkwright.report.document import Block
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
-from linkwright.report.sections.worked_position import with_numbers
+from linkwright.report.sections.method import printed
 
 
 @section("balance", 8.4, optional=True)
@@ -21,4 +21,4 @@ def blocks(case: Case) -> Iterator[Block]:
     balance = structure_balance(case.result)
     if balance is None:
         raise Missing("report.no_balance")
-    yield from with_numbers(balance_step(balance, "1", case.say))
+    yield from printed(balance_step(balance, "1", case.say))

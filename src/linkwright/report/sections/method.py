@@ -24,7 +24,17 @@ from linkwright.equations.notation import (
 )
 from linkwright.equations.steps import Equation, Note, Relation, Step, Tabulated, Written
 from linkwright.errors import LinkwrightError
-from linkwright.report.document import Block, Formula, Heading, Paragraph, literal, strong, symbols
+from linkwright.report.document import (
+    Block,
+    Formula,
+    Heading,
+    Paragraph,
+    Table,
+    literal,
+    noted,
+    strong,
+    symbols,
+)
 from linkwright.report.formula_lines import width
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
@@ -73,26 +83,44 @@ def _loops(case: Case, group: Group) -> Iterator[Block]:
 
 def formulas(step: Step) -> Iterator[Block]:
     """The relations and formulas of a step, its numbers left out."""
-    shown = [
-        item
+    if any(
+        item.formula if isinstance(item, Equation) else isinstance(item, Relation | Written)
         for item in step.items
-        if not isinstance(item, Tabulated) and (not isinstance(item, Equation) or item.formula)
-    ]
-    if not any(isinstance(item, Equation | Relation | Written) for item in shown):
-        return
-    yield Paragraph(strong(symbols(step.title)), "lead")
+    ):
+        yield Paragraph(strong(symbols(step.title)), "lead")
+        yield from printed(step, numbers=False)
+
+
+def printed(step: Step, *, numbers: bool = True) -> Iterator[Block]:
+    """Sentences and equations of a step, given values side by side; without ``numbers`` the formulas alone."""
     held: list[Row] = []
-    for item in shown:
-        if isinstance(item, Equation):
-            held.append(row((item.printed_symbol, EQUAL, item.printed_formula)))
+    for item in step.items:
+        if isinstance(item, Equation) and not (numbers and (item.formula or item.filled)):
+            right = item.sides[-1] if numbers else item.printed_formula
+            held += [row((item.printed_symbol, EQUAL, right))] if right.items else []
+            continue
+        if isinstance(item, Tabulated) and not numbers:
             continue
         yield from side_by_side(held)
         held = []
         if isinstance(item, Note):
             yield Paragraph(symbols(item.text))
+        elif isinstance(item, Tabulated):
+            rows = tuple(tuple(map(symbols, cells)) for cells in item.rows)
+            yield Table(symbols(item.title), tuple(map(symbols, item.head)), rows, item.align)
+        elif isinstance(item, Written) and item.cells and numbers:
+            yield _system(item)
         else:
-            yield Formula(item.sides)
+            yield Formula(item.sides, number=isinstance(item, Equation) or not numbers)
     yield from side_by_side(held)
+
+
+def _system(item: Written) -> Table:
+    """A system of equations that is too wide for a formula, as a table."""
+    head, *rows = item.cells
+    names = tuple(noted(each) if each else "" for each in head)
+    body = tuple((literal(first), *others) for first, *others in rows)
+    return Table(noted("A X = B"), names, body, "<" + ">" * (len(head) - 1))
 
 
 def side_by_side(formulas: list[Row]) -> Iterator[Formula]:

@@ -9,7 +9,7 @@ from linkwright.report.calculation import OwnText
 from linkwright.report.document import Block, Figure, Heading, Paragraph, literal, symbols
 from linkwright.report.machine_results import Case, Missing, picture
 from linkwright.report.section import section
-from linkwright.report.sections.worked_position import with_numbers
+from linkwright.report.sections.method import printed
 from linkwright.report.settings import Settings
 from linkwright.synthesis.result import Synthesis, SynthesisError
 from linkwright.synthesis.task_file import TaskFile
@@ -59,7 +59,7 @@ def _chapter(found: Synthesis, language: str) -> Iterator[Block]:
     say, solution = speaker(language), found.worked(language)
     for step in solution.steps:
         yield Heading(symbols(step.title), 2)
-        yield from with_numbers(step)
+        yield from printed(step)
         for kind in solution.pictures.get(step.number, ()):
             yield from _figure(found, kind, language)
     yield from _figure(found, "synthesis", language)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.equations.notation import EQUAL, Row, row
-from linkwright.equations.steps import Equation, Note, Step, Tabulated, Written
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.pictures.drawing import PIXELS
@@ -14,17 +12,14 @@ from linkwright.plot.diagrams.force_polygon import link_forces
 from linkwright.report.document import (
     Block,
     Figure,
-    Formula,
     Heading,
     Paragraph,
-    Table,
     literal,
-    noted,
     symbols,
 )
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
-from linkwright.report.sections.method import side_by_side
+from linkwright.report.sections.method import printed
 from linkwright.worked.solution import Worked
 
 #: A point, the width of the text and the tallest polygon, mm.
@@ -54,41 +49,7 @@ def _solution(solution: Worked) -> Iterator[Block]:
         yield Paragraph(symbols(line))
     for step in solution.steps:
         yield Heading(symbols(step.title), 2 if "." not in step.number else 3)
-        yield from with_numbers(step)
-
-
-def with_numbers(step: Step) -> Iterator[Block]:
-    """Sentences and equations of a step; given values side by side."""
-    given: list[Row] = []
-    for item in step.items:
-        if isinstance(item, Equation) and not item.formula and not item.filled:
-            symbol, result = item.sides
-            given.append(row((symbol, EQUAL, result)))
-            continue
-        yield from side_by_side(given)
-        given = []
-        if isinstance(item, Note):
-            yield Paragraph(symbols(item.text))
-        elif isinstance(item, Written) and item.cells:
-            yield _system(item)
-        elif isinstance(item, Tabulated):
-            rows = tuple(tuple(map(symbols, cells)) for cells in item.rows)
-            yield Table(symbols(item.title), tuple(map(symbols, item.head)), rows, item.align)
-        else:
-            yield Formula(item.sides, number=isinstance(item, Equation))
-    yield from side_by_side(given)
-
-
-def _system(item: Written) -> Table:
-    """A system of equations that is too wide for a formula, as a table."""
-    head, *rows = item.cells
-    names = tuple(noted(each) if each else "" for each in head)
-    return Table(
-        noted("A X = B"),
-        names,
-        tuple((literal(first), *others) for first, *others in rows),
-        "<" + ">" * (len(head) - 1),
-    )
+        yield from printed(step)
 
 
 def _polygons(case: Case) -> Iterator[Block]:
