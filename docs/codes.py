@@ -235,9 +235,18 @@ def _name(node: ast.AST) -> str:
 
 
 def of_calculations() -> dict[str, str]:
-    """The codes of findings about calculations and motion programs, with the keys of their sentences."""
-    found = sorted(key for key in catalogued() if f"{key}_remedy" in catalogued())
-    return {key.partition(".")[2]: key for key in found}
+    """The codes of findings about calculations and motion programs, with their English sentences."""
+    found = {}
+    for key in sorted(catalogued()):
+        area, _dot, name = key.partition(".")
+        if f"{key}_remedy" in catalogued():
+            found[name] = catalogue(area)[name]
+    for _path, node in nodes():
+        match node:
+            case ast.Call(args=[ast.Constant(value=str(code)), _key, ast.Call(args=given), _remedy]):
+                if called(node) in ("fault", "_fault"):
+                    found[code] = next(texts(given[-1]))
+    return found
 
 
 # errors -----------------------------------------------------------------------------------------
@@ -245,10 +254,17 @@ def of_errors() -> dict[str, list[str]]:
     """Codes of errors that are raised as they stand here, by their areas."""
     found: dict[str, set[str]] = {area: set() for area in AREAS}
     for _, node in nodes():
-        for key in texts(node.args[0]) if _raises(node) and node.args else ():
-            if key in catalogued() and key.partition(".")[0] in AREAS and key not in AROUND:
+        for key in _codes_within(node.args[0]) if _raises(node) and node.args else ():
+            if key.partition(".")[0] in AREAS and key not in AROUND:
                 found[key.partition(".")[0]].add(key)
     return {area: sorted(each) for area, each in sorted(found.items())}
+
+
+def _codes_within(node: ast.AST) -> Iterator[str]:
+    yield from (key for key in texts(node) if key in catalogued())
+    for each in ast.walk(node):
+        if isinstance(each, ast.keyword) and each.arg == "code":
+            yield from texts(each.value)
 
 
 def _raises(node: ast.AST) -> TypeGuard[ast.Call]:

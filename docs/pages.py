@@ -26,7 +26,7 @@ from linkwright import gallery
 from linkwright.core.attached import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.validation.validate import validate
-from linkwright.words import say
+from linkwright.words import Message
 from linkwright.words.titles import title_said
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -412,8 +412,8 @@ def codes(language: str) -> Iterator[str]:
     for code in sorted(coded.of_findings()):
         yield f"| `{code}` | {coded.MEANINGS[code][column]} |"
     yield f"\n## {words['calculations']}\n\n{words['sentence']}"
-    for code, key in sorted(coded.of_calculations().items()):
-        yield f"| `{code}` | {cell(plain(re.sub('{.*?}', '…', say(key, language))))} |"
+    for code, text in sorted(coded.of_calculations().items()):
+        yield f"| `{code}` | {cell(plain(re.sub('{.*?}', '…', Message(text).translate(language))))} |"
     yield f"\n## {words['errors']}\n\n{words['parts']}\n\n{words['areas']}"
     for area, some in coded.of_errors().items():
         shown = ", ".join(f"`{each}`" for each in some[:3])

@@ -9,7 +9,7 @@ from functools import partial
 from typing import Literal
 
 from linkwright.core.dataclass import dataclass
-from linkwright.words import LANGUAGES, Say, has, say
+from linkwright.words import LANGUAGES, Say, _, has, say
 from linkwright.words.sentence import Sentence, code_of, in_language, values_of
 
 Severity = Literal["error", "warning", "note"]
@@ -52,7 +52,11 @@ class Finding:
 
 def with_remedy(message: str, remedy: str) -> str:
     """What is the matter and what to do about it as one sentence."""
-    return Sentence("finding.with_remedy", message=message, remedy=remedy) if remedy else message
+    return (
+        _("{message}; {remedy}", code="finding.with_remedy", message=message, remedy=remedy)
+        if remedy
+        else message
+    )
 
 
 class LinkwrightError(Exception):
@@ -150,7 +154,14 @@ class QuantityError(LinkwrightError):
 def require_language(language: str) -> None:
     """Raises UnknownName for a language without words."""
     if language not in LANGUAGES:
-        raise UnknownName("names.no_language", language=language, languages=tuple(LANGUAGES))
+        raise UnknownName(
+            _(
+                'there are no words in the language "{language}"; use one of {languages}',
+                code="names.no_language",
+                language=language,
+                languages=tuple(LANGUAGES),
+            )
+        )
 
 
 def speaker(language: str) -> Say:

@@ -14,6 +14,7 @@ from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.nodes import Node, below, located
 from linkwright.files.model_file import declared_kind, is_task, read_root, read_tree
 from linkwright.files.source import GALLERY, read_source
+from linkwright.words import _
 from linkwright.words.sentence import Sentence, code_of
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ def checked_text(text: str, place: str, folder: str = "", source: str = "") -> C
         if is_task(root):
             found, task = check_task(root, place, folder)
             return Checked(found, {"kind": f"synthesis, {task}"})
-        _, _, faults = read_section(below(root, "synthesis"), place, folder)
+        _unused, _unused2, faults = read_section(below(root, "synthesis"), place, folder)
     mechanism, found = read_tree(root, faults, place)
     if mechanism is None:
         return Checked(found)
@@ -144,7 +145,11 @@ def _assumed(mechanism: Mechanism, structure: Structure) -> list[Finding]:
         inner = [each.joint for each in group.inner_joints]
         if not any(joint in mechanism.assembly for joint in inner) and not _drawn(mechanism, group):
             told = {"signature": group.signature, "links": tuple(group.links), "joint": inner[0]}
-            message = Sentence("check.assumed", **told, first=words[0], second=words[1])
+            message = _(
+                "group {signature} ({links}) has two assemblies, and neither assembly nor drawing "
+                'says which: "{first}" is taken; write assembly: {{{joint}: {first}}} or {{{joint}: '
+                "{second}}}",
+            ).format(**told, first=words[0], second=words[1])
             found.append(Finding("note", "", "", message, code="assembly"))
     return found
 
@@ -197,7 +202,14 @@ def _hardly_determined(motion: Motion) -> Iterator[Finding]:
     if motion.mechanism.drivers:
         for group, best, limit in Singularity.throughout(Analysis.of(motion)):
             said = {"links": group.links, "best": f"{best:.2g}", "limit": f"{limit:.2g}"}
-            told, remedy = Sentence("check.singular", **said), Sentence("check.singular_do")
+            told, remedy = (
+                _(
+                    "group ({links}) is close to a singular position all the time (determinant of its "
+                    "closure at most {best}, limit {limit}): its motion is hardly determined, and forces "
+                    "grow very large",
+                ).format(**said),
+                _("change the lengths of its links or where they are joined"),
+            )
             yield Finding("warning", "", "", told, remedy, "singular")
 
 
@@ -232,7 +244,7 @@ def _of_loads(mechanism: Mechanism, loads: Sequence[str], varying: Sequence[str]
         if isinstance(phase, MovingPhase) and not (acts & (signals.output(phase.output)[1] != 0.0)).any():
             told, remedy = (
                 Sentence(f"check.never_{phase.direction}", output=phase.output),
-                Sentence("check.never_do"),
+                _("name an output that moves that way, or the other direction"),
             )
             found.append(Finding("warning", "", key, told, remedy, "no-motion"))
     for load in varying:
@@ -249,10 +261,16 @@ def _of_friction(mechanism: Mechanism) -> list[Finding]:
     for joint in mechanism.joints.values():
         key, friction = f"joints.{joint.name}.friction", float(getattr(joint, "friction", 0.0))
         if friction and getattr(joint, "pin_radius", 0.0) is None:
-            told, remedy = Sentence("check.no_pin_radius"), Sentence("check.add_pin_radius")
+            told, remedy = (
+                _("the pin has friction, but no radius, so its forces cannot be found"),
+                _("add pin_radius, such as pin_radius: 20 mm"),
+            )
             found.append(Finding("error", "", key, told, remedy, "missing-key"))
         if friction > RUBS:
-            told, remedy = Sentence("check.rubs", friction=friction), Sentence("check.rubs_do")
+            told, remedy = (
+                _("a coefficient of friction of {friction:g} is more than dry rubber has", friction=friction),
+                _("usual are 0.01 to 0.6; check it"),
+            )
             found.append(Finding("warning", "", key, told, remedy, "unlikely"))
     return found
 

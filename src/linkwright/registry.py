@@ -9,7 +9,7 @@ from typing import Generic, TypeVar, cast
 
 from linkwright.core.entry_points import loaded, modules_within, offered_by_packages
 from linkwright.errors import LinkwrightError, UnknownName
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 from linkwright.words.synonyms import nearest_in_meaning
 
@@ -45,7 +45,14 @@ class Registry(Mapping[str, T], Generic[T]):
 
         def file_under(element: T) -> T:
             if name in self._elements and _home(self._elements[name]) != _home(element):
-                raise LinkwrightError("names.twice", noun=Sentence(f"nouns.{self.noun}"), name=name)
+                raise LinkwrightError(
+                    _(
+                        'the {noun} "{name}" is registered twice; choose another name',
+                        code="names.twice",
+                        noun=Sentence(f"nouns.{self.noun}"),
+                        name=name,
+                    )
+                )
             self._elements[name] = element
             if self._attribute is not None and self._attribute not in vars(element):
                 setattr(element, self._attribute, name)
@@ -118,8 +125,8 @@ def offered(name: str, known: Iterable[str], key: str = "names.there_is", most: 
     names = tuple(dict.fromkeys(known))
     offer = nearest(str(name)[:100], names)
     if offer is not None:
-        return Sentence("names.did_you_mean", offer=offer)
-    return Sentence(key, names=_shown(names[:most])) if names else Sentence("names.there_is_none")
+        return _('did you mean "{offer}"?', offer=offer)
+    return Sentence(key, names=_shown(names[:most])) if names else _("there is none")
 
 
 def listed(name: str, known: Iterable[str], word: str = "there_is") -> Message:
@@ -128,7 +135,7 @@ def listed(name: str, known: Iterable[str], word: str = "there_is") -> Message:
     offer = nearest(name[:100], names)
     if offer is not None:
         return Sentence(f"names.near_{word}", offer=offer, names=_shown(names))
-    return Sentence(f"names.all_{word}", names=_shown(names)) if names else Sentence("names.nothing_there")
+    return Sentence(f"names.all_{word}", names=_shown(names)) if names else _("there is none")
 
 
 def _shown(names: tuple[str, ...]) -> tuple[str, ...]:
@@ -138,7 +145,13 @@ def _shown(names: tuple[str, ...]) -> tuple[str, ...]:
 
 def no_such(noun: str, name: str, known: Iterable[str]) -> Message:
     """The sentence for a name that does not exist, or is none; ``noun`` is a key of the catalogue's ``nouns``."""
-    return Sentence("names.no_such", noun=Sentence(f"nouns.{noun}"), name=name, hint=offered(name, known))
+    return _(
+        'there is no {noun} "{name}"; {hint}',
+        code="names.no_such",
+        noun=Sentence(f"nouns.{noun}"),
+        name=name,
+        hint=offered(name, known),
+    )
 
 
 def nearest(

@@ -13,7 +13,7 @@ from functools import cache, lru_cache
 
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 Dimension = tuple[float, float, float, float]
@@ -52,8 +52,10 @@ _DIMENSIONS: Mapping[str, tuple[Dimension, str, float]] = {
     "length_per_angle_squared": ((1, 0, 0, -2), "m/rad²", 1e7),
     "per_angle": ((0, 0, 0, -1), "1/rad", 1e7),
 }
-DIMENSIONS: Mapping[str, Dimension] = {name: powers for name, (powers, _, _) in _DIMENSIONS.items()}
-SI_UNITS: Mapping[str, str] = {name: unit for name, (_, unit, _) in _DIMENSIONS.items()}
+DIMENSIONS: Mapping[str, Dimension] = {
+    name: powers for name, (powers, _unused, _unused2) in _DIMENSIONS.items()
+}
+SI_UNITS: Mapping[str, str] = {name: unit for name, (_unused, unit, _unused2) in _DIMENSIONS.items()}
 #: Dimensions of results that nobody gives, with their SI units.
 FURTHER: Mapping[str, str] = {
     "energy": "J",
@@ -80,7 +82,7 @@ OF_CALCULATIONS: Mapping[str, str] = {
     "distance": "m",
 }
 _SI_OF_ALL: Mapping[str, str] = {**SI_UNITS, **FURTHER, **OF_CALCULATIONS}
-LARGEST: Mapping[str, float] = {name: largest for name, (_, _, largest) in _DIMENSIONS.items()}
+LARGEST: Mapping[str, float] = {name: largest for name, (_unused, _unused2, largest) in _DIMENSIONS.items()}
 #: For a quantity of any other dimension.
 LARGEST_OF_ALL = max(LARGEST.values())
 #: A size that must be above zero is not smaller in any machine, SI.
@@ -252,7 +254,10 @@ def exponent(text: str) -> int:
     digits = text.translate(_SUPERSCRIPTS).lstrip("^* ").replace("−", "-").replace(" ", "")
     power = int(digits[:4]) if digits else 1
     if abs(power) > 9:
-        raise QuantityError(Sentence("units.large_exponent", digits=digits[:20]), Sentence("units.exponents"))
+        raise QuantityError(
+            _('the exponent "{digits}" is too large', digits=digits[:20]),
+            _("units take exponents from -9 to 9"),
+        )
     return power
 
 
@@ -293,8 +298,12 @@ def _read(text: str) -> tuple[float, Dimension] | int:
 def unknown_unit(text: str, column: int = 0) -> QuantityError:
     """The error for a text that is not a unit, offering what was probably meant."""
     offer = suggestion(text)
-    remedy = Sentence("names.did_you_mean", offer=offer) if offer else Sentence("units.write_unit")
-    return QuantityError(Sentence("units.unknown", text=text), remedy, column=column, code="unknown-unit")
+    remedy = (
+        _('did you mean "{offer}"?', offer=offer)
+        if offer
+        else _("write a unit such as mm, deg, kg, N, N·m, rpm, kg·m²")
+    )
+    return QuantityError(_('unknown unit "{text}"', text=text), remedy, column=column, code="unknown-unit")
 
 
 def suggestion(text: str) -> str | None:
@@ -362,12 +371,14 @@ def parse(text: str, dimension: str) -> float:
         raise decimal_comma(plain)
     if "±" in rest:
         raise QuantityError(
-            Sentence("units.tolerance", plain=plain), Sentence("units.tolerance_do"), code="quantity"
+            _('"{plain}" holds a tolerance', code="units.tolerance", plain=plain),
+            _("write the value alone; tolerances stand in a file of their own (kind: tolerance)"),
+            code="quantity",
         )
     if re.match(r"(?!1/)[_'’]?\d", rest):
         raise QuantityError(
             Sentence(f"units.{'space' if rest[0].isdigit() else 'separator'}", plain=plain),
-            Sentence("units.write_number", digits=digits, rest=rest.lstrip("_'’")),
+            _('write "{digits}{rest}"', digits=digits, rest=rest.lstrip("_'’")),
             code="quantity",
         )
     value = float(sign + digits)
@@ -378,8 +389,8 @@ def parse(text: str, dimension: str) -> float:
         kind = NONE
     if not math.isfinite(value):
         raise QuantityError(
-            Sentence("units.not_finite", text=plain),
-            Sentence("units.number_such_as", example=example(dimension)),
+            _('"{text}" is not a finite number', text=plain),
+            _('write a number such as "{example}"', example=example(dimension)),
             code="not-finite",
         )
     if not rest and value == 0:
@@ -423,39 +434,42 @@ def _unit_of(text: str, column: int, dimension: str) -> tuple[float, Dimension]:
 def _fitting_remedy(text: str, dimension: str) -> Message:
     """What was probably meant by an unknown unit where a quantity of this dimension is needed."""
     if dimension in TURNING and SENSE.search(text):
-        return Sentence("units.sense")
+        return _(
+            "the sign says the sense: positive is counter-clockwise, negative (-120 rpm) clockwise",
+            code="units.sense",
+        )
     wanted, product = DIMENSIONS[dimension], "·".join(text.split())
     fits = suggestion(product) == product and unit(product)[1] == wanted
     offer = product if fits else suggestion(text)
     if not offer or (unit(offer)[1] != wanted and _letters(offer) != _letters(text)):
-        offer = nearest(text, [name for name, (_, kind) in UNITS.items() if kind == wanted])
+        offer = nearest(text, [name for name, (_unused, kind) in UNITS.items() if kind == wanted])
     if offer:
-        return Sentence("names.did_you_mean", offer=offer)
-    return Sentence("units.number_and_unit", example=example(dimension))
+        return _('did you mean "{offer}"?', offer=offer)
+    return _('write a number and a unit, such as "{example}"', example=example(dimension))
 
 
 def decimal_comma(text: str) -> QuantityError:
     """The error for a decimal comma, with the same text written with a point, or without where it may mean
     thousands."""
     right = re.sub(r"(?<=\d)[,，]\s?(?=\d)", ".", text)
-    remedy = Sentence("units.point", right=right)
+    remedy = _('write a point: "{right}"', code="units.point", right=right)
     if re.match(r"[+-]?[1-9]\d{0,2}([,，]\d{3})+(?!\d)", text):
         way = "no_comma" if right.count(".") > 1 else "point_or_none"
         remedy = Sentence(f"units.{way}", right=right, whole=re.sub("[,，]", "", text))
-    return QuantityError(Sentence("units.decimal_comma", text=text), remedy, code="decimal-comma")
+    return QuantityError(_('decimal comma in "{text}"', text=text), remedy, code="decimal-comma")
 
 
 def not_a_number(text: str, dimension: str) -> QuantityError:
     """The error for a text without a number where a quantity is needed."""
     if re.match(r"^[+-]?\.?(inf|infinity|nan)\b", text, re.IGNORECASE):
         return QuantityError(
-            Sentence("units.not_finite", text=text),
-            Sentence("units.number_such_as", example=example(dimension)),
+            _('"{text}" is not a finite number', text=text),
+            _('write a number such as "{example}"', example=example(dimension)),
             code="not-finite",
         )
     return QuantityError(
-        Sentence("units.not_quantity", text=text),
-        Sentence("units.number_and_unit", example=example(dimension)),
+        _('"{text}" is not a quantity', text=text),
+        _('write a number and a unit, such as "{example}"', example=example(dimension)),
     )
 
 
@@ -467,12 +481,12 @@ def require(kind: Dimension, dimension: str, text: str, *, bare: bool = False) -
     if bare:
         right = f"{text} {USUAL_UNITS[dimension]}".strip()
         raise QuantityError(
-            Sentence("units.no_unit", text=text),
-            Sentence("units.needed", noun=noun, right=right),
+            _('"{text}" has no unit', text=text),
+            _('{noun} is needed, such as "{right}"', noun=noun, right=right),
             code="missing-unit",
         )
-    remedy = _of_weight(kind, dimension, text) or Sentence("units.as_in", example=example(dimension))
-    said = Sentence("units.wrong_dimension", text=text, wrong=name_of(kind), noun=noun)
+    remedy = _of_weight(kind, dimension, text) or _('write it as in "{example}"', example=example(dimension))
+    said = _('"{text}" is {wrong}, where {noun} is needed', text=text, wrong=name_of(kind), noun=noun)
     raise QuantityError(said, remedy, code="wrong-dimension")
 
 
@@ -480,12 +494,14 @@ def _of_weight(kind: Dimension, dimension: str, text: str) -> Message | None:
     """What to write where a mass stands in the place of its weight, alone or in a product, or a weight for a mass."""
     acceleration, wanted = DIMENSIONS["acceleration"], DIMENSIONS[dimension]
     if dimension == "mass" and kind == UNITS["N"][1]:
-        return Sentence("units.weight", text=text)
+        return _('a weight over 9.81 m/s² is a mass: write "({text})/(9.81 m/s^2)"', text=text)
     if wanted != times(kind, acceleration):
         return None
     if re.search(r"\blb\b", text):
-        return Sentence("units.pound", right=re.sub(r"\blb\b", "lbf", text))
-    return Sentence("units.mass", text=text) if kind[1] else None
+        return _('lb is a unit of mass, lbf of force: write "{right}"', right=re.sub(r"\blb\b", "lbf", text))
+    return (
+        _('a mass times 9.81 m/s² is a weight: write "({text})*(9.81 m/s^2)"', text=text) if kind[1] else None
+    )
 
 
 def name_of(kind: Dimension) -> Message:
@@ -493,7 +509,7 @@ def name_of(kind: Dimension) -> Message:
     for name, dimension in DIMENSIONS.items():
         if dimension == kind:
             return Sentence(f"nouns.a_{name}")
-    return Sentence("nouns.in_units", unit=si_symbol(kind))
+    return _("a quantity in {unit}", unit=si_symbol(kind))
 
 
 def si_unit(dimension: str) -> str:

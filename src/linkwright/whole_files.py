@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from linkwright.errors import RequestError
+from linkwright.words import _
 from linkwright.words.sentence import reason_of
 
 #: Permissions of new files, before the user's mask.
@@ -24,16 +25,25 @@ def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "force=
     target = Path(path)
     try:
         if target.is_dir():
-            raise RequestError("file.is_folder", path=target)
+            raise RequestError(_('"{path}" is a folder; name a file', code="file.is_folder", path=target))
         if not target.parent.is_dir():
-            raise RequestError("file.no_folder", path=target.parent)
+            raise RequestError(
+                _('there is no folder "{path}"; create it first', code="file.no_folder", path=target.parent)
+            )
         target.lstat() if target.is_symlink() else os.stat(target)
     except FileNotFoundError:
         return
     except (OSError, ValueError) as problem:
         raise _refused(target, problem) from None
     if not force:
-        raise RequestError("file.exists", path=target, remedy=remedy)
+        raise RequestError(
+            _(
+                '"{path}" exists; choose another name, or replace it with {remedy}',
+                code="file.exists",
+                path=target,
+                remedy=remedy,
+            )
+        )
 
 
 def refuse_folder(path: str | Path) -> None:
@@ -44,7 +54,14 @@ def refuse_folder(path: str | Path) -> None:
     except (OSError, ValueError) as problem:
         raise _refused(target, problem, "file.cannot_make") from None
     if not there.is_dir():
-        raise RequestError("file.no_folder_there", path=target, there=there)
+        raise RequestError(
+            _(
+                '"{there}" is a file, so there can be no folder "{path}"; choose another name',
+                code="file.no_folder_there",
+                path=target,
+                there=there,
+            )
+        )
     if not os.access(there, os.W_OK | os.X_OK):
         raise _refused(target, PermissionError(errno.EACCES, ""), "file.cannot_make")
 
@@ -78,7 +95,14 @@ def write_whole(
         else:
             _replace(Path(os.path.realpath(target)), content, force, _PRIVATE if private else _USUAL)
     except FileExistsError:
-        raise RequestError("file.exists", path=target, remedy=remedy) from None
+        raise RequestError(
+            _(
+                '"{path}" exists; choose another name, or replace it with {remedy}',
+                code="file.exists",
+                path=target,
+                remedy=remedy,
+            )
+        ) from None
     except (OSError, ValueError) as problem:
         raise _refused(target, problem) from None
     return target

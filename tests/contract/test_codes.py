@@ -46,6 +46,12 @@ def textual(node: ast.AST) -> bool:
         case ast.JoinedStr(values=parts):
             begun = parts[0].value if isinstance(parts[0], ast.Constant) else ""
             return not any(key.startswith(str(begun)) for key in codes.catalogued()) or not begun
+        case ast.IfExp(body=one, orelse=other):
+            return textual(one) or textual(other)
+        case ast.Call(func=ast.Attribute(value=message, attr="format")):
+            return textual(message)
+        case ast.Call(func=ast.Name(id="_" | "pgettext" | "ngettext"), keywords=given):
+            return "code" not in [each.arg for each in given]
         case ast.Call(func=function):
             return named(function) in SAID or isinstance(function, ast.Call)
     return False
@@ -61,6 +67,9 @@ def textual(node: ast.AST) -> bool:
         ('RequestError("nothing is asked")', True),
         ('RequestError("study.no_such_key")', True),
         ('RequestError(f"{name} is none")', True),
+        ('RequestError(_("nothing is asked"))', True),
+        ('RequestError((_("one", code="a.b") if x else _("other")).format(x=1))', True),
+        ('RequestError(_("nothing is asked", code="study.nothing"))', False),
         ('UsageError(say("cli.bad_language", name=name))', True),
         ('UsageError(speaker(language)("cli.bad_language"))', True),
         ('UsageError("cli.bad_language", name=name)', False),

@@ -21,6 +21,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.search import first_largest
 from linkwright.errors import Finding, ModelError
 from linkwright.parts.base import fault
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -65,24 +66,85 @@ class Cam(CamShape):
     def _incomplete(self) -> list[Finding]:
         follower, found = self.follower, []
         if self.base_radius is not None and not self.base_radius > 0:
-            found.append(fault("cams.base_negative", "base_radius", radius=1e3 * self.base_radius))
+            found.append(
+                fault(
+                    "base_negative",
+                    "base_radius",
+                    _("the base circle has a radius of {radius} mm"),
+                    _("give one above zero"),
+                    radius=1e3 * self.base_radius,
+                )
+            )
         if follower.kind == "roller" and not follower.roller_radius > 0 and not self.choose.roller_radii:
-            found.append(fault("cams.no_roller", "follower"))
+            found.append(
+                fault(
+                    "no_roller",
+                    "follower",
+                    _("the roller has no radius"),
+                    _("add roller_radius: 10 mm to the follower, or choose: {{roller_radii: [8 mm, 10 mm]}}"),
+                )
+            )
         if follower.oscillating and (
             not (follower.pivot_distance or 0) > 0
             or (follower.kind != "flat" and not (follower.arm or 0) > 0)
         ):
-            found.append(fault("cams.no_arm", "follower"))
+            found.append(
+                fault(
+                    "no_arm",
+                    "follower",
+                    _("an oscillating follower needs its pivot and its arm"),
+                    _(
+                        "add pivot_distance: 120 mm and arm: 100 mm to the follower (a flat face needs no "
+                        "arm)",
+                    ),
+                )
+            )
         if self.barrel_radius is not None and (follower.oscillating or follower.kind != "roller"):
-            found.append(fault("cams.barrel_follower", "follower"))
+            found.append(
+                fault(
+                    "barrel_follower",
+                    "follower",
+                    _("a barrel cam moves a translating roller"),
+                    _("write follower: {{kind: roller, roller_radius: 8 mm}}, or leave barrel_radius out"),
+                )
+            )
         if self.closure != "force" and follower.kind != "roller":
-            found.append(fault("cams.closure_follower", "closure", closure=self.closure))
+            found.append(
+                fault(
+                    "closure_follower",
+                    "closure",
+                    _("only a roller can run with the closure {closure}"),
+                    _("take a roller, or closure: force"),
+                    closure=self.closure,
+                )
+            )
         if (self.closure == "conjugate") != (self.conjugate is not None):
-            found.append(fault("cams.conjugate", "closure"))
+            found.append(
+                fault(
+                    "conjugate",
+                    "closure",
+                    _("closure: conjugate and the second cam go together"),
+                    _("write closure: conjugate and conjugate: {{base_radius: 40 mm}}, or neither"),
+                )
+            )
         if self.base_radius is None and self.barrel_radius is None and self.limits == CamLimits():
-            found.append(fault("cams.no_base", "base_radius"))
+            found.append(
+                fault(
+                    "no_base",
+                    "base_radius",
+                    _("neither a base circle nor limits by which to choose it"),
+                    _("add base_radius: 40 mm, or limits: {{pressure_angle: 30 deg}}"),
+                )
+            )
         elif self.base_radius is None and self.barrel_radius is None and not np.ptp(self.program.lifts):
-            found.append(fault("cams.nothing_moves", "program"))
+            found.append(
+                fault(
+                    "nothing_moves",
+                    "program",
+                    _("the program moves nothing, so that no limit tells a base circle"),
+                    _("give a rise, or a base_radius"),
+                )
+            )
         return found
 
     def _cut_away(self) -> list[Finding]:
@@ -95,14 +157,42 @@ class Cam(CamShape):
                 if self.follower.kind == "flat":
                     more = -float(wall.contact(np.linspace(each.start, each.end, 201)).growth.min())
                     found.append(
-                        fault("cams.undercut_flat", "base_radius", **places, depth=depth, more=1e3 * more)
+                        fault(
+                            "undercut_flat",
+                            "base_radius",
+                            _(
+                                "from {start}° to {end}° the flat face cuts away {depth} mm of the profile it should "
+                                "touch",
+                            ),
+                            _(
+                                "make the base circle larger by more than {more} mm, or the program smoother there"
+                            ),
+                            **places,
+                            depth=depth,
+                            more=1e3 * more,
+                        )
                     )
                     continue
                 radius = self._tightest(wall, each.start, each.end)
                 key = "choose" if self.choose.roller_radii else "follower.roller_radius"
                 roller = 1e3 * self.follower.roller_radius
                 found.append(
-                    fault("cams.undercut", key, **places, depth=depth, roller=roller, radius=1e3 * radius)
+                    fault(
+                        "undercut",
+                        key,
+                        _(
+                            "from {start}° to {end}° the roller of {roller} mm cuts away {depth} mm of the "
+                            "profile it should touch: the pitch curve bends there with a radius of {radius} mm",
+                        ),
+                        _(
+                            "take a roller of less than {radius} mm or a larger base circle, or a longer or "
+                            "smoother rise there",
+                        ),
+                        **places,
+                        depth=depth,
+                        roller=roller,
+                        radius=1e3 * radius,
+                    )
                 )
         return found
 
@@ -127,7 +217,29 @@ class Cam(CamShape):
             if lever.min() > 0:
                 return []
             worst = phi[first_largest(-lever)]
-            return [fault("cams.jam", "limits", place=math.degrees(float(worst)))]
+            return [
+                fault(
+                    "jam",
+                    "limits",
+                    _("at {place}° the contact cannot move the follower: the pressure angle reaches 90°"),
+                    _("take a larger base circle or another offset"),
+                    place=math.degrees(float(worst)),
+                )
+            ]
         values = {"place": math.degrees(float(phi[k])), "missing": -float(effort[k])}
         unit = "N·m" if self.follower.oscillating else "N"
-        return [fault("cams.contact_lost", "spring", **values, unit=unit)]
+        return [
+            fault(
+                "contact_lost",
+                "spring",
+                _(
+                    "the contact is lost at {place}°: {missing} {unit} are missing to hold the follower down",
+                ),
+                _(
+                    "give a preload larger by {missing} {unit}, a stiffer spring, or a lower speed; "
+                    "spring: {{}} chooses one",
+                ),
+                **values,
+                unit=unit,
+            )
+        ]

@@ -22,6 +22,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.laws.traced import LiftCurve
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
+from linkwright.words import _
 
 #: Positions of the cycle; corrections of the lift; least change of the output per lift that counts as one.
 _STEPS, _CORRECTIONS, _NO_EFFECT = 1440, 6, 1e-6
@@ -65,7 +66,18 @@ class CompensatingCam:
         }
         lines = (f"  {say(f'compensate.{key}', output=output)}: {value}" for key, value in rows.items())
         return "\n".join(
-            [say("compensate.kept", output=output, joint=self.joint, first=first, last=last), *lines]
+            [
+                say(
+                    _(
+                        "{output} is constant by {joint} while the input goes from {first} to {last}",
+                        output=output,
+                        joint=self.joint,
+                        first=first,
+                        last=last,
+                    )
+                ),
+                *lines,
+            ]
         )
 
     def data(self) -> dict[str, Any]:
@@ -116,16 +128,36 @@ def compensating_cam(
     require(machine, Mechanism)
     cam, meant = _cam(machine, joint), output_meant(machine, output)
     if meant.kind not in (*PLACES, *NAMED) or (meant.kind == "position" and not meant.component):
-        raise RequestError("cams.compensated_output", name=output)
+        raise RequestError(
+            _(
+                '"{name}" cannot be kept constant; give an output that the model names, a point\'s '
+                "coordinate, an angle or a displacement",
+                code="cams.compensated_output",
+                name=output,
+            )
+        )
     return _Search(machine, cam, meant, steps).found(zone, span)
 
 
 def _cam(machine: Mechanism, name: str) -> CamJoint:
     cams = {each.name: each for each in machine.joints.values() if isinstance(each, CamJoint)}
     if not cams:
-        raise RequestError("cams.no_cam_joint", machine=machine.name)
+        raise RequestError(
+            _(
+                '"{machine}" has no cam; give a follower a joint of kind cam',
+                code="cams.no_cam_joint",
+                machine=machine.name,
+            )
+        )
     if name not in cams and (name or len(cams) > 1):
-        raise RequestError("cams.which_cam_joint", name=name, hint=offered(name, cams))
+        raise RequestError(
+            _(
+                'which cam? "{name}" is none{hint}',
+                code="cams.which_cam_joint",
+                name=name,
+                hint=offered(name, cams),
+            )
+        )
     return cams[name] if name else next(iter(cams.values()))
 
 
@@ -139,11 +171,23 @@ class _Search:
         self.trial = _TRIAL * machine.size if guided else _TRIAL
         still = self._motion(LiftCurve(np.array([0.0, math.tau]), np.array([[0.0]])))
         if not still.positions.closed or not still.ok.all():
-            raise RequestError("cams.compensation_cycle")
+            raise RequestError(
+                _(
+                    "the cam has to turn once in a closed cycle that is passed as a whole with its "
+                    "follower at rest",
+                    code="cams.compensation_cycle",
+                )
+            )
         turned = self._turned(still)
         turns = round(float(turned[-1] - turned[0]) / math.tau)
         if abs(turns) != 1:
-            raise RequestError("cams.compensation_cycle")
+            raise RequestError(
+                _(
+                    "the cam has to turn once in a closed cycle that is passed as a whole with its "
+                    "follower at rest",
+                    code="cams.compensation_cycle",
+                )
+            )
         self.backwards = turns < 0
         self.angles = self._twice(turned, math.tau * turns)
         self.input, self.values = self._of(still)
@@ -153,16 +197,28 @@ class _Search:
     def found(self, zone: tuple[float, float] | None, span: float | None) -> CompensatingCam:
         """The cam for a zone, or for the best one that is so long."""
         if (zone is None) == (span is None):
-            raise RequestError("cams.zone_or_span")
+            raise RequestError(
+                _(
+                    "give either a zone, two values of the input, or how long it is to be",
+                    code="cams.zone_or_span",
+                )
+            )
         first, last = self._between(zone) if zone is not None else self._quietest(abs(span or 0.0))
         inside = slice(first, last + 1)
         before = float(np.ptp(self.values[inside]))
         if float(np.abs(self.slope[inside]).min()) <= _NO_EFFECT:
-            raise RequestError("cams.compensation_no_effect", output=str(self.output), joint=self.cam.name)
+            raise RequestError(
+                _(
+                    'the lift of "{joint}" does not change "{output}" in the zone',
+                    code="cams.compensation_no_effect",
+                    output=str(self.output),
+                    joint=self.cam.name,
+                )
+            )
         ends = (float(self.input[first]), float(self.input[last])) if zone is None else self._in_order(zone)
         turns, values = self._angles_at(ends, first, last), self.values
         wanted, best = -values / self.slope, None
-        for _ in range(_CORRECTIONS):
+        for _unused in range(_CORRECTIONS):
             lifts = compensating_lift(
                 self.angles, wanted, turns, beyond=min(BEYOND, 0.1 * (math.tau - turns[1] + turns[0]))
             )
@@ -191,11 +247,22 @@ class _Search:
     def _between(self, zone: tuple[float, float]) -> tuple[int, int]:
         """The positions at the ends of a zone of inputs, the first of both turns."""
         if not all(map(math.isfinite, zone)):
-            raise RequestError("cams.zone_or_span")
+            raise RequestError(
+                _(
+                    "give either a zone, two values of the input, or how long it is to be",
+                    code="cams.zone_or_span",
+                )
+            )
         low, high = sorted(zone)
         inside = np.flatnonzero((self.input >= low - 1e-9) & (self.input <= high + 1e-9))
         if len(inside) < 3 or self.angles[inside[-1]] - self.angles[inside[0]] > 0.95 * math.tau:
-            raise RequestError("cams.compensation_zone")
+            raise RequestError(
+                _(
+                    "the zone with what lies beyond it on both sides is not within the angles given, or "
+                    "nearly a whole turn; give a smaller zone",
+                    code="cams.compensation_zone",
+                )
+            )
         return int(inside[0]), int(inside[-1])
 
     def _quietest(self, span: float) -> tuple[int, int]:
@@ -203,7 +270,13 @@ class _Search:
         half, step = self.steps, abs(float(self.input[1] - self.input[0]))
         count = round(span / step)
         if not 2 <= count < 0.95 * half:
-            raise RequestError("cams.compensation_zone")
+            raise RequestError(
+                _(
+                    "the zone with what lies beyond it on both sides is not within the angles given, or "
+                    "nearly a whole turn; give a smaller zone",
+                    code="cams.compensation_zone",
+                )
+            )
         ways = [float(np.ptp(self.values[k : k + count + 1])) for k in range(half)]
         first = int(np.argmin(ways))
         return first, first + count

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.laws.polynomial import from_conditions, powers
+from linkwright.words import _
 
 _TURN = 2 * math.pi
 #: Angle by which the lift is carried on beyond its zone before it leaves it, rad; places of a table.
@@ -38,9 +39,21 @@ def compensating_lift(
     x, y = np.asarray(angles, dtype=float), np.asarray(wanted, dtype=float)
     low, high = zone[0] - beyond, zone[1] + beyond
     if x.ndim != 1 or x.shape != y.shape or len(x) < 12 or not (np.diff(x) > 0).all():
-        raise RequestError("cams.compensation_points")
+        raise RequestError(
+            _(
+                "angles and wanted lifts do not fit: give as many of both, twelve or more, the "
+                "angles increasing",
+                code="cams.compensation_points",
+            )
+        )
     if not low < high < low + 0.95 * _TURN or x[0] > low or x[-1] < high:
-        raise RequestError("cams.compensation_zone")
+        raise RequestError(
+            _(
+                "the zone with what lies beyond it on both sides is not within the angles given, or "
+                "nearly a whole turn; give a smaller zone",
+                code="cams.compensation_zone",
+            )
+        )
     near = slice(max(int(np.searchsorted(x, low)) - 8, 0), int(np.searchsorted(x, high)) + 8)
     spline = make_interp_spline(x[near], y[near], k=7 if len(x[near]) > 16 else 5)
     away = _Return(

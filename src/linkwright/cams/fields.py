@@ -17,6 +17,7 @@ from linkwright.laws.program_fields import RATES, ProgramField
 from linkwright.laws.smoothest import ORDERS, FoundProgram, Window
 from linkwright.parts.base import fault
 from linkwright.parts.fields import Listed, Table, Whole
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -166,7 +167,19 @@ def program_of(values: Mapping[str, Any]) -> dict[str, Any]:
     }
     found = {key: value for key, value in values.items() if key in own and value is not None}
     if values.get("inertia") is not None and (lift_of(values) != "angle" or values.get("mass") is not None):
-        raise ModelError([fault("cams.inertia_or_mass", "inertia")])
+        raise ModelError(
+            [
+                fault(
+                    "inertia_or_mass",
+                    "inertia",
+                    _(
+                        "both a mass and a moment of inertia, or the moment of inertia of a translating "
+                        "follower",
+                    ),
+                    _("give mass: for a translating follower, inertia: for an oscillating one"),
+                )
+            ]
+        )
     found["program"] = _program(values)
     found["turn"] = -1.0 if values.get("turn") == "clockwise" else 1.0
     found["spring_wanted"] = values.get("spring") is not None
@@ -183,7 +196,16 @@ def _program(values: Mapping[str, Any]) -> Any:
     """The program that is given or found; raises ModelError where there is not exactly one."""
     program, find = values.get("program"), values.get("find")
     if (program is None) == (find is None):
-        raise ModelError([fault("cams.one_program", "program" if find is None else "find")])
+        raise ModelError(
+            [
+                fault(
+                    "one_program",
+                    "program" if find is None else "find",
+                    _("a cam has one program"),
+                    _("give program: or find:, one of them"),
+                )
+            ]
+        )
     if find is None:
         return program
     windows = tuple(Window(each["from"], each["to"], *_bounds(each)) for each in find.get("windows") or ())

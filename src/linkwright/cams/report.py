@@ -15,7 +15,7 @@ from linkwright.equations.steps import Step
 from linkwright.laws.program import MotionProgram
 from linkwright.laws.smoothest import FoundProgram
 from linkwright.parts.base import Value, put
-from linkwright.words import Say, language_of
+from linkwright.words import Say, _, language_of
 from linkwright.words.sentence import in_language
 
 #: Places that a remark lists at most.
@@ -35,7 +35,7 @@ def blocks(design: CamDesign, say: Say) -> list[Block]:
 
 def at(place: float, say: Say) -> str:
     """``at 45.2°``"""
-    return say("cams.at", place=f"{math.degrees(place) % 360:.6g}")
+    return say(_("at {place}°", place=f"{math.degrees(place) % 360:.6g}"))
 
 
 def _sizes(design: CamDesign, say: Say) -> Block:
@@ -55,10 +55,21 @@ def _sizes(design: CamDesign, say: Say) -> Block:
     elif follower.kind != "flat" and cam.barrel_radius is None:
         rows.append(Row("offset_row", follower.offset, "length"))
     if design.face is not None:
-        rows.append(Row("face_width", design.face[1] - design.face[0], "length",
-                        note=say("cams.face_from", low=shown(design.face[0], "length"),
-                                 high=shown(design.face[1], "length"))))  # fmt: skip
-    return Block("sizes", say("cams.sizes"), rows)
+        rows.append(
+            Row(
+                "face_width",
+                design.face[1] - design.face[0],
+                "length",
+                note=say(
+                    _(
+                        "from {low} to {high}",
+                        low=shown(design.face[0], "length"),
+                        high=shown(design.face[1], "length"),
+                    )
+                ),
+            )
+        )
+    return Block("sizes", say(_("Sizes")), rows)
 
 
 def _motion(design: CamDesign, say: Say) -> Block:
@@ -81,7 +92,7 @@ def _motion(design: CamDesign, say: Say) -> Block:
                 unit = ("rad" if kinds[0] == "angle" else "m") + ("/rad", "/rad²")[order - 1]
                 label = f"{say(f'cams.{word}_{key}')} ({unit})"
                 rows.append(Row(f"{word}_{key}", extreme.value, "", label, at(extreme.place, say)))
-    return Block("motion", say("cams.motion"), rows, _remarks(design, say))
+    return Block("motion", say(_("Motion")), rows, _remarks(design, say))
 
 
 def _remarks(design: CamDesign, say: Say) -> list[str]:
@@ -89,7 +100,7 @@ def _remarks(design: CamDesign, say: Say) -> list[str]:
     program = design.cam.program
     if isinstance(program, FoundProgram):
         named = ", ".join(in_language(each.what, language_of(say)) for each in program.binding) or "–"
-        return [say("cams.binding", names=named)]
+        return [say(_("What keeps it from being smoother: {names}.", names=named))]
     if not isinstance(program, MotionProgram):
         return []
     words = ("cams.acceleration_jumps", "cams.jerk_jumps")
@@ -112,7 +123,7 @@ def _shape(design: CamDesign, say: Say) -> Block:
         rows.append(Row("smallest_radius", smallest.value, "length", note=at(smallest.place, say)))
     if hollow is not None:
         rows.append(Row("hollow_radius", hollow.value, "length", note=at(hollow.place, say)))
-    return Block("shape", say("cams.shape"), rows, _broken_limits(design, say))
+    return Block("shape", say(_("Shape")), rows, _broken_limits(design, say))
 
 
 def _broken_limits(design: CamDesign, say: Say) -> list[str]:
@@ -120,24 +131,48 @@ def _broken_limits(design: CamDesign, say: Say) -> list[str]:
     pairs = zip((design.pressure_angle_rise, design.pressure_angle_fall), limits.angles, strict=True)
     for extreme, limit in pairs:
         if abs(extreme.value) > limit * (1 + 1e-6):
-            found.append(say("cams.angle_over", angle=shown(abs(extreme.value), "angle"),
-                             limit=shown(limit, "angle"), at=at(extreme.place, say)))  # fmt: skip
+            found.append(
+                say(
+                    _(
+                        "The pressure angle of {angle} {at} is above its limit of {limit}.",
+                        angle=shown(abs(extreme.value), "angle"),
+                        limit=shown(limit, "angle"),
+                        at=at(extreme.place, say),
+                    )
+                )
+            )
     smallest = design.smallest_radius
     if (
         limits.curvature_radius
         and smallest is not None
         and smallest.value < limits.curvature_radius * (1 - 1e-6)
     ):
-        found.append(say("cams.radius_under", radius=shown(smallest.value, "length"),
-                         limit=shown(limits.curvature_radius, "length"), at=at(smallest.place, say)))  # fmt: skip
+        found.append(
+            say(
+                _(
+                    "The radius of {radius} {at} is below its limit of {limit}.",
+                    radius=shown(smallest.value, "length"),
+                    limit=shown(limits.curvature_radius, "length"),
+                    at=at(smallest.place, say),
+                )
+            )
+        )
     pressure = design.largest_pressure
     if (
         limits.contact_pressure
         and pressure is not None
         and pressure.value > limits.contact_pressure * (1 + 1e-6)
     ):
-        found.append(say("cams.pressure_over", pressure=shown(pressure.value, "pressure"),
-                         limit=shown(limits.contact_pressure, "pressure"), at=at(pressure.place, say)))  # fmt: skip
+        found.append(
+            say(
+                _(
+                    "The contact pressure of {pressure} {at} is above its limit of {limit}.",
+                    pressure=shown(pressure.value, "pressure"),
+                    limit=shown(limits.contact_pressure, "pressure"),
+                    at=at(pressure.place, say),
+                )
+            )
+        )
     return found
 
 
@@ -165,8 +200,8 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
     if design.cam.closure != "force":
         places = ", ".join(shown(each, "angle") for each in design.wall_changes)
         if places:
-            remarks.append(say("cams.wall_changes", places=places))
-    return Block("forces", say("cams.forces"), rows, remarks)
+            remarks.append(say(_("The follower changes its wall at {places}.", places=places)))
+    return Block("forces", say(_("Forces")), rows, remarks)
 
 
 def _weak_spring(design: CamDesign, say: Say) -> list[str]:
@@ -180,10 +215,12 @@ def _weak_spring(design: CamDesign, say: Say) -> list[str]:
     kind = "torque" if design.cam.follower.oscillating else "force"
     return [
         say(
-            "cams.effort_under",
-            effort=shown(lowest.value, kind),
-            limit=shown(limit, kind),
-            at=at(lowest.place, say),
+            _(
+                "The spring leaves an effort of {effort} {at}, below its limit of {limit}.",
+                effort=shown(lowest.value, kind),
+                limit=shown(limit, kind),
+                at=at(lowest.place, say),
+            )
         )
     ]
 
@@ -199,13 +236,13 @@ def _vibration(design: CamDesign, say: Say) -> Block | None:
     ]
     if isinstance(cam.program, MotionProgram):
         rows.append(Row("residual", float(design.residual_vibration(np.array([speed])).max()), length))
-    return Block("vibration", say("cams.vibration"), rows)
+    return Block("vibration", say(_("Vibration")), rows)
 
 
 def steps(design: CamDesign, say: Say) -> list[Step]:
     """Start position, pressure angle and curvature with their formulas and numbers."""
     cam, follower = design.cam, design.cam.follower
-    first = Step("1", say("cams.step_start"))
+    first = Step("1", say(_("Start position")))
     base = cam.base_radius or 0.0
     of: dict[str, Value]
     if cam.barrel_radius is not None:
@@ -226,19 +263,19 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
             "r_b": (base, "length"), "r_r": (follower.roller_radius, "length"), "e": (follower.offset, "length"),
         }  # fmt: skip
         put(first, "d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", of=of)
-    second = Step("2", say("cams.step_angle"))
+    second = Step("2", say(_("Pressure angle")))
     steepest = sorted((design.pressure_angle_rise, design.pressure_angle_fall), key=lambda each: each.place)
     extreme = steepest[first_largest(np.abs([each.value for each in steepest]))]
     formula, numbers = _angle_formula(design, extreme.place)
     put(second, f"α({math.degrees(extreme.place):.5g}°)", formula, extreme.value, "angle", numbers=numbers)
-    third = Step("3", say("cams.step_radius"))
+    third = Step("3", say(_("Radius of curvature")))
     radius = design.smallest_radius
     if radius is not None:
         formula = "H + d²H/dθ²" if follower.kind == "flat" else "|p′|³/|p′ × p″| − r_r"
         put(third, f"ρ({math.degrees(radius.place):.5g}°)", formula, radius.value, "length")
     if not design.loaded:
         return [first, second, third]
-    fourth = Step("4", say("cams.step_force"))
+    fourth = Step("4", say(_("Contact force and torque")))
     fourth.law(f"F = m·ω²·s″ + F₀ + k·s + F_l; {_normal_force(design)}; T = F·s′")
     put(fourth, "N_max", "", design.extreme_force("max").value, "force")
     put(fourth, "T_max", "", design.extreme_torque("max").value, "torque")

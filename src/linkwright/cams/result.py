@@ -24,7 +24,7 @@ from linkwright.equations.steps import Step
 from linkwright.errors import RequestError
 from linkwright.laws.program import MotionProgram
 from linkwright.parts.base import Result
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 if TYPE_CHECKING:
     from linkwright.cams.curves import CamCurve, Contact
@@ -104,7 +104,7 @@ class CamDesign(Result):
         k = first_largest(known)
         inside = self._inside
         low, high = inside[max(k - 1, 0)], inside[min(k + 1, len(known) - 1)]
-        for _ in range(8):
+        for _unused in range(8):
             phi = np.linspace(low, high, 33)
             found = values(phi)
             j = first_largest(np.abs(found))
@@ -248,12 +248,18 @@ class CamDesign(Result):
         """
         radius = self.cam.cutter_radius if radius is None else radius
         if radius is None or not radius >= 0:
-            raise RequestError("cams.no_cutter")
+            raise RequestError(_("the radius of the cutter is not known", code="cams.no_cutter"))
         contact = self.cam.walls[wall].contact(self.places(points))
         hollow = -float(contact.bend.min())
         if hollow * radius > 1 + 1e-9:
             raise RequestError(
-                "cams.cutter_large", radius=number(radius, "length"), most=f"{1e3 / hollow:.6g}"
+                _(
+                    "a cutter of {radius} mm does not fit into the hollow of the profile; take at most "
+                    "{most} mm",
+                    code="cams.cutter_large",
+                    radius=number(radius, "length"),
+                    most=f"{1e3 / hollow:.6g}",
+                )
             )
         path = contact.point + radius * contact.normal
         return np.stack([path.real, path.imag], axis=1)
@@ -261,7 +267,15 @@ class CamDesign(Result):
     def places(self, points: int) -> Floats:
         """Angles (rad) of so many points of the profile; raises RequestError for too few or too many."""
         if not _FEWEST <= points <= _MOST:
-            raise RequestError("cams.points", points=points, least=_FEWEST, most=_MOST)
+            raise RequestError(
+                _(
+                    "{points} points; give {least} to {most}",
+                    code="cams.points",
+                    points=points,
+                    least=_FEWEST,
+                    most=_MOST,
+                )
+            )
         end = self.cam.barrel_radius is not None
         return np.linspace(0.0, 2 * math.pi, points + end, endpoint=end)
 
@@ -319,15 +333,30 @@ class CamDesign(Result):
         Raises RequestError without ``elasticity`` and mass, and for a program that is not made of segments.
         """
         if self.cam.elasticity is None or not self.loading.mass:
-            raise RequestError("cams.no_elasticity")
+            raise RequestError(
+                _(
+                    "the vibration needs elasticity and mass of the follower; give both",
+                    code="cams.no_elasticity",
+                )
+            )
         if not isinstance(self.cam.program, MotionProgram):
-            raise RequestError("cams.no_segments")
+            raise RequestError(
+                _(
+                    "a program that was found has no single rises; take its steady deviation",
+                    code="cams.no_segments",
+                )
+            )
         return residual_amplitude(self.cam.program, self.own_frequency, np.asarray(speeds, dtype=float))
 
     def steady_deviation(self, speeds: Floats) -> Floats:
         """Largest distance of the follower's mass from what the cam asks (n,) at speeds (n,), in steady turning."""
         if self.cam.elasticity is None or not self.loading.mass:
-            raise RequestError("cams.no_elasticity")
+            raise RequestError(
+                _(
+                    "the vibration needs elasticity and mass of the follower; give both",
+                    code="cams.no_elasticity",
+                )
+            )
         damping = self.cam.elasticity.damping_ratio
         return steady_deviation(
             self.cam.program, self.own_frequency, damping, np.asarray(speeds, dtype=float)

@@ -19,6 +19,7 @@ from linkwright.errors import Finding
 from linkwright.fields.base import GivenByFile
 from linkwright.laws.program import Program
 from linkwright.parts.base import Problem, fault
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -113,14 +114,47 @@ class CamShape(Problem):
         if not follower.oscillating:
             height = follower.start_height(radius)
             if height is None or height + low <= 0:
-                return fault("cams.offset", key, offset=1e3 * follower.offset, radius=1e3 * radius)
+                return fault(
+                    "offset",
+                    key,
+                    _(
+                        "with an offset of {offset} mm and a base circle of {radius} mm the follower does "
+                        "not reach the cam at every lift",
+                    ),
+                    _(
+                        "take a smaller offset or a larger base circle, or lifts that do not go below the "
+                        "base circle",
+                    ),
+                    offset=1e3 * follower.offset,
+                    radius=1e3 * radius,
+                )
             return None
         start = follower.start_angle(radius)
         largest = math.pi / 2 if follower.kind == "flat" else math.pi
         if start is None or start + low <= 0 or start + high >= largest:
-            return fault("cams.arm_reach", key, radius=1e3 * radius)
+            return fault(
+                "arm_reach",
+                key,
+                _(
+                    "with a base circle of {radius} mm the oscillating follower does not reach the cam "
+                    "at every lift",
+                ),
+                _(
+                    "change arm, pivot distance or base circle so that the triangle of centre, pivot and "
+                    "arm closes",
+                ),
+                radius=1e3 * radius,
+            )
         if follower.kind == "flat" and self.program.fastest >= 1:
-            return fault("cams.too_fast", "program", rate=self.program.fastest)
+            return fault(
+                "too_fast",
+                "program",
+                _(
+                    "the flat face turns {rate} times as fast as the cam at its fastest: nothing envelops it",
+                ),
+                _("let it rise less or over a larger angle"),
+                rate=self.program.fastest,
+            )
         return None
 
     @cached_property

@@ -17,6 +17,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
 from linkwright.laws.program import Program
 from linkwright.parts.base import fault
+from linkwright.words import _
 
 #: Base radii that are tried: first and last over the size of the lift, ratio of neighbours; offsets that are tried.
 _FIRST, _LAST, _RATIO, _OFFSETS = 0.05, 400.0, 1.12, 21
@@ -40,7 +41,16 @@ def chosen(cam: Sized) -> Sized:
         if radius is not None and (best is None or radius < (best.base_radius or 0.0) - _FINE):
             best = replace(there, base_radius=radius)
     if best is None:
-        raise ModelError([fault("cams.no_size", "limits")])
+        raise ModelError(
+            [
+                fault(
+                    "no_size",
+                    "limits",
+                    _("no base circle keeps all limits with this follower"),
+                    _("widen a limit, allow other offsets or rollers, or take a smoother program"),
+                )
+            ]
+        )
     return best
 
 
@@ -82,7 +92,7 @@ def _exactly(cam: CamShape, radius: float | None) -> float | None:
     if radius is None:
         return None
     low, high = (1 - 2 * _ROUGH) * radius, radius
-    for _ in range(40):
+    for _unused in range(40):
         if _keeps_exactly(cam, high):
             break
         low, high = high, high + 2 * (high - low)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright import whole_files
 from linkwright.cli.errors import UsageError
 from linkwright.cli.session import Session
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.core.attached import Plotted
@@ -51,7 +52,14 @@ def refuse_output(name: str | None, endings: Sequence[str], *, force: bool) -> N
         return
     path = Path(name)
     if path.suffix.lower() not in endings:
-        raise UsageError("cli.bad_suffix", path=path, endings=tuple(endings))
+        raise UsageError(
+            _(
+                '"{path}": the ending says what is written; end the name in {endings}',
+                code="cli.bad_suffix",
+                path=path,
+                endings=tuple(endings),
+            )
+        )
     refuse_existing(path, force=force)
 
 

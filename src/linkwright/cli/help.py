@@ -9,7 +9,7 @@ from linkwright.cli import commands
 from linkwright.cli.parser import CommandParser, Options, add_common
 from linkwright.cli.session import Session
 from linkwright.core import VERSION
-from linkwright.words import Say
+from linkwright.words import Say, _
 from linkwright.words.characters import aligned_within
 
 INDENT = "  "
@@ -36,10 +36,20 @@ def overview(session: Session) -> None:
             [
                 f"{say('cli.usage')}{say('cli.usage_line')}\n",
                 f"{say('cli.tagline')}\n",
-                _section(say("cli.commands"), rows(names)),
-                _section(say("cli.options"), rows([(option, say(f"cli.{key}")) for option, key in options])),
-                _section(say("cli.exit_title"), say("cli.exit_codes")),
-                say("cli.more"),
+                _section(say(_("commands")), rows(names)),
+                _section(say(_("options")), rows([(option, say(f"cli.{key}")) for option, key in options])),
+                _section(
+                    say(_("exit codes")),
+                    say(
+                        _(
+                            "0    done, nothing to complain about\n"
+                            "1    an error in the model, or a position that cannot be reached\n"
+                            "2    the command itself is wrong: an unknown option, name or file\n"
+                            "130  interrupted",
+                        )
+                    ),
+                ),
+                say(_("linkwright COMMAND --help explains a command, with examples.")),
             ]
         )
     )
@@ -49,8 +59,18 @@ def command_parser(name: str, say: Say) -> CommandParser:
     """The parser of a command with its help text."""
     epilog = "\n".join(
         [
-            _section(say("cli.examples"), say(f"{name}.examples")),
-            _section(say("cli.exit_title"), say("cli.exit_codes")),
+            _section(say(_("examples")), say(f"{name}.examples")),
+            _section(
+                say(_("exit codes")),
+                say(
+                    _(
+                        "0    done, nothing to complain about\n"
+                        "1    an error in the model, or a position that cannot be reached\n"
+                        "2    the command itself is wrong: an unknown option, name or file\n"
+                        "130  interrupted",
+                    )
+                ),
+            ),
         ]
     )
     parser = CommandParser(f"linkwright {name}", say, description=say(f"{name}.description"), epilog=epilog)
@@ -78,10 +98,28 @@ def version(session: Session) -> None:
         session.show_data({"linkwright": VERSION, "python": python, **found})
         return
     say = session.say
-    numpy = found["numpy"] or say("cli.not_installed")
-    session.show(say("cli.version", version=VERSION, python=python, numpy=numpy))
+    numpy = found["numpy"] or say(_("not installed"))
+    session.show(
+        say(
+            _(
+                "linkwright {version}\nPython {python}, numpy {numpy}",
+                version=VERSION,
+                python=python,
+                numpy=numpy,
+            )
+        )
+    )
     compiled = found["llvmlite"]
-    session.show(say("cli.llvmlite_there", version=compiled) if compiled else say("cli.llvmlite_missing"))
+    session.show(
+        say(_("llvmlite {version}: sweeps of many designs run compiled", version=compiled))
+        if compiled
+        else say(
+            _(
+                "llvmlite is not installed: everything works, sweeps of many designs are slower (pip "
+                "install llvmlite)",
+            )
+        )
+    )
 
 
 def _section(title: str, body: str) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.progress import progress
 from linkwright.cli.session import Session
 from linkwright.core.progress import Progress
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -28,5 +29,9 @@ def kept(
         ):
             yield report
     except Interrupted as stopped:
-        session.tell(session.say("study.interrupted", path=stopped.state))
+        session.tell(
+            session.say(
+                _("Interrupted; run the same command with --state {path} to go on.", path=stopped.state)
+            )
+        )
         raise

@@ -17,7 +17,7 @@ from linkwright.errors import LinkwrightError, about
 from linkwright.machine.flywheel import FlywheelSize, disk, flywheel_inertia, on_faster_shaft, rim
 from linkwright.machine.motor import motor
 from linkwright.machine.torque_curve import TURN, TorqueCurve
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: Keys of --disk and --rim: dimension, and the argument that takes it.
 SHAPE_KEYS = {
@@ -75,7 +75,14 @@ def quantity(option: str, text: str, dimension: str) -> float:
     with about(option, UsageError):
         value = amount(text, dimension)
     if not value > 0:
-        raise UsageError("machine.not_above_zero", option=option, text=text)
+        raise UsageError(
+            _(
+                '{option} is "{text}"; give a value above zero',
+                code="machine.not_above_zero",
+                option=option,
+                text=text,
+            )
+        )
     return value
 
 
@@ -87,7 +94,15 @@ def curve(option: str, text: str, period: str | None) -> TorqueCurve:
         with np.errstate(all="ignore"):
             values = found.function(np.linspace(0.0, length, TRIED))
     if not (np.abs(values) <= units.LARGEST["torque"]).all():
-        raise UsageError("machine.not_finite", option=option, text=text)
+        raise UsageError(
+            _(
+                "{option}: {text} is not finite somewhere in the cycle, or more than any machine "
+                "has; check numbers, divisions and roots",
+                code="machine.not_finite",
+                option=option,
+                text=text,
+            )
+        )
     return found
 
 
@@ -101,7 +116,14 @@ def areas(text: str, scales: str | None) -> tuple[list[float], tuple[float, floa
         plain = part.removesuffix("J") if works else part.replace("mm²", "").replace("mm2", "")
         found.append(number_of(plain.replace(" ", "")))
         if not math.isfinite(found[-1]):
-            raise UsageError("machine.bad_area", text=part)
+            raise UsageError(
+                _(
+                    '--areas: "{text}" is no area; give numbers in mm² separated by commas, such as '
+                    '"+295, -685, +390"',
+                    code="machine.bad_area",
+                    text=part,
+                )
+            )
     return found, ((1.0, 1.0) if works else _scales(scales))
 
 
@@ -109,7 +131,12 @@ def _scales(text: str | None) -> tuple[float, float]:
     """Torque scale, N·m per mm, and angle scale, rad per mm, of ``5 N·m/mm, 1 deg/mm``; the work of a mm² and 1 of
     ``20 J/mm²``; raises UsageError."""
     if text is None:
-        raise UsageError("machine.no_scale")
+        raise UsageError(
+            _(
+                '--areas needs the scales of the diagram: --scale "5 N·m/mm, 1 deg/mm"',
+                code="machine.no_scale",
+            )
+        )
     found = {}
     torque, angle = units.DIMENSIONS["torque"], units.DIMENSIONS["angle"]
     for part in text.split(","):
@@ -119,10 +146,24 @@ def _scales(text: str | None) -> tuple[float, float]:
         per_mm = {units.times(torque, units.DIMENSIONS["length"], -1): "torque"}
         per_mm[units.times(angle, units.DIMENSIONS["length"], -1)] = "angle"
         if dimension not in per_mm or not value > 0:
-            raise UsageError("machine.bad_scale", text=text)
+            raise UsageError(
+                _(
+                    '--scale: "{text}" does not give both scales; write torque and angle per mm above '
+                    'zero, such as "5 N·m/mm, 1 deg/mm"',
+                    code="machine.bad_scale",
+                    text=text,
+                )
+            )
         found[per_mm[dimension]] = 1e-3 * value
     if len(found) != 2:
-        raise UsageError("machine.bad_scale", text=text)
+        raise UsageError(
+            _(
+                '--scale: "{text}" does not give both scales; write torque and angle per mm above '
+                'zero, such as "5 N·m/mm, 1 deg/mm"',
+                code="machine.bad_scale",
+                text=text,
+            )
+        )
     return found["torque"], found["angle"]
 
 
@@ -130,7 +171,14 @@ def _any_quantity(part: str, text: str) -> tuple[float, units.Dimension]:
     plain = units.tidy(part)
     found = units.NUMBER.match(plain)
     if found is None or not plain[found.end() :].strip():
-        raise UsageError("machine.bad_scale", text=text)
+        raise UsageError(
+            _(
+                '--scale: "{text}" does not give both scales; write torque and angle per mm above '
+                'zero, such as "5 N·m/mm, 1 deg/mm"',
+                code="machine.bad_scale",
+                text=text,
+            )
+        )
     with about("--scale", UsageError):
         factor, dimension = units.unit(plain[found.end() :].strip())
     return float(found.group()) * factor, dimension
@@ -139,16 +187,35 @@ def _any_quantity(part: str, text: str) -> tuple[float, units.Dimension]:
 def _number(option: str, text: str) -> float:
     value = number_of(text)
     if not math.isfinite(value):
-        raise UsageError("machine.no_number", option=option, text=text)
+        raise UsageError(
+            _(
+                '{option}: "{text}" is no number; write it with a point and without a unit, such as 0.9',
+                code="machine.no_number",
+                option=option,
+                text=text,
+            )
+        )
     return value
 
 
 def _inertia(options: argparse.Namespace) -> float:
     """Moment of inertia that is there: given, or of a mass and a radius of gyration; 0 where neither is."""
     if options.inertia is not None and (options.mass is not None or options.gyration is not None):
-        raise UsageError("cli.not_together", name="--inertia", other="--mass")
+        raise UsageError(
+            _(
+                "{name} cannot be used together with {other}",
+                code="cli.not_together",
+                name="--inertia",
+                other="--mass",
+            )
+        )
     if (options.mass is None) != (options.gyration is None):
-        raise UsageError("machine.mass_and_gyration")
+        raise UsageError(
+            _(
+                "--mass and --gyration belong together; give both, or --inertia",
+                code="machine.mass_and_gyration",
+            )
+        )
     if options.inertia is not None:
         return quantity("--inertia", options.inertia, "inertia")
     if options.mass is None:
@@ -171,7 +238,13 @@ def _shape_values(option: str, text: str) -> dict[str, float]:
     for part in filter(None, (part.strip() for part in text.split(","))):
         key, sign, given = (piece.strip() for piece in part.partition("="))
         if not sign or key not in keys:
-            said = Sentence("machine.bad_shape", option=option, text=part, keys=tuple(keys))
+            said = _(
+                '{option}: "{text}" says nothing about it; write KEY=VALUE with the keys {keys}',
+                code="machine.bad_shape",
+                option=option,
+                text=part,
+                keys=tuple(keys),
+            )
             raise UsageError(did_you_mean(said, key, keys) if sign else said)
         dimension, name = SHAPE_KEYS[key]
         found[name] = quantity(f"{option} {key}", given, dimension)

@@ -12,7 +12,7 @@ from linkwright.machine.motor import motor
 from linkwright.machine.running import placed, share, speeds
 from linkwright.machine.speed import true_speed
 from linkwright.machine.torque_curve import TorqueCurve
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: A mean torque below this share of the largest one is zero.
 NOTHING = 1e-9
@@ -35,10 +35,18 @@ def of_areas(energy: EnergyFluctuation, wanted: Wanted, say: Say) -> list[Block]
 def of_curves(driver: TorqueCurve, load: TorqueCurve | None, wanted: Wanted, say: Say) -> list[Block]:
     """Rows of a driving torque against a load; raises LinkwrightError for a mean torque of zero."""
     mean = driver.mean
-    (_, lowest), (_, highest) = driver.extremes()
+    (_unused, lowest), (_unused2, highest) = driver.extremes()
     if abs(mean) <= NOTHING * max(abs(lowest), abs(highest)) or mean < 0:
         shown_mean = shown(mean, "torque") if mean < -NOTHING * abs(lowest) else "0 N·m"
-        raise LinkwrightError("machine.no_mean_torque", mean=shown_mean)
+        raise LinkwrightError(
+            _(
+                "the mean of --torque over the cycle is {mean}, so it does no work that a motor or a "
+                "flywheel could be laid out for; give the driving torque, which is positive on the "
+                "average",
+                code="machine.no_mean_torque",
+                mean=shown_mean,
+            )
+        )
     resisting = TorqueCurve.constant(mean, period=driver.period) if load is None else load
     energy = energy_fluctuation(driver, resisting).without_rounding(mean * driver.period)
     first = [Row("mean_torque", mean, "torque")]
@@ -72,7 +80,7 @@ def _blocks(*parts: list[Row]) -> list[Block]:
 
 def _after(key: str, energy: float, area: int, say: Say) -> Row:
     """An energy with the number of the area behind which it is."""
-    place = say("machine.after_area", number=area) if area else say("machine.at_begin")
+    place = say(_("after area {number}", number=area)) if area else say(_("at the beginning"))
     return Row(key, energy, "energy", note=place, more={"after_area": area})
 
 

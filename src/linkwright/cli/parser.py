@@ -9,8 +9,7 @@ from typing import Any
 
 from linkwright.cli.reading import read
 from linkwright.errors import with_remedy
-from linkwright.words import Message, Say
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, Say, _
 
 
 class CommandParser(argparse.ArgumentParser):
@@ -32,8 +31,8 @@ class CommandParser(argparse.ArgumentParser):
         )
         self.say = say
         self.surplus: Callable[[str], str] = lambda word: ""
-        self._positionals.title = say("cli.arguments")
-        self._optionals.title = say("cli.options")
+        self._positionals.title = say(_("arguments"))
+        self._optionals.title = say(_("options"))
 
     def read(self, arguments: Sequence[str]) -> argparse.Namespace:
         """The options; raises UsageError for what is wrong with them."""
@@ -54,7 +53,7 @@ class CommandParser(argparse.ArgumentParser):
         return self._headed(super().format_help())
 
     def _headed(self, text: str) -> str:
-        return self.say("cli.usage") + text.removeprefix("usage: ")
+        return self.say(_("usage: ")) + text.removeprefix("usage: ")
 
 
 def did_you_mean(said: Message, word: str, known: Iterable[str], otherwise: str = "") -> str:
@@ -62,7 +61,7 @@ def did_you_mean(said: Message, word: str, known: Iterable[str], otherwise: str 
     from linkwright.registry import nearest
 
     offer = nearest(word, list(known))
-    return with_remedy(said, Sentence("names.did_you_mean", offer=offer) if offer else otherwise)
+    return with_remedy(said, _('did you mean "{offer}"?', offer=offer) if offer else otherwise)
 
 
 def whole_number(text: str) -> int:

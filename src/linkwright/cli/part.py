@@ -11,6 +11,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.files.calculations import COMMANDS
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.parts.base import Problem, Result
@@ -71,7 +72,15 @@ def read(source: str, command: str, session: Session) -> Problem:
 
     kind = kind_of(source)
     if kind in COMMANDS and COMMANDS[kind] != command:
-        raise UsageError("part.other_command", kind=kind, command=COMMANDS[kind], file=source)
+        raise UsageError(
+            _(
+                "the file is of kind {kind}; call: linkwright {command} {file}",
+                code="part.other_command",
+                kind=kind,
+                command=COMMANDS[kind],
+                file=source,
+            )
+        )
     problem = load(source)
     for each in problem.warnings:
         session.tell(session.finding(each))
@@ -90,7 +99,13 @@ def show(result: Result, options: argparse.Namespace, session: Session, *, kind:
     def table() -> str:
         columns = result.columns()
         if not columns:
-            raise UsageError("part.no_curves", path=Path(options.output))
+            raise UsageError(
+                _(
+                    "{path}: this result has no curves to write; choose an ending .json",
+                    code="part.no_curves",
+                    path=Path(options.output),
+                )
+            )
         return csv_text(columns)
 
     write_table(options.output, table, result.data, force=options.force)

@@ -13,12 +13,15 @@ from linkwright.errors import LinkwrightError, about
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
+from linkwright.words import _
 
 
 def source_arguments(option: Options, *, steps: int) -> None:
     """The model file, and the steps of its cycle."""
     option.model()
-    option.count("--steps", steps, help=option.say("draw.steps_help", steps=steps))
+    option.count(
+        "--steps", steps, help=option.say(_("equal steps over the cycle (default: {steps})", steps=steps))
+    )
 
 
 def vector_arguments(option: Options) -> None:
@@ -61,7 +64,9 @@ def refuse_unknown_marks(mechanism: Mechanism, options: argparse.Namespace) -> N
     joints = mechanism.joints
     for name in names(options.forces):
         if (joint := name.rpartition(".")[2]) not in joints:
-            raise UsageError("cli.about", name="--forces", cause=no_such("joint", joint, joints))
+            raise UsageError(
+                _("{name}: {cause}", code="cli.about", name="--forces", cause=no_such("joint", joint, joints))
+            )
 
 
 def refuse_unknown(find: Callable[[str], object], option: str, given: Sequence[str]) -> None:
@@ -78,12 +83,24 @@ def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
     from linkwright.kinematics.solve import solve_motion
 
     if steps > MOST:
-        raise UsageError("solve.too_many", steps=steps, most=MOST)
+        raise UsageError(
+            _("--steps is {steps}; take {most} at most", code="solve.too_many", steps=steps, most=MOST)
+        )
     motion = solve_motion(mechanism, steps=steps, failures="mark")
     failed = int((~motion.ok).sum())
     if failed and failed < motion.steps:
         first = next(each for each in motion.outcomes if not each.ok)
-        session.tell(session.say("draw.not_reached", count=failed, of=motion.steps, sentence=first.sentence))
+        session.tell(
+            session.say(
+                _(
+                    "note: {count} of {of} positions cannot be reached and are left out; the first: "
+                    "{sentence}",
+                    count=failed,
+                    of=motion.steps,
+                    sentence=first.sentence,
+                )
+            )
+        )
     return motion
 
 

@@ -10,7 +10,7 @@ from linkwright.errors import LinkwrightError, RequestError, about
 from linkwright.events.position_list import known_outputs, of_text, values_of
 from linkwright.kinematics.positions import rotary
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 
 def quantities(text: str, dimension: str, option: str) -> list[float]:
@@ -29,7 +29,14 @@ def inputs(text: str, mechanism: Mechanism) -> dict[str, list[float]]:
     ``NAME=list; NAME=list``; raises UsageError."""
     drivers = rotary(mechanism)
     if not drivers:
-        raise UsageError("cli.about", name="--at", cause=Sentence("solve.no_input"))
+        raise UsageError(
+            _(
+                "{name}: {cause}",
+                code="cli.about",
+                name="--at",
+                cause=_("the model has no driver, so there is no input to set", code="solve.no_input"),
+            )
+        )
     if "=" not in text:
         return {next(iter(drivers)): places(text, mechanism, mechanism.across, "--at")}
     found: dict[str, list[float]] = {}
@@ -37,12 +44,21 @@ def inputs(text: str, mechanism: Mechanism) -> dict[str, list[float]]:
         name, equals, values = part.rpartition("=")
         name = name.strip() if equals else next(iter(drivers))
         if name not in drivers:
-            cause = did_you_mean(Sentence("solve.no_driver", name=name), name, drivers)
-            raise UsageError("cli.about", name="--at", cause=cause)
+            cause = did_you_mean(
+                _('there is no driver "{name}"', code="solve.no_driver", name=name), name, drivers
+            )
+            raise UsageError(_("{name}: {cause}", code="cli.about", name="--at", cause=cause))
         found[name] = quantities(values, "angle" if drivers[name] else "length", "--at")
     counts = {len(values) for values in found.values()} - {1}
     if len(counts) > 1:
-        raise UsageError("solve.uneven", counts=tuple(map(str, sorted(counts))))
+        raise UsageError(
+            _(
+                "--at: the drivers have lists of different lengths ({counts}); give as many values "
+                "for each, or one",
+                code="solve.uneven",
+                counts=tuple(map(str, sorted(counts))),
+            )
+        )
     return found
 
 
@@ -52,6 +68,13 @@ def places(text: str, mechanism: Mechanism, dimension: str, option: str) -> list
         listed = of_text(text, (dimension,))
         known_outputs(mechanism, listed)
     if not mechanism.drivers and listed.at_limits:
-        raise UsageError("cli.about", name=option, cause=Sentence("solve.no_input"))
+        raise UsageError(
+            _(
+                "{name}: {cause}",
+                code="cli.about",
+                name=option,
+                cause=_("the model has no driver, so there is no input to set", code="solve.no_input"),
+            )
+        )
     with about(option, UsageError, RequestError):
         return listed.times(mechanism) if dimension == "time" else listed.inputs(mechanism)

@@ -16,7 +16,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import with_remedy
 from linkwright.registry import nearest
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 _NUMBER_WITH_MINUS = re.compile(r"-[\d.]")
@@ -56,7 +56,7 @@ def read(
         if action.required and action.option_strings and id(action) not in named
     ]
     if missing:
-        raise _slip(parser, Sentence("cli.missing", names=tuple(missing)))
+        raise _slip(parser, _("{names} is missing", code="cli.missing", names=tuple(missing)))
     return options
 
 
@@ -119,14 +119,14 @@ def _value(each: _Given, parser: argparse.ArgumentParser) -> object:
     action = each.action
     if action.nargs == 0:
         if each.words:
-            raise _slip(parser, Sentence("cli.takes_no_value", name=each.name))
+            raise _slip(parser, _("{name} takes no value", code="cli.takes_no_value", name=each.name))
         return (
             not each.name.startswith("--no-") if isinstance(action, argparse.BooleanOptionalAction) else True
         )
     if action.nargs == "?" and not each.words:
         return action.const
     if not each.words and action.nargs != "*":
-        raise _slip(parser, Sentence("cli.needs_value", name=each.name))
+        raise _slip(parser, _("{name} needs a value", code="cli.needs_value", name=each.name))
     values = [_converted(action, each.name, word, parser) for word in each.words]
     return values if action.nargs in _LISTS else values[0]
 
@@ -141,7 +141,16 @@ def _converted(action: argparse.Action, name: str, word: str, parser: argparse.A
             raise _slip(parser, Sentence(key, name=name, value=word)) from None
     if action.choices is not None and value not in action.choices:
         offered = tuple(map(str, action.choices))
-        raise _slip(parser, Sentence("cli.bad_choice", name=name, value=word, choices=offered))
+        raise _slip(
+            parser,
+            _(
+                '{name} cannot be "{value}"; choose from {choices}',
+                code="cli.bad_choice",
+                name=name,
+                value=word,
+                choices=offered,
+            ),
+        )
     return value
 
 
@@ -157,14 +166,14 @@ def _place(
         name = str(action.metavar or action.dest)
         if not free:
             if action.nargs in (None, "+"):
-                raise _slip(parser, Sentence("cli.missing", names=(name,)))
+                raise _slip(parser, _("{names} is missing", code="cli.missing", names=(name,)))
             continue
         count = len(free) if action.nargs in _LISTS else 1
         values = [_converted(action, name, word, parser) for word in free[:count]]
         del free[:count]
         setattr(options, action.dest, values if action.nargs in _LISTS else values[0])
     if free:
-        said = Sentence("cli.unknown_argument", name=free[0])
+        said = _('the argument "{name}" is not expected here', code="cli.unknown_argument", name=free[0])
         remedy = surplus(free[0]) or _with_option(free[0], parser)
         raise UsageError(with_remedy(said, remedy)) if remedy else _slip(parser, said)
 
@@ -178,7 +187,7 @@ def _with_option(word: str, parser: argparse.ArgumentParser) -> Message | None:
     }
     for name, fits in looks.items():
         if fits and name in parser._option_string_actions:
-            return Sentence("cli.write_option", name=name, word=word)
+            return _("write {name} {word}", name=name, word=word)
     return None
 
 
@@ -187,17 +196,25 @@ def _refuse_together(given: list[_Given], parser: argparse.ArgumentParser) -> No
         members = {id(action) for action in group._group_actions}
         names = {id(each.action): each.name for each in given if id(each.action) in members}
         if len(names) > 1:
-            first, second, *_ = names.values()
-            raise _slip(parser, Sentence("cli.not_together", name=second, other=first))
+            first, second, *_unused = names.values()
+            raise _slip(
+                parser,
+                _(
+                    "{name} cannot be used together with {other}",
+                    code="cli.not_together",
+                    name=second,
+                    other=first,
+                ),
+            )
 
 
 def _unknown(parser: argparse.ArgumentParser, name: str) -> UsageError:
-    said = Sentence("cli.unknown_option", name=name)
+    said = _('there is no option "{name}"', code="cli.unknown_option", name=name)
     offer = nearest(name, list(parser._option_string_actions)) if name.startswith("--") else None
     if offer:
-        return UsageError(with_remedy(said, Sentence("names.did_you_mean", offer=offer)))
+        return UsageError(with_remedy(said, _('did you mean "{offer}"?', offer=offer)))
     return _slip(parser, said)
 
 
 def _slip(parser: argparse.ArgumentParser, said: Message) -> UsageError:
-    return UsageError(with_remedy(said, Sentence("cli.see_help_of", command=parser.prog)))
+    return UsageError(with_remedy(said, _("see {command} --help", command=parser.prog)))

@@ -11,7 +11,7 @@ from typing import Any, Protocol
 from linkwright.cli.errors import OutputError
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
-from linkwright.words import Say
+from linkwright.words import Say, _
 from linkwright.words.characters import folded_lines, terminal_text
 from linkwright.words.sentence import reason_of
 
@@ -75,7 +75,7 @@ class Session:
         """Says which files were written, but for those that are None; ``apart``: each behind an empty line."""
         for path in paths:
             if path is not None:
-                self.show("\n" * apart + self.say("cli.written", path=path))
+                self.show("\n" * apart + self.say(_("written: {path}", path=path)))
 
     def flush(self) -> None:
         """Sees to it that everything shown is written."""
@@ -90,7 +90,7 @@ class Session:
 
     def tell_error(self, sentence: str) -> None:
         """Prints an error to the standard error."""
-        self.tell(self.say("cli.headed", head=self.alarm(self.say("cli.error")), sentence=sentence))
+        self.tell(self.say(_("{head}: {sentence}", head=self.alarm(self.say(_("error"))), sentence=sentence)))
 
     @property
     def room(self) -> int | None:
@@ -144,7 +144,9 @@ def _writing() -> Iterator[None]:
     except BrokenPipeError:
         raise
     except OSError as problem:
-        raise OutputError("cli.output_lost", reason=reason_of(problem)) from None
+        raise OutputError(
+            _("the output cannot be written ({reason})", code="cli.output_lost", reason=reason_of(problem))
+        ) from None
 
 
 def _coloured(terminal: bool) -> bool:

@@ -19,7 +19,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
 from linkwright.metrics.analysis import Kind
-from linkwright.words import Say
+from linkwright.words import Say, _
 from linkwright.words.characters import aligned
 
 Wanted = tuple[Callable[[Forces], Floats], Kind]
@@ -60,7 +60,19 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     table = aligned([row[:wide] for row in rows], "<<>>>>"[:wide])
     heading = say(f"solve.{title}", count=int(solved.motion.ok.sum()))
     rubbing = rubbing_guides(forces.mechanism)
-    apart = [say("forces.friction_apart", names=", ".join(rubbing))] if rubbing else []
+    apart = (
+        [
+            say(
+                _(
+                    "The force in a guide is what presses its parts together; its friction, μ times "
+                    "that, along the guide, comes on top: {names}",
+                    names=", ".join(rubbing),
+                )
+            )
+        ]
+        if rubbing
+        else []
+    )
     return [
         heading,
         *(f"  {line}" for line in table),
@@ -88,12 +100,12 @@ def _places(solved: Solved, wanted: Sequence[Wanted], degrees: bool) -> list[Pla
         rows = [
             first_largest(signal(forces) if kind == "max" else -signal(forces)) for signal, kind in wanted
         ]
-        values = [float(signal(forces)[row]) for (signal, _), row in zip(wanted, rows, strict=True)]
+        values = [float(signal(forces)[row]) for (signal, _unused), row in zip(wanted, rows, strict=True)]
     else:
         found = [(signal, solved.analysis.extreme(signal, kind, of="forces")) for signal, kind in wanted]
         known = [(signal, each.time, each.value) for signal, each in found if each is not None]
         forces, rows = solved.analysis.resolver.forces_at(known)
-        values = [value for _, _, value in known]
+        values = [value for _unused, _unused2, value in known]
     return [
         Place(value, input_text(forces.motion, row, degrees=degrees), forces, row)
         for value, row in zip(values, rows, strict=True)
@@ -108,10 +120,25 @@ def checks(solved: Solved, say: Say) -> list[str]:
     power = largest(forces.power_residual)
     lines = []
     if forces.mechanism.drivers:
-        lines.append(say("solve.power_check", residual=f"{power:.1e}", size=f"{largest(forces.power):.3g}"))
+        lines.append(
+            say(
+                _(
+                    "Check: driver power from joint forces and from all powers differ by {residual} W at "
+                    "most (of {size} W)",
+                    residual=f"{power:.1e}",
+                    size=f"{largest(forces.power):.3g}",
+                )
+            )
+        )
     size = solved.force_scale
     lines.append(
-        say("solve.balance_check", residual=f"{largest(forces.balance_residual):.1e}", size=f"{size:.3g}")
+        say(
+            _(
+                "Check: forces on every link balance within {residual} N (of {size} N)",
+                residual=f"{largest(forces.balance_residual):.1e}",
+                size=f"{size:.3g}",
+            )
+        )
     )
     return lines
 
@@ -139,7 +166,7 @@ def failures(solved: Solved, say: Say, language: str, *, degrees: bool) -> list[
     failed = np.flatnonzero(~ok)
     if not len(failed):
         return []
-    lines = [say("solve.not_reached", count=len(failed), of=len(ok))]
+    lines = [say(_("Not reached: {count} of {of} positions", count=len(failed), of=len(ok)))]
     outcomes = solved.motion.outcomes
     for run in np.split(failed, np.flatnonzero(np.diff(failed) > 1) + 1):
         first, last = (input_text(solved.motion, int(place), degrees=degrees) for place in (run[0], run[-1]))
@@ -170,19 +197,28 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
     rows = []
     for key, driver in forces.mechanism.drivers.items():
         values = forces.driver_effort(key)
-        name = key if len(forces.mechanism.drivers) > 1 else say("solve.driver")
+        name = key if len(forces.mechanism.drivers) > 1 else say(_("driver"))
         if not np.isfinite(values).any():
             continue
         unit = "N·m" if forces.mechanism.joints[driver.joint].coordinate == "turn" else "N"
         number = Column("", "", "", unit, values, solved.force_scale).text
         if len(values) == 1:
-            rows.append(say("solve.effort", name=name, value=number(values[0]), unit=unit))
+            rows.append(say(_("{name}: {value} {unit}", name=name, value=number(values[0]), unit=unit)))
             continue
         effort = partial(Forces.driver_effort, name=key)
         high, low = _places(solved, [(effort, "max"), (effort, "min")], degrees)
-        said = say("solve.effort_range", name=name, high=number(high.value), low=number(low.value), unit=unit,
-                   high_at=say("solve.at", place=high.input), low_at=say("solve.at", place=low.input))  # fmt: skip
+        said = say(
+            _(
+                "{name}: from {low} {unit} {low_at} to {high} {unit} {high_at}",
+                name=name,
+                high=number(high.value),
+                low=number(low.value),
+                unit=unit,
+                high_at=say(_("at {place}", place=high.input)),
+                low_at=say(_("at {place}", place=low.input)),
+            )
+        )
         if solved.between and solved.motion.positions.closed:
-            said += say("solve.effort_mean", mean=number(solved.analysis.mean_of(effort)), unit=unit)
+            said += say(_(", mean {mean} {unit}", mean=number(solved.analysis.mean_of(effort)), unit=unit))
         rows.append(said)
     return rows

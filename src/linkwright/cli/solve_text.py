@@ -12,7 +12,7 @@ from linkwright.cli.session import Session
 from linkwright.cli.solve_columns import blocks, efforts, leading, point_keys
 from linkwright.cli.solving import Solved
 from linkwright.structure.analysis import turned_against
-from linkwright.words import Say
+from linkwright.words import Say, _
 from linkwright.words.sentence import in_language
 
 
@@ -27,8 +27,8 @@ def report(solved: Solved, options: argparse.Namespace, session: Session) -> lis
         solve_remarks.checks(solved, say),
         session.table(solve_remarks.closeness(solved.motion, session.language), heads=0),
         solve_remarks.failures(solved, say, session.language, degrees=degrees),
-        [say("solve.note", text=in_language(note, session.language)) for note in solved.notes],
-        [say("solve.note", text=solved.proof.explain(session.language))] if options.prove else [],
+        [say(_("Note: {text}", text=in_language(note, session.language))) for note in solved.notes],
+        [say(_("Note: {text}", text=solved.proof.explain(session.language)))] if options.prove else [],
         [session.finding(finding) for finding in solved.warnings],
     ):
         lines += ["", *paragraph] if paragraph else []
@@ -46,7 +46,7 @@ def _table(solved: Solved, options: argparse.Namespace, session: Session) -> tup
 
 def _structure_line(solved: Solved, say: Say) -> str:
     structure = solved.motion.structure
-    return say("solve.structure", mobility=structure.mobility, chain=structure.chain)
+    return say(_("mobility {mobility}: {chain}", mobility=structure.mobility, chain=structure.chain))
 
 
 def _chosen(solved: Solved, options: argparse.Namespace, session: Session) -> tuple[list[Column], str]:
@@ -83,8 +83,16 @@ def _fitted(
     left = list(dict.fromkeys(block[0].owner for block in ranked if block[0].name not in names))
     if not left:
         return [*first, *shown, *efforts_shown], ""
-    names_left = session.say("finding.comma").join(left)
-    sentence = session.say("solve.left_out", names=names_left, one=left[0], total=len(columns))
+    names_left = session.say(_(", ")).join(left)
+    sentence = session.say(
+        _(
+            'Left out for width: {names}. See them with --columns "{one}.*"; --output FILE.csv '
+            "writes all {total} columns.",
+            names=names_left,
+            one=left[0],
+            total=len(columns),
+        )
+    )
     return [*first, *shown, *efforts_shown], sentence
 
 
@@ -94,12 +102,10 @@ def _headed(columns: Sequence[Column], solved: Solved, say: Say) -> list[Column]
     found = []
     for column in columns:
         if column.name in inputs:
-            column = replace(
-                column, owner=say("solve.input"), quantity="" if len(inputs) == 1 else column.name
-            )
+            column = replace(column, owner=say(_("input")), quantity="" if len(inputs) == 1 else column.name)
         elif column.quantity == "effort" and len(inputs) == 1:
             column = replace(
-                column, owner=say("solve.driver"), quantity="torque" if "m" in column.unit else "force"
+                column, owner=say(_("driver")), quantity="torque" if "m" in column.unit else "force"
             )
         found.append(column)
     return found

@@ -29,7 +29,7 @@ from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 Failures = Literal["raise", "mark"]
 #: Steps of the grid on which largest values are sought, at least.
@@ -59,7 +59,17 @@ class Solved:
     @property
     def notes(self) -> tuple[str, ...]:
         """Notes of motion and forces, and on the rows."""
-        rows = (Sentence("solve.first_turn", turns=self.turns),) if self.turns else ()
+        rows = (
+            (
+                _(
+                    "the table shows the first of {turns} turns; --steps N shows N steps of all of them, "
+                    "--at 720deg..1080deg:15deg others",
+                    turns=self.turns,
+                ),
+            )
+            if self.turns
+            else ()
+        )
         return (*self.motion.notes, *(self.forces.notes if self.forces is not None else ()), *rows)
 
     @cached_property
@@ -154,7 +164,9 @@ def _motion(mechanism: Mechanism, options: argparse.Namespace) -> tuple[Motion, 
         turns = 0 if options.steps else _turns(mechanism)
         steps = options.steps or ROWS * max(1, turns)
         if steps > MOST:
-            raise UsageError("solve.too_many", steps=steps, most=MOST)
+            raise UsageError(
+                _("--steps is {steps}; take {most} at most", code="solve.too_many", steps=steps, most=MOST)
+            )
         share = -(-FINE // steps)
         motion = solve_motion(mechanism, steps=steps * share, endpoint=True, failures=failures)
         return motion, np.arange(0, motion.steps, share)[: ROWS + 1 if turns else None], turns

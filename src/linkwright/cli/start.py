@@ -14,7 +14,7 @@ from linkwright.cli.help import command_parser, overview, version
 from linkwright.cli.parser import did_you_mean
 from linkwright.cli.session import Session
 from linkwright.errors import NO_FILE, LinkwrightError, ModelError, RequestError, about, speaker
-from linkwright.words import LANGUAGES
+from linkwright.words import LANGUAGES, _
 from linkwright.words.sentence import Sentence
 
 FINE, FAULTY, MISUSED, INTERRUPTED = 0, 1, 2, 130
@@ -43,16 +43,16 @@ def run(argv: Sequence[str]) -> int:
         session.tell_error(error.say(session.language))
         return FAULTY
     except KeyboardInterrupt:
-        session.tell(session.say("cli.interrupted"))
+        session.tell(session.say(_("interrupted")))
         return INTERRUPTED
     except LinkwrightError as error:
         return _refused(error, session)
     except MemoryError:
-        session.tell_error(session.say("cli.out_of_memory"))
+        session.tell_error(session.say(_("there is not enough memory for this; ask for fewer steps")))
         return FAULTY
     except Exception as error:
         if _caused_by_interrupt(error):
-            session.tell(session.say("cli.interrupted"))
+            session.tell(session.say(_("interrupted")))
             return INTERRUPTED
         return _unexpected(error, session)
 
@@ -80,7 +80,24 @@ def _dispatch(arguments: list[str], session: Session) -> int:
     ]:
         raise _unknown("cli.unknown_option", unknown[0], ["--help", "--version", "--lang"])
     else:
-        session.show(session.say("cli.start"))
+        session.show(
+            session.say(
+                _(
+                    "Linkwright reads a short text file that describes a planar machine, and answers\n"
+                    "what its designer asks: can it move, where does it go, what do its joints carry.\n"
+                    "\n"
+                    "Three commands to begin with:\n"
+                    "\n"
+                    "  linkwright gallery list                      machines that come with Linkwright\n"
+                    "  linkwright structure gallery:shaper_quick_return\n"
+                    "                                               mobility and Assur groups\n"
+                    "  linkwright solve gallery:jaw_crusher_sixbar  motion, forces and drive torque\n"
+                    "\n"
+                    "Every command takes your own model file in place of gallery:NAME.\n"
+                    "All commands: linkwright --help",
+                )
+            )
+        )
     return FINE
 
 
@@ -125,20 +142,22 @@ def _language(arguments: Sequence[str], usual: str) -> str:
     for index, word in enumerate(arguments):
         if word == "--lang":
             if index + 1 == len(arguments):
-                raise UsageError("cli.needs_value", name="--lang")
+                raise UsageError(_("{name} needs a value", code="cli.needs_value", name="--lang"))
             asked = arguments[index + 1]
         elif word.startswith("--lang="):
             asked = word.removeprefix("--lang=")
         else:
             continue
         if asked not in LANGUAGES:
-            raise UsageError("cli.bad_language", name=asked)
+            raise UsageError(
+                _('there is no language "{name}"; choose en or zh', code="cli.bad_language", name=asked)
+            )
         chosen = asked
     return chosen
 
 
 def _unknown(key: str, word: str, known: Sequence[str]) -> UsageError:
-    hint = Sentence("cli.see_help_of", command="linkwright")
+    hint = _("see {command} --help", command="linkwright")
     return UsageError(did_you_mean(Sentence(key, name=word), word, known, hint))
 
 
@@ -161,7 +180,14 @@ def _unexpected(error: Exception, session: Session) -> int:
 
         traceback.print_exception(error)
     message = " ".join(str(error).split())
-    sentence = session.say("cli.unexpected", kind=type(error).__name__, message=message)
+    sentence = session.say(
+        _(
+            "this should not have happened ({kind}: {message}); please report it with the "
+            "command and the model file; --debug shows where it arose",
+            kind=type(error).__name__,
+            message=message,
+        )
+    )
     session.tell_error(sentence)
     return FAULTY
 

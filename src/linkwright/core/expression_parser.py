@@ -11,6 +11,7 @@ from linkwright import units
 from linkwright.core.expression_tree import ARITY, Binary, Call, Negative, Node, Number, Variable
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest, offered
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 MAX_DEPTH = 40
@@ -78,9 +79,12 @@ class Parser:
         kind, token, column = self.tokens[self.at]
         if kind != "end":
             factor = kind in ("name", "number") or token == "("
-            remedy = Sentence("model.write_factor_sign" if factor else "model.remove_it")
+            remedy = _("write * between factors") if factor else _("remove it")
             if units.SENSE.fullmatch(token):
-                remedy = Sentence("units.sense")
+                remedy = _(
+                    "the sign says the sense: positive is counter-clockwise, negative (-120 rpm) clockwise",
+                    code="units.sense",
+                )
             raise self._fault("unexpected", column, remedy=remedy, token=token)
         return tree
 
@@ -121,8 +125,11 @@ class Parser:
             self._close(column)
             return self._in_units(inner)
         if token in ("-", "+"):
-            _, token, column = self.tokens[self.at]
-        what, needed = "ends_early" if kind == "end" else "unexpected", Sentence("model.operand_needed")
+            _unused, token, column = self.tokens[self.at]
+        what, needed = (
+            "ends_early" if kind == "end" else "unexpected",
+            _("a number, a name or a parenthesis is needed"),
+        )
         raise self._fault(what, column, remedy=needed, token=token)
 
     def _close(self, opened: int) -> None:
@@ -134,7 +141,7 @@ class Parser:
         value = float(token)
         if not math.isfinite(value):
             raise ExpressionError(
-                Sentence("units.not_finite", text=token), "", self.text, column, "not-finite"
+                _('"{text}" is not a finite number', text=token), "", self.text, column, "not-finite"
             )
         kind, name, place = self.tokens[self.at]
         if kind != "name" or self.tokens[self.at + 1][1] == "(":
@@ -175,7 +182,7 @@ class Parser:
         """The unit at the present token with its power, both consumed."""
         self.at += 1
         factor, dimension = units.UNITS[name]
-        kind, power, _ = self.tokens[self.at]
+        kind, power, _unused = self.tokens[self.at]
         exponent = 1
         if kind == "power":
             self.at += 1
@@ -192,14 +199,14 @@ class Parser:
 
         Joined by ``*`` a name may be a parameter; where it is a unit as well, that is an error.
         """
-        _, sign, column = self.tokens[self.at]
+        _unused, sign, column = self.tokens[self.at]
         if (
             sign not in ("*", "/")
             or self.tokens[self.at + 1][0] != "name"
             or self.tokens[self.at + 2][1] == "("
         ):
             return False
-        _, name, place = self.tokens[self.at + 1]
+        _unused2, name, place = self.tokens[self.at + 1]
         if name not in units.UNITS or (self.prefer != "units" and name in self.variables):
             return False
         if self.text[column] == "*":
@@ -222,11 +229,19 @@ class Parser:
             return Number(factor, dimension, column)
         offer = nearest(name, [*self.variables, *CONSTANTS])
         known = tuple(sorted(self.variables, key=lambda each: (each.count("."), each))[:12])
-        remedy = Sentence("model.define_it", known=known) if known else Sentence("model.define_none")
+        remedy = (
+            _("define it under parameters (known: {known})", known=known)
+            if known
+            else _("define it under parameters (none is defined)")
+        )
         if offer:
-            remedy = Sentence("names.did_you_mean", offer=offer)
+            remedy = _('did you mean "{offer}"?', offer=offer)
         if name.casefold() in DIRECTIONS:
-            remedy = Sentence("model.direction_word")
+            remedy = _(
+                "a direction is an angle, counter-clockwise from x: right 0 deg, up 90 deg, left 180 "
+                "deg, down -90 deg",
+                code="model.direction_word",
+            )
         raise self._fault("unknown_name", column, "unknown-name", remedy, name=name)
 
     def _call(self, name: str, column: int) -> Node:

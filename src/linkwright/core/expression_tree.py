@@ -10,6 +10,7 @@ from typing import Any
 from linkwright import units
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 _OF_TWO = ("atan2", "min", "max")
@@ -111,7 +112,7 @@ def _whole_power(base: Any, exponent: int) -> Any:
     if exponent == 0:
         return 1.0
     product = base
-    for _ in range(abs(exponent) - 1):
+    for _unused in range(abs(exponent) - 1):
         product = product * base
     return product if exponent > 0 else 1.0 / product
 
@@ -200,7 +201,7 @@ def _common_dimension(
     if {left, right} == {units.NONE, _ANGLE} and not bare:
         return _ANGLE
     values = {"right": units.name_of(right), "left": units.name_of(left)}
-    raise _wrong(f"cannot_be_{word}", column, Sentence("model.same_dimension"), **values)
+    raise _wrong(f"cannot_be_{word}", column, _("give both the same dimension"), **values)
 
 
 def _wrong(key: str, column: int, remedy: str = "", **values: object) -> QuantityError:

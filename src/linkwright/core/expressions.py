@@ -32,6 +32,7 @@ from linkwright.errors import QuantityError
 from linkwright.formula import trace
 from linkwright.formula.late_import import numpy as np
 from linkwright.formula.recently_made import Recent
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -81,7 +82,7 @@ class Expression:
             pass
         if math.isfinite(value):
             return value
-        remedy = Sentence("model.change_values")
+        remedy = _("change the values")
         raise QuantityError(Sentence(problem, text=self.text), remedy, code="not-finite")
 
     def derivatives(self, values: Mapping[str, Any], name: str, order: int = 1) -> list[Any]:
@@ -130,7 +131,7 @@ class Expression:
 
         lines = trace.Trace()
         names = {each: lines.position(each) for each in {*self.names, name}}
-        _, *slopes = self.along(names, name, order)
+        _unused, *slopes = self.along(names, name, order)
         return NumpyProgram(Program.of(lines, {str(k): each for k, each in enumerate(slopes)}))
 
     def dimension(self, kinds: Mapping[str, units.Dimension]) -> units.Dimension:
@@ -152,8 +153,8 @@ def parse(text: str, variables: Collection[str] = (), *, prefer: Preferred = "un
     plain = text.replace("−", "-").strip()
     if len(plain) > MAX_LENGTH:
         raise ExpressionError(
-            Sentence("model.expression_long", count=len(plain)),
-            Sentence("model.expression_most", most=MAX_LENGTH),
+            _("the expression has {count} characters", count=len(plain)),
+            _("at most {most}; split it with named parameters", most=MAX_LENGTH),
             plain[:60] + "…",
             0,
         )
@@ -197,9 +198,7 @@ def parse_as(text: str, dimension: str, kinds: Mapping[str, units.Dimension]) ->
         if error.code != "ambiguous" and (name := _meant_parameter(plain, dimension, kinds)):
             raise _ambiguous(name) from None
         if error.code == "wrong-dimension" and (right := _quotient(plain, dimension, kinds)):
-            raise QuantityError(
-                error.message, Sentence("model.write_so", right=right), code=error.code
-            ) from None
+            raise QuantityError(error.message, _('write "{right}"', right=right), code=error.code) from None
         raise
     if name := _meant_parameter(plain, dimension, kinds, found):
         raise _ambiguous(name)
@@ -302,8 +301,8 @@ def parse_any(text: str, kinds: Mapping[str, units.Dimension]) -> Expression:
             return tight
     except QuantityError:
         return whole
-    remedy = Sentence("model.two_readings_do", whole=whole.text, tight=_TIGHT.sub(r"(\1)", plain))
-    raise QuantityError(Sentence("model.two_readings", text=plain), remedy, code="ambiguous")
+    remedy = _('write "{whole}" or "{tight}"', whole=whole.text, tight=_TIGHT.sub(r"(\1)", plain))
+    raise QuantityError(_('"{text}" can be read in two ways', text=plain), remedy, code="ambiguous")
 
 
 def fitted(expression: Expression, dimension: str, kinds: Mapping[str, units.Dimension]) -> Expression:
@@ -332,8 +331,8 @@ def fitted(expression: Expression, dimension: str, kinds: Mapping[str, units.Dim
         return expression
     if kind == units.NONE and dimension == "angle":
         raise QuantityError(
-            Sentence("units.no_unit", text=expression.text),
-            Sentence("model.needs_angle", text=expression.text),
+            _('"{text}" has no unit', text=expression.text),
+            _('an angle is needed: "({text})*rad"', text=expression.text),
             code="missing-unit",
         )
     units.require(kind, dimension, expression.text)

@@ -9,6 +9,7 @@ from typing import Any, SupportsInt, TypeVar, overload
 
 from linkwright.errors import RequestError
 from linkwright.registry import listed
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 T = TypeVar("T")
@@ -34,8 +35,16 @@ def require(given: object, *kinds: type) -> None:
         return
     names = [kind.__name__ for kind in kinds]
     *others, last = [Sentence(f"given_instead.kind_{name}") for name in names]
-    needed = Sentence("given_instead.or", others=tuple(others), last=last) if others else last
-    raise RequestError("given_instead.needed", needed=needed, told=told(given), hint=_hint(given, names))
+    needed = _("{others} or {last}", others=tuple(others), last=last) if others else last
+    raise RequestError(
+        _(
+            "{needed} is needed, not {told}; {hint}",
+            code="given_instead.needed",
+            needed=needed,
+            told=told(given),
+            hint=_hint(given, names),
+        )
+    )
 
 
 @overload
@@ -59,7 +68,13 @@ def whole(option: str, given: object, least: int | None = None, most: int | None
         raise RequestError(f"given_instead.{key}", option=option, given=repr(given)[:LONGEST], least=least)
     if most is not None and found > most:
         raise RequestError(
-            "given_instead.whole_beyond", option=option, given=repr(given)[:LONGEST], most=most
+            _(
+                "{option} is {given}; give at most {most}",
+                code="given_instead.whole_beyond",
+                option=option,
+                given=repr(given)[:LONGEST],
+                most=most,
+            )
         )
     return found
 
@@ -71,7 +86,14 @@ def real(option: str, given: object, *, finite: bool = True) -> float:
     except (TypeError, ValueError):
         found = None
     if found is None or (finite and not math.isfinite(found)):
-        raise RequestError("given_instead.no_real", option=option, given=repr(given)[:LONGEST])
+        raise RequestError(
+            _(
+                "{option} is {given}; give a finite number in SI units",
+                code="given_instead.no_real",
+                option=option,
+                given=repr(given)[:LONGEST],
+            )
+        )
     return found
 
 
@@ -79,7 +101,14 @@ def require_pair(option: str, given: object) -> None:
     """Raises RequestError for anything but two numbers."""
     numbers = list(given) if isinstance(given, Iterable) and not isinstance(given, str) else []
     if len(numbers) != 2:
-        raise RequestError("given_instead.no_pair", option=option, given=repr(given)[:LONGEST])
+        raise RequestError(
+            _(
+                "{option} is {given}; give two numbers, as in {option}=(1, 2)",
+                code="given_instead.no_pair",
+                option=option,
+                given=repr(given)[:LONGEST],
+            )
+        )
     for number in numbers:
         real(option, number)
 
@@ -88,20 +117,30 @@ def one_of(option: str, given: object, known: Sequence[str]) -> None:
     """Raises RequestError, with the nearest, where a word is none of those that are known."""
     if given not in known:
         hint = listed(str(given), known, "one_of")
-        raise RequestError("given_instead.no_choice", option=option, given=repr(given)[:LONGEST], hint=hint)
+        raise RequestError(
+            _(
+                "{option} is {given}; {hint}",
+                code="given_instead.no_choice",
+                option=option,
+                given=repr(given)[:LONGEST],
+                hint=hint,
+            )
+        )
 
 
 def told(given: object) -> str:
     """What was given, as a sentence names it."""
     if isinstance(given, str):
         short = len(given) <= LONGEST and "\n" not in given
-        return Sentence("given_instead.text", text=given) if short else Sentence("given_instead.long_text")
+        return _('the text "{text}"', text=given) if short else _("a long text")
     if isinstance(given, PathLike):
-        return Sentence("given_instead.path", path=str(given))
+        return _("the path {path}", path=str(given))
     if given is None or isinstance(given, int | float):
         return repr(given)
     kind = given if isinstance(given, type) else type(given)
-    return Sentence("given_instead.class" if kind is given else "given_instead.object", kind=kind.__name__)
+    return (_("the class {kind}") if kind is given else _("a value of the type {kind}")).format(
+        kind=kind.__name__
+    )
 
 
 def _hint(given: object, names: list[str]) -> str:
@@ -110,8 +149,8 @@ def _hint(given: object, names: list[str]) -> str:
     own = next((each.lower() for each in names if hasattr(given, each.lower()) and each != "Mechanism"), None)
     code = f"{name}.{own}" if own else _made(given, names)
     if code:
-        return Sentence("given_instead.write", example=code)
-    return Sentence("given_instead.such_as", example=_EXAMPLES[names[0]])
+        return _("write {example}", example=code)
+    return _("give one, such as {example}", example=_EXAMPLES[names[0]])
 
 
 def _made(given: object, names: list[str]) -> str:

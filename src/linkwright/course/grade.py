@@ -14,6 +14,7 @@ from linkwright.core.table import PERCENT, Amount, Cell, Table
 from linkwright.course.key import read_key
 from linkwright.course.variants import close
 from linkwright.errors import LinkwrightError, RequestError, speaker
+from linkwright.words import _
 from linkwright.words.sentence import in_language, reason_of
 
 #: Letters of an answer that a sentence repeats.
@@ -87,7 +88,14 @@ def _rows(
         columns = list(found.fieldnames or ())
         rows: list[tuple[int, Mapping[str, str]]] = [(found.line_num, row) for row in found]
     except (OSError, ValueError, csv.Error) as error:
-        raise RequestError("course.bad_answers", path=given, why=reason_of(error)) from None
+        raise RequestError(
+            _(
+                "{path}: the answers cannot be read: {why}",
+                code="course.bad_answers",
+                path=given,
+                why=reason_of(error),
+            )
+        ) from None
     for name in ("variant", *names):
         if columns.count(name) != 1:
             said = "course.two_columns" if name in columns else "course.no_column"
@@ -98,12 +106,26 @@ def _rows(
 def _graded(key: Mapping[str, Any], row: Mapping[str, str], line: int) -> Grade:
     beyond: object = row.get(None)  # type: ignore[call-overload]
     if isinstance(beyond, list) and any(beyond):
-        raise LinkwrightError("course.long_row", line=line, text=", ".join(beyond)[:SHOWN])
+        raise LinkwrightError(
+            _(
+                "line {line}: there are more values than columns: {text}; write decimal points, or "
+                "put numbers with commas in quotation marks",
+                code="course.long_row",
+                line=line,
+                text=", ".join(beyond)[:SHOWN],
+            )
+        )
     variant = _variant(key, row, line)
     questions, tolerance = key["questions"], float(key["tolerance"])
     missing = [each["name"] for each in questions if each["name"] not in row]
     if missing:
-        raise RequestError("course.no_column", name=missing[0])
+        raise RequestError(
+            _(
+                'the answers have no column "{name}"; its first line names the columns as answers.csv does',
+                code="course.no_column",
+                name=missing[0],
+            )
+        )
     given = [_number(row[each["name"]], line, each["name"]) for each in questions]
     units = [each["unit"] for each in questions]
     right = tuple(
@@ -118,7 +140,7 @@ def _graded(key: Mapping[str, Any], row: Mapping[str, str], line: int) -> Grade:
         student,
         variant["number"],
         right,
-        tuple(dict.fromkeys(name for name, _ in found)),
+        tuple(dict.fromkeys(name for name, _unused in found)),
         found[0][1] if found else "",
     )
 
@@ -146,7 +168,7 @@ def _explained(
             found.append((escaped, gap, each["mistake"], each["where"]))
     least = min((each[0] for each in found), default=0)
     nearest = sorted((each for each in found if each[0] == least), key=lambda each: each[1])
-    return [(mistake, where) for _, _, mistake, where in nearest]
+    return [(mistake, where) for _unused, _unused2, mistake, where in nearest]
 
 
 def _gap(answer: float, wanted: float, unit: str) -> float:
@@ -161,7 +183,15 @@ def _variant(key: Mapping[str, Any], row: Mapping[str, str], line: int) -> Mappi
     for each in key["variants"]:
         if str(each["number"]) == text:
             return each  # type: ignore[no-any-return]
-    raise LinkwrightError("course.no_variant", line=line, text=text, count=len(key["variants"]))
+    raise LinkwrightError(
+        _(
+            'line {line}: there is no variant "{text}"; the key has 1 to {count}',
+            code="course.no_variant",
+            line=line,
+            text=text,
+            count=len(key["variants"]),
+        )
+    )
 
 
 def _number(text: str | None, line: int, name: str) -> float | None:
@@ -174,7 +204,15 @@ def _number(text: str | None, line: int, name: str) -> float | None:
     except ValueError:
         found = math.nan
     if not math.isfinite(found):
-        raise LinkwrightError("course.no_answer", line=line, name=name, text=shown[:SHOWN])
+        raise LinkwrightError(
+            _(
+                'line {line}: {name}: "{text}" is no number; write one such as 12.5, or nothing',
+                code="course.no_answer",
+                line=line,
+                name=name,
+                text=shown[:SHOWN],
+            )
+        )
     return found
 
 
@@ -189,12 +227,12 @@ def table(grades: Sequence[Grade], names: Sequence[str], language: str = "en") -
             continue
         wrong = [name for name, ok in zip(names, each.right, strict=True) if ok is False]
         open_ = [name for name, ok in zip(names, each.right, strict=True) if ok is None]
-        said = say("course.or").join(say(f"course.mistake_{name}") for name in each.mistakes)
+        said = say(_(" or ")).join(say(f"course.mistake_{name}") for name in each.mistakes)
         if wrong and not said:
-            said = say("course.unknown_mistake")
+            said = say(_("none of the usual ones"))
         if each.where and said:
             said = f"{said} ({each.where})"
-        shown = ", ".join([*wrong, *(say("course.open", name=name) for name in open_)])
+        shown = ", ".join([*wrong, *(say(_("{name} (open)", name=name)) for name in open_)])
         score = Amount(round(each.score, 2), scale=PERCENT)
         rows.append([each.student, each.variant, score, shown, said])
     return Table(head, rows, "<>><<")

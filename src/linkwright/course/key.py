@@ -12,6 +12,7 @@ from linkwright.core.given import told
 from linkwright.course.mistakes import MISTAKES
 from linkwright.course.variants import FORMAT
 from linkwright.errors import RequestError
+from linkwright.words import _
 from linkwright.words.sentence import reason_of
 
 #: Above this size no answer lies.
@@ -22,20 +23,42 @@ def read_key(given: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
     """A key from its data or its path; raises RequestError where it cannot be read or is not whole."""
     found, path = (given, "key") if isinstance(given, Mapping) else (_read(given), str(given))
     if not isinstance(found, Mapping) or found.get("format") != FORMAT or "variants" not in found:
-        raise RequestError("course.no_key", path=path)
+        raise RequestError(
+            _(
+                "{path}: this is no answer key; give the key.json that the command variants wrote",
+                code="course.no_key",
+                path=path,
+            )
+        )
     place = next(_faults(found), None)
     if place is not None:
-        raise RequestError("course.damaged_key", path=path, place=place)
+        raise RequestError(
+            _(
+                "{path}: {place} is missing, or not what the command variants writes there; write "
+                "the key again, with the same seed",
+                code="course.damaged_key",
+                path=path,
+                place=place,
+            )
+        )
     return found
 
 
 def _read(path: str | Path) -> Any:
     if not isinstance(path, str | PathLike):
-        raise RequestError("course.no_key", path=told(path))
+        raise RequestError(
+            _(
+                "{path}: this is no answer key; give the key.json that the command variants wrote",
+                code="course.no_key",
+                path=told(path),
+            )
+        )
     try:
         return json.loads(Path(path).read_text("utf-8"))
     except (OSError, ValueError, RecursionError) as error:
-        raise RequestError("course.bad_key", path=path, why=reason_of(error)) from None
+        raise RequestError(
+            _("{path}: the key cannot be read: {why}", code="course.bad_key", path=path, why=reason_of(error))
+        ) from None
 
 
 def _faults(key: Mapping[str, Any]) -> Iterator[str]:

@@ -22,7 +22,7 @@ from linkwright.errors import RequestError, speaker
 from linkwright.files.write import to_data
 from linkwright.plot.drawing.draw import draw
 from linkwright.plot.drawing.machine import DIAGONAL
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: Width of the pictures of questions, pixels.
 PICTURE = 640
@@ -37,7 +37,14 @@ def files_of(found: Variants, forms: Sequence[str] = (), language: str = "en") -
     chosen = tuple(forms) or tuple(FORMS)
     for form in chosen:
         if form not in FORMS:
-            raise RequestError("course.no_form", name=form, forms=tuple(FORMS))
+            raise RequestError(
+                _(
+                    'there is no form "{name}"; the forms are {forms}',
+                    code="course.no_form",
+                    name=form,
+                    forms=tuple(FORMS),
+                )
+            )
     files: Files = {}
     for form in chosen:
         files |= FORMS[form](found, language)
@@ -63,7 +70,7 @@ def data_rows(found: Variants, each: Variant, say: Say) -> list[tuple[str, str]]
     for name, (x, y) in model.frame.points.items():
         rows.append((name, f"({1e3 * x:.6g}; {1e3 * y:.6g}) mm"))
     for name, value in model.dimensions().items():
-        owner, _, key = name.partition(".")
+        owner, _unused, key = name.partition(".")
         if owner not in model.links or (key in ("mass", "inertia") and not value):
             continue
         rows.append((name, _quantity(key, value)))
@@ -71,7 +78,7 @@ def data_rows(found: Variants, each: Variant, say: Say) -> list[tuple[str, str]]
         rows.append((f"{driver.link} ({driver.joint})", _speed(driver.law)))
     data = to_data(model)
     for name, told in [*data.get("joints", {}).items(), *data.get("loads", {}).items()]:
-        rows.append((name, say("given.and").join([kind_of(told, say), given(told, say)])))
+        rows.append((name, say(_("; ")).join([kind_of(told, say), given(told, say)])))
     if any(model.gravity):
         rows.append(("g", f"({model.gravity[0]:g}; {model.gravity[1]:g}) m/s²"))
     return rows
@@ -98,7 +105,7 @@ def position_text(found: Variants, say: Say) -> str:
     driver = next(iter(found.task.mechanism.drivers.values()))
     turning = found.task.mechanism.joints[driver.joint].coordinate == "turn"
     place = shown(found.task.at, "angle") if turning else shown(found.task.at, "length")
-    return say("course.position", input=place, link=driver.link)
+    return say(_("Position: {link} at {input}.", input=place, link=driver.link))
 
 
 def slug(name: str) -> str:
@@ -124,23 +131,34 @@ def sheets(found: Variants, language: str) -> Files:
     from linkwright.report.typst_pages import compiled
 
     say = speaker(language)
-    document = Document(say("course.sheet_title", name=found.name), say, language, contents=False)
+    document = Document(say(_("Exercise: {name}", name=found.name)), say, language, contents=False)
     for each in found.variants:
         page: list[Block] = [] if each.number == 1 else [Source("#pagebreak()")]
-        page.append(Heading(say("course.sheet_number", number=each.number), number=False))
-        page.append(Paragraph(say("course.sheet_name")))
-        page.append(Paragraph(literal(position_text(found, say)) + " " + say("course.convention")))
+        page.append(Heading(say(_("Variant {number}", number=each.number)), number=False))
+        page.append(Paragraph(say(_("Name: ……………………………………  Number: ………………………"))))
+        page.append(
+            Paragraph(
+                literal(position_text(found, say))
+                + " "
+                + say(
+                    _(
+                        "x to the right, y up; angles and moments counter-clockwise positive; angles of a "
+                        "link's x axis in degrees.",
+                    )
+                )
+            )
+        )
         rows = tuple((literal(a), literal(b)) for a, b in data_rows(found, each, say))
         left = ROOM - ROW * (len(rows) + len(found.task.questions))
         tallest = min(max(left, LOWEST), TALLEST)
         shown = legible(partial(drawing, found, each, language), SHARE, tallest)
         page.append(Figure(literal(found.name), ((shown, SHARE),), tallest=tallest))
-        page.append(Table(say("course.given"), (say("report.name"), say("report.value")), rows, "<<"))
+        page.append(Table(say(_("Given")), (say(_("name")), say(_("value"))), rows, "<<"))
         asked = tuple((literal(q.text(language)), "…" * 14, q.unit) for q in found.task.questions)
         page.append(
             Table(
-                say("course.asked"),
-                (say("report.name"), say("course.answer"), say("report.unit")),
+                say(_("Wanted")),
+                (say(_("name")), say(_("answer")), say(_("unit"))),
                 asked,
                 "<<<",
             )
@@ -174,7 +192,7 @@ def prairielearn(found: Variants, language: str) -> Files:
             uuid.uuid5(uuid.NAMESPACE_URL, f"linkwright:{found.name}:{found.seed}:{len(found.variants)}")
         ),
         "title": found.name,
-        "topic": say("course.topic"),
+        "topic": say(_("Theory of machines")),
         "tags": ["linkwright", "numeric"],
         "type": "v3",
     }
@@ -305,19 +323,19 @@ def item(found: Variants, each: Variant, language: str) -> str:
     declared = "".join(
         f'<responseDeclaration identifier="R{i}" cardinality="single" baseType="float"><correctResponse>'
         f"<value>{answer:.8g}</value></correctResponse></responseDeclaration>"
-        for i, (_, answer) in enumerate(asked)
+        for i, (_unused, answer) in enumerate(asked)
     )
     lines = "".join(
         f'<p>{escape(q.text(language))} = <textEntryInteraction responseIdentifier="R{i}" expectedLength="12"/> '
         f"{escape(q.unit)}</p>"
-        for i, (q, _) in enumerate(asked)
+        for i, (q, _unused) in enumerate(asked)
     )
     rules = "".join(
         '<responseCondition><responseIf><equal toleranceMode="absolute" '
         f'tolerance="{_width(found, i, answer):.6g} {_width(found, i, answer):.6g}"><variable identifier="R{i}"/>'
         f'<correct identifier="R{i}"/></equal><setOutcomeValue identifier="SCORE"><sum><variable identifier="SCORE"/>'
         f'<baseValue baseType="float">1</baseValue></sum></setOutcomeValue></responseIf></responseCondition>'
-        for i, (_, answer) in enumerate(asked)
+        for i, (_unused, answer) in enumerate(asked)
     )
     text = (
         f"<p>{escape(position_text(found, say))} {escape(say('course.convention'))}</p>"

@@ -19,6 +19,7 @@ from linkwright.kinematics.names import result_meant
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.units import DIMENSIONS, not_a_number
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 KEYS = ("vary", "ask", "at", "tolerance")
@@ -70,7 +71,14 @@ def task(mechanism: Mechanism) -> Task:
     """The task of a model; raises ModelError with all findings about its settings, LinkwrightError for a machine
     whose position is not told by its input."""
     if not mechanism.steady:
-        raise LinkwrightError("course.no_input", name=mechanism.name)
+        raise LinkwrightError(
+            _(
+                "variants need a machine whose drivers have constant speed; those of {name!r} follow "
+                "laws in time, or there are none",
+                code="course.no_input",
+                name=mechanism.name,
+            )
+        )
     return _Reading(mechanism, mechanism.course).task()
 
 

@@ -25,6 +25,7 @@ from linkwright.files.model_file import load
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import metrics
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 FORMAT = 1
@@ -176,9 +177,17 @@ def variants(
     require(machine, Mechanism, str, PathLike)
     count, seed = whole("count", count), whole("seed", seed)
     if not 1 <= count <= MOST:
-        raise RequestError("course.bad_count", count=count)
+        raise RequestError(
+            _("{count} variants cannot be made; give 1 to 1000", code="course.bad_count", count=count)
+        )
     if seed < 0:
-        raise RequestError("study.bad_seed", seed=seed)
+        raise RequestError(
+            _(
+                "the seed is {seed}; give a whole number that is not negative",
+                code="study.bad_seed",
+                seed=seed,
+            )
+        )
     asked = task(machine if isinstance(machine, Mechanism) else load(str(machine)))
     rng = np.random.default_rng(seed)
     model = _solved(asked, 0, {}, asked.mechanism)
@@ -186,7 +195,7 @@ def variants(
     found: list[Variant] = []
     failed = Counter[str]()
     progress = progress or current_progress()
-    for _ in range(TRIES * count if asked.ranges else 0):
+    for _unused in range(TRIES * count if asked.ranges else 0):
         changes = {name: float(f"{rng.uniform(*limits):.{DIGITS}g}") for name, limits in asked.ranges.items()}
         fresh = _sound(asked, len(found) + 1, changes, model, bar)
         if isinstance(fresh, Variant) and any(_same(fresh, each) for each in found):
@@ -206,11 +215,26 @@ def _too_few(asked: Task, found: int, count: int, failed: Counter[str]) -> Linkw
     """The error where the limits give fewer variants than asked for, with what mostly stood in the way."""
     if not asked.ranges:
         known = [name for name, value in asked.mechanism.dimensions().items() if value]
-        return LinkwrightError("course.nothing_varies", known=tuple(known))
+        return LinkwrightError(
+            _(
+                "there is no size of a link to vary; name what changes in course.vary (8 % of one of "
+                "{known})",
+                code="course.nothing_varies",
+                known=tuple(known),
+            )
+        )
     ((why, times),) = failed.most_common(1)
     remedy = Sentence(f"course.too_few_{why}", vary=tuple(asked.ranges))
     return LinkwrightError(
-        "course.too_few", found=found, count=count, tried=TRIES * count, times=times, remedy=remedy
+        _(
+            "only {found} of {count} variants were found in {tried} tries; {times} of these {remedy}",
+            code="course.too_few",
+            found=found,
+            count=count,
+            tried=TRIES * count,
+            times=times,
+            remedy=remedy,
+        )
     )
 
 
@@ -249,8 +273,8 @@ def _sound(
     )
     if not alike:
         return "unlike"
-    shown = {each.mistake for each, _ in fresh.mistakes}
-    return fresh if shown == {each.mistake for each, _ in model.mistakes} else "mistakes"
+    shown = {each.mistake for each, _unused in fresh.mistakes}
+    return fresh if shown == {each.mistake for each, _unused in model.mistakes} else "mistakes"
 
 
 def _alike(a: float, b: float, question: Question) -> bool:

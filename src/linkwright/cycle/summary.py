@@ -12,6 +12,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.formula.reductions import Reduction
 from linkwright.kinetostatics.named_outputs import Quantity
+from linkwright.words import _
 
 #: Kinds of summaries, and the reductions they need.
 KINDS: Mapping[str, tuple[str, ...]] = {
@@ -45,7 +46,7 @@ class Summary:
     @classmethod
     def of(cls, text: str) -> Summary:
         """The summary that a text ``output kind`` means."""
-        output, _, kind = text.rpartition(" ")
+        output, _unused, kind = text.rpartition(" ")
         return cls(output, kind)
 
     @property
@@ -85,7 +86,15 @@ def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity])
     found: dict[Reduction, None] = {}
     for summary in summaries:
         if quantities[summary.output].reference is not None and summary.kind not in _GROWING:
-            raise RequestError("study.angle_summary", name=summary.name, kinds=tuple(sorted(_GROWING)))
+            raise RequestError(
+                _(
+                    "{name!r}: an angle has {kinds} in a study; take one of these, or the mean or rms of "
+                    "its rate",
+                    code="study.angle_summary",
+                    name=summary.name,
+                    kinds=tuple(sorted(_GROWING)),
+                )
+            )
         for kind in KINDS[summary.kind]:
             found[Reduction(summary.output, kind)] = None  # type: ignore[arg-type]
     return list(found)

@@ -29,7 +29,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
 from linkwright.metrics.of_output import Asked, pivot
 from linkwright.metrics.outputs import mechanism_outputs
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: A mean torque of this share of the largest one is zero but for rounding.
 IDLE = 1e-9
@@ -68,12 +68,19 @@ class Alternative:
         """Whether there is a flywheel to lay out; if not, a note says why."""
         torque = self.forces.input_torque
         if abs(torque.mean()) <= IDLE * np.abs(torque).max():
-            self.notes.append(Sentence("study.no_work", label=self.label))
+            self.notes.append(
+                _(
+                    "{label}: the mean torque over its cycle is zero, so no work is done and there is no "
+                    "flywheel to lay out",
+                    code="study.no_work",
+                    label=self.label,
+                )
+            )
             return False
         try:
             require_steady(self.forces)
         except LinkwrightError as error:
-            self.notes.append(Sentence("cli.about", name=self.label, cause=error))
+            self.notes.append(_("{name}: {cause}", code="cli.about", name=self.label, cause=error))
             return False
         return True
 
@@ -144,7 +151,12 @@ def alternatives(
         LinkwrightError: fewer than two machines, an unknown output, or none that all share.
     """
     if not isinstance(sources, Sequence) or isinstance(sources, str) or len(sources) < 2:
-        raise RequestError("study.two_or_more")
+        raise RequestError(
+            _(
+                "a comparison needs two or more alternatives; give a list of mechanisms or files",
+                code="study.two_or_more",
+            )
+        )
     for source in sources:
         require(source, Mechanism, str, PathLike)
     flywheel_inertia(1.0, 1.0, fluctuation)
@@ -179,7 +191,14 @@ def _outputs(
         return [_mapped(output, label, source) for label, source in zip(labels, sources, strict=True)]
     if output is not None:
         if len(output) != len(machines):
-            raise RequestError("study.outputs_for", outputs=len(output), machines=len(machines))
+            raise RequestError(
+                _(
+                    "{outputs} outputs are named for {machines} alternatives; name one for each",
+                    code="study.outputs_for",
+                    outputs=len(output),
+                    machines=len(machines),
+                )
+            )
         return list(output)
     own = [[str(each) for each in mechanism_outputs(machine)] for machine in machines]
     shared = [name for name in own[0] if all(name in names for names in own[1:])]
@@ -201,17 +220,30 @@ def _mapped(output: Mapping[str, str], label: str, source: Mechanism | str | Pat
     for key in keys:
         if key in output:
             return output[key]
-    raise RequestError("study.no_output_for", label=label, named=tuple(map(repr, output)))
+    raise RequestError(
+        _(
+            "no output is named for {label!r}; output names them for {named}",
+            code="study.no_output_for",
+            label=label,
+            named=tuple(map(repr, output)),
+        )
+    )
 
 
 def _nothing_shared(labels: Sequence[str], own: Sequence[Sequence[str]]) -> str:
     told = [
-        Sentence("study.label_has", label=label, names=tuple(names))
+        _("{label!r} has {names}", label=label, names=tuple(names))
         if names
-        else Sentence("study.label_has_none", label=label)
+        else _("{label!r} has none", label=label)
         for label, names in zip(labels, own, strict=True)
     ]
     example = ", ".join(
         f"{label!r}: {(names or ['…'])[0]!r}" for label, names in zip(labels, own, strict=True)
     )
-    return Sentence("study.no_common_output", told=told, example=example)
+    return _(
+        "the alternatives share no output to compare: {told}; say which output of each is "
+        "meant, such as output={{{example}}} (on the command line --of, one name per file)",
+        code="study.no_common_output",
+        told=told,
+        example=example,
+    )

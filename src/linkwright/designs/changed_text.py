@@ -21,7 +21,7 @@ from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.units import number
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\s\"'#,\]}]*)")
 #: Lengths from this one on are in m.
@@ -119,7 +119,7 @@ def _key(mechanism: Mechanism, point: str) -> str | None:
 
 def moves(mechanism: Mechanism, address: str) -> bool:
     """Whether a change of a dimension may move what is drawn: all but masses, loads, gravity and speeds."""
-    owner, _, key = address.partition(".")
+    owner, _unused, key = address.partition(".")
     if owner in mechanism.links:
         return key.partition(".")[0] not in ("mass", "inertia", "mass_centre")
     return owner not in ("loads", "gravity", "cycle", *mechanism.drivers)
@@ -142,7 +142,11 @@ def changed_text(document: Document, values: Mapping[str, float]) -> str:
             edits.append((how, value))
         elif not (drawn and address in drawn_dimensions(old)):
             near = offered(address, old.dimensions())
-            raise LinkwrightError(with_remedy(Sentence("model.no_place", address=address), near))
+            raise LinkwrightError(
+                with_remedy(
+                    _('the file has no place for "{address}"', code="model.no_place", address=address), near
+                )
+            )
     if drawn:
         motion = as_drawn(old, new)
         edits += [(how, _coordinate(motion, key)) for how, key in drawn.values()]
@@ -164,7 +168,7 @@ def as_drawn(old: Mechanism, new: Mechanism) -> Motion:
 
 
 def _coordinate(motion: Motion, key: str) -> float:
-    point, _, axis = key.rpartition(".")
+    point, _unused, axis = key.rpartition(".")
     return float(motion.point(point).position[0]["xy".index(axis)])
 
 

@@ -12,6 +12,7 @@ from typing import Any
 from linkwright.designs.finished_parts import identity, surrounding
 from linkwright.errors import LinkwrightError
 from linkwright.formula.threads import cores
+from linkwright.words import _
 
 #: Parts that wait on the cluster for every thread of a worker, so that memory stays the same however many there are.
 WAITING = 3
@@ -33,14 +34,24 @@ def connected(cluster: Any) -> Any:
     try:
         return dask.Client(cluster, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
-        raise LinkwrightError("study.no_cluster", address=cluster, reason=str(error)[:200]) from None
+        raise LinkwrightError(
+            _(
+                'the scheduler "{address}" does not answer ({reason}); start one with "dask '
+                'scheduler", or check the address',
+                code="study.no_cluster",
+                address=cluster,
+                reason=str(error)[:200],
+            )
+        ) from None
 
 
 def _dask() -> Any:
     try:
         return import_module("distributed")
     except ImportError:
-        raise LinkwrightError("study.needs_distributed") from None
+        raise LinkwrightError(
+            _("a cluster needs Dask; install linkwright[cluster]", code="study.needs_distributed")
+        ) from None
 
 
 @contextmanager
@@ -111,7 +122,7 @@ def _computed(
         numbers[future] = number
         return future
 
-    futures = [given(number) for _, number in zip(range(room), left, strict=False)]
+    futures = [given(number) for _unused, number in zip(range(room), left, strict=False)]
     waiting = dask.as_completed(futures, loop=client.loop)
     try:
         for future in waiting:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable, Sequence
 
 from linkwright.designs.alternatives import Alternative
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 #: Keys of a load that say where it acts, not how large it is.
@@ -28,8 +28,8 @@ def unlike(alternatives: Sequence[Alternative]) -> tuple[str, ...]:
 
 
 def _told(each: Alternative, facts: tuple[str, ...]) -> Message:
-    cause = facts or Sentence("compare.nothing")
-    return Sentence("cli.about", name=each.label, cause=cause)
+    cause = facts or _("none")
+    return _("{name}: {cause}", code="cli.about", name=each.label, cause=cause)
 
 
 def _rounded(facts: tuple[str, ...]) -> Hashable:

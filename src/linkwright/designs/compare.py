@@ -23,7 +23,7 @@ from linkwright.metrics.base import MetricValue
 from linkwright.metrics.by_name import ask
 from linkwright.registry import offered
 from linkwright.units import si_unit
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 if TYPE_CHECKING:
     import pandas
@@ -140,7 +140,7 @@ class Comparison(Plotted, Frozen):
                 return float("nan") if found is None else found.value
         raise RequestError(
             with_remedy(
-                Sentence("study.not_compared", metric=metric),
+                _("{metric!r} is not among the compared metrics", code="study.not_compared", metric=metric),
                 offered(metric, [row.criterion.name for row in self.rows]),
             )
         )
@@ -156,7 +156,14 @@ class Comparison(Plotted, Frozen):
 
     def _index(self, label: str) -> int:
         if label not in self.labels:
-            raise RequestError("study.no_alternative", label=label, labels=tuple(map(repr, self.labels)))
+            raise RequestError(
+                _(
+                    "there is no alternative {label!r}; there is {labels}",
+                    code="study.no_alternative",
+                    label=label,
+                    labels=tuple(map(repr, self.labels)),
+                )
+            )
         return self.labels.index(label)
 
     @attached
@@ -264,8 +271,17 @@ def compare(
         if metrics is None and all(value is None for value in values):
             continue
         if metrics is not None and all(value is None for value in values):
-            known: object = [note for a in found for note in a.notes] or Sentence("study.leave_out")
-            raise RequestError("study.applies_to_none", name=each.name, known=known)
+            known: object = [note for a in found for note in a.notes] or _(
+                "leave it out", code="study.leave_out"
+            )
+            raise RequestError(
+                _(
+                    "{name!r} does not apply to any of the alternatives: {known}",
+                    code="study.applies_to_none",
+                    name=each.name,
+                    known=known,
+                )
+            )
         rows.append(Row(each, values, given.get(each.name, 1.0)))
     if progress is not None:
         progress(len(asked), len(asked))
@@ -290,12 +306,34 @@ def _weights(weights: Mapping[str, float], asked: Sequence[Criterion]) -> Mappin
     for name, weight in weights.items():
         if name not in known:
             hint = offered(name, known, "study.compared_are")
-            raise RequestError("study.stray_weight", name=name, hint=hint)
+            raise RequestError(
+                _(
+                    "the weight of {name!r} belongs to no compared metric; {hint}",
+                    code="study.stray_weight",
+                    name=name,
+                    hint=hint,
+                )
+            )
         if not real(f"weights[{name!r}]", weight) >= 0.0 or weight == float("inf"):
-            raise RequestError("study.bad_weight_value", name=name, weight=weight)
+            raise RequestError(
+                _(
+                    "the weight of {name!r} is {weight}; give a number that is not negative",
+                    code="study.bad_weight_value",
+                    name=name,
+                    weight=weight,
+                )
+            )
         if known[name].better is None and weight > 0.0:
-            raise RequestError("study.no_direction", name=name)
+            raise RequestError(
+                _(
+                    "{name!r} has no better direction, so it cannot be weighted; leave its weight out",
+                    code="study.no_direction",
+                    name=name,
+                )
+            )
     judged = [each.name for each in asked if each.better]
     if judged and all(weights.get(name, 1.0) == 0.0 for name in judged):
-        raise RequestError("study.all_zero")
+        raise RequestError(
+            _("all weights are zero; give one metric a weight above zero", code="study.all_zero")
+        )
     return weights

@@ -14,8 +14,8 @@ from linkwright.metrics.by_name import is_summary, measured, metric_named, metri
 from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.of_output import OWN
 from linkwright.registry import offered
-from linkwright.words import say
-from linkwright.words.sentence import Sentence, in_words
+from linkwright.words import _, say
+from linkwright.words.sentence import in_words
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class Criterion:
             return None
         if not found[0].applies(each.analysis):
             if (why := found[0].obstacle(each.analysis)) is not None:
-                each.notes.append(Sentence("cli.about", name=each.label, cause=why))
+                each.notes.append(_("{name}: {cause}", code="cli.about", name=each.label, cause=why))
             return None
         try:
             return measured(self.name, each.analysis, each.asked)
@@ -73,7 +73,9 @@ def criteria(names: Iterable[str] | str) -> list[Criterion]:
     """The criteria of the given names; raises LinkwrightError for an unknown one, the nearest offered."""
     asked = one_or_more(names)
     if not asked:
-        raise RequestError("study.no_metric_named")
+        raise RequestError(
+            _("no metric is asked for; name some, such as peak_input_torque", code="study.no_metric_named")
+        )
     return [criterion(str(name)) for name in dict.fromkeys(asked)]
 
 
@@ -81,7 +83,15 @@ def criterion(name: str) -> Criterion:
     """The criterion of a name; raises RequestError for an unknown one."""
     found = Criterion(name)
     if found.metric is None and not is_summary(name):
-        raise RequestError("study.no_metric", name=name, hint=offered(name, [*OWN, *METRICS]))
+        raise RequestError(
+            _(
+                "there is no metric {name!r}; {hint} An output with a summary will do as well, such "
+                'as "driver.effort rms"',
+                code="study.no_metric",
+                name=name,
+                hint=offered(name, [*OWN, *METRICS]),
+            )
+        )
     return found
 
 

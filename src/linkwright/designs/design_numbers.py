@@ -21,6 +21,7 @@ from linkwright.metrics.hulls_of_designs import hulls_of_designs, swept
 from linkwright.metrics.of_designs import MetricsOfDesigns, numbers_of_designs
 from linkwright.metrics.of_output import Asked
 from linkwright.metrics.ranges_of_designs import ranged, ranges_of_designs
+from linkwright.words import _
 
 #: Designs up to which what finds their numbers together may choose to do so without a compiler.
 FEW = 512
@@ -102,7 +103,14 @@ def numbers_of(
     if idle:
         if (missing := unloaded(mechanism, idle)) is not None:
             raise RequestError(missing)
-        raise RequestError("study.sweep_metric", names=tuple(idle), name=mechanism.name)
+        raise RequestError(
+            _(
+                "{names} of {name!r} does not apply to it; choose another one",
+                code="study.sweep_metric",
+                names=tuple(idle),
+                name=mechanism.name,
+            )
+        )
     return values, dimensions, failed
 
 

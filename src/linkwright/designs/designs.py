@@ -32,6 +32,7 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.by_name import wanted
+from linkwright.words import _
 
 if TYPE_CHECKING:
     import pandas
@@ -89,7 +90,12 @@ class Sweep(Plotted, Frozen):
         (found, *more) = wanted([key])
         if found not in self.summaries or more:
             raise RequestError(
-                "study.not_asked", summary=key, summaries=tuple(s.name for s in self.summaries)
+                _(
+                    "{summary!r} was not asked for; there is {summaries}",
+                    code="study.not_asked",
+                    summary=key,
+                    summaries=tuple(s.name for s in self.summaries),
+                )
             )
         return self.summaries[found]
 
@@ -316,5 +322,7 @@ def _curves(
     mechanism: Mechanism, columns: Mapping[str, Floats], outputs: list[str], steps: int, backend: Backend
 ) -> dict[str, Floats]:
     """The curves of at most ``SHARED`` designs, which are one block."""
-    ((_, found),) = sweep_curves(mechanism, columns, outputs=outputs, steps=steps, threads=1, backend=backend)
+    ((_unused, found),) = sweep_curves(
+        mechanism, columns, outputs=outputs, steps=steps, threads=1, backend=backend
+    )
     return found

@@ -10,7 +10,7 @@ from linkwright.designs.alternatives import EFFORTS, Alternative
 from linkwright.designs.compare import Comparison, Rank, Row
 from linkwright.designs.criteria import criterion
 from linkwright.errors import speaker
-from linkwright.words import Say
+from linkwright.words import Say, _
 from linkwright.words.sentence import in_language
 
 #: Share of a cycle beside a change point at which the direction of an infinite reaction is told.
@@ -34,12 +34,16 @@ def text(comparison: Comparison, language: str = "en", width: int | None = None)
     lines = [
         *table(comparison, say).lines(language, width),
         "",
-        say("compare.marked"),
+        say(_("* best of the alternatives")),
         "",
-        say("compare.ranking"),
+        say(
+            _(
+                "Ranking (mean over the metrics of how near each comes to the best, 100 = best in all)",
+            )
+        ),
     ]
     lines += ranking(comparison, say)
-    lines += ["", say("compare.evaluation"), *sentences(comparison, language)]
+    lines += ["", say(_("Evaluation")), *sentences(comparison, language)]
     if comparison.notes:
         lines += ["", *(in_language(note, language) for note in comparison.notes)]
     return "\n".join(lines)
@@ -57,17 +61,26 @@ def table(comparison: Comparison, say: Say) -> Table:
         marks = [f" {MARK}" if index in row.best else "  " for index in range(len(row.values))]
         values = zip(row.values, marks, strict=True)
         cells = ("—  " if v is None else Amount(v.value, v.dimension, 5, mark=mark) for v, mark in values)
-        rows.append([row.criterion.label(say("compare.language")), *cells])
-    return Table([say("compare.metric"), *comparison.labels], rows, notes=comparison.notes)
+        rows.append([row.criterion.label(say(_("en"))), *cells])
+    return Table([say(_("design number")), *comparison.labels], rows, notes=comparison.notes)
 
 
 def ranking(comparison: Comparison, say: Say) -> list[str]:
     """A line with the score of every alternative, best first, and what decided."""
     if not comparison.judged:
-        return [say("compare.no_ranking")]
+        return [say(_("None of the metrics has a better direction, so there is no ranking."))]
     lines = []
     for rank in comparison.ranking:
-        lines.append(say("compare.rank", place=rank.place, label=rank.label, score=f"{100 * rank.score:.0f}"))
+        lines.append(
+            say(
+                _(
+                    "{place}. {label}: {score} of 100",
+                    place=rank.place,
+                    label=rank.label,
+                    score=f"{100 * rank.score:.0f}",
+                )
+            )
+        )
         lines += [f"   {reason}" for reason in _reasons(comparison, rank, say)]
     return lines
 
@@ -75,7 +88,7 @@ def ranking(comparison: Comparison, say: Say) -> list[str]:
 def _reasons(comparison: Comparison, rank: Rank, say: Say) -> list[str]:
     """What an alternative is best in, and what costs it most against the best."""
     best = _best_in(comparison, rank, say)
-    found = [say("compare.best_in", names=best)] if best else []
+    found = [say(_("best in: {names}", names=best))] if best else []
     costly = sorted(
         (row for row in comparison.judged if row.score(rank.index) < 1.0 - 1e-9),
         key=lambda row: -row.weight * (1.0 - row.score(rank.index)),
@@ -90,12 +103,17 @@ def _against(comparison: Comparison, row: Row, index: int, say: Say) -> str:
     assert mine is not None and theirs is not None
     ratio = abs(mine.value / theirs.value) if theirs.value else float("inf")
     return say(
-        "compare.against" if ratio < float("inf") else "compare.against_nothing",
-        name=row.criterion.label(say("compare.language")),
-        mine=told(mine.value, mine.dimension),
-        theirs=told(theirs.value, theirs.dimension),
-        other=comparison.labels[winner],
-        ratio=f"{ratio:.3g}",
+        (
+            _("{name}: {mine}, against {theirs} of {other} ({ratio} times)")
+            if ratio < float("inf")
+            else _("{name}: {mine}, against {theirs} of {other}")
+        ).format(
+            name=row.criterion.label(say(_("en"))),
+            mine=told(mine.value, mine.dimension),
+            theirs=told(theirs.value, theirs.dimension),
+            other=comparison.labels[winner],
+            ratio=f"{ratio:.3g}",
+        )
     )
 
 
@@ -112,19 +130,22 @@ def sentences(comparison: Comparison, language: str) -> list[str]:
         subjects |= {"pivot": _pivot, "torque": _torque, "flywheels": _flywheel}
     found = []
     for name, part in subjects.items():
-        parts = say("finding.semicolon").join(part(each, say) for each in comparison.alternatives)
+        parts = say(_("; ")).join(part(each, say) for each in comparison.alternatives)
         found.append(say(f"compare.{name}", parts=parts, fluctuation=f"{comparison.fluctuation:g}"))
     return [*found, *_verdict(comparison, say)]
 
 
 def _motion(each: Alternative, say: Say) -> str:
     return say(
-        "compare.motion_of",
-        label=each.label,
-        output=str(each.output),
-        travel=_measured(each, "travel") or told(each.way, each.output.dimension),
-        rate=_measured(each, "output_velocity"),
-        second=_measured(each, "output_acceleration"),
+        _(
+            "in {label} the output {output} travels {travel}, at most {rate} fast, with "
+            "accelerations up to {second}",
+            label=each.label,
+            output=str(each.output),
+            travel=_measured(each, "travel") or told(each.way, each.output.dimension),
+            rate=_measured(each, "output_velocity"),
+            second=_measured(each, "output_acceleration"),
+        )
     )
 
 
@@ -142,13 +163,16 @@ def _pivot(each: Alternative, say: Say) -> str:
         beside = most.time - BESIDE * (each.motion.positions.period or 0.0)
         force = each.forces_at(beside).reaction(joint, on=link)[0]
     return say(
-        "compare.pivot_of",
-        label=each.label,
-        joint=joint,
-        most=told(most.value, "force"),
-        least=told(least.value if least.value > PASSING * most.value else 0.0, "force"),
-        direction=told(float(np.arctan2(force[1], force[0])), "angle"),
-        at=told(most.input, each.analysis.input_dimension),
+        _(
+            "pivot {joint} of {label} carries at most {most} (at input {at}, direction "
+            "{direction}) and at least {least}",
+            label=each.label,
+            joint=joint,
+            most=told(most.value, "force"),
+            least=told(least.value if least.value > PASSING * most.value else 0.0, "force"),
+            direction=told(float(np.arctan2(force[1], force[0])), "angle"),
+            at=told(most.input, each.analysis.input_dimension),
+        )
     )
 
 
@@ -158,12 +182,15 @@ def _torque(each: Alternative, say: Say) -> str:
     speed = np.abs(next(iter(each.motion.positions.coordinates.values()))[1]).max()
     gap = float(np.abs(each.forces.power_residual).max() / speed) if speed > 0.0 else 0.0
     return say(
-        "compare.torque_of",
-        label=each.label,
-        low=told(low, dimension),
-        high=told(high, dimension),
-        root=told(root, dimension),
-        gap=shown(gap, dimension, 2),
+        _(
+            "that of {label} lies between {low} and {high}, root mean square {root}; found from "
+            "the joint forces and from the powers it agrees within {gap}",
+            label=each.label,
+            low=told(low, dimension),
+            high=told(high, dimension),
+            root=told(root, dimension),
+            gap=shown(gap, dimension, 2),
+        )
     )
 
 
@@ -179,7 +206,16 @@ def _verdict(comparison: Comparison, say: Say) -> list[str]:
         return []
     first, *others = comparison.ranking
     names = _best_in(comparison, first, say)
-    lines = [say("compare.first", label=first.label, score=f"{100 * first.score:.0f}", names=names or "—")]
+    lines = [
+        say(
+            _(
+                "Verdict: {label} comes first ({score} of 100); it is best in: {names}.",
+                label=first.label,
+                score=f"{100 * first.score:.0f}",
+                names=names or "—",
+            )
+        )
+    ]
     for rank in others:
         names = _best_in(comparison, rank, say)
         key = "compare.other" if names else "compare.never"
@@ -189,7 +225,5 @@ def _verdict(comparison: Comparison, say: Say) -> list[str]:
 
 def _best_in(comparison: Comparison, rank: Rank, say: Say) -> str:
     """The criteria in which an alternative is best."""
-    best = [
-        row.criterion.label(say("compare.language")) for row in comparison.judged if rank.index in row.best
-    ]
-    return say("finding.comma").join(best)
+    best = [row.criterion.label(say(_("en"))) for row in comparison.judged if rank.index in row.best]
+    return say(_(", ")).join(best)

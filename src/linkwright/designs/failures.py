@@ -16,7 +16,7 @@ from linkwright.formula.reductions import Reduction
 from linkwright.formula.summaries import summaries
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 
@@ -43,7 +43,7 @@ class Failure:
     def place(self) -> Message:
         """Where they fail: at a group, between two positions, at wheels, or by what is asked of them."""
         if self.group is not None:
-            return Sentence("study.at_group", group=tuple(self.group.split("+")))
+            return _("at the group ({group})", group=tuple(self.group.split("+")))
         places = {"barred": "between_positions", "unfit": "at_wheels"}
         return Sentence(f"study.{places.get(self.kind, 'by_loads')}")
 

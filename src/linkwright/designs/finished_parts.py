@@ -22,8 +22,7 @@ from linkwright.core import VERSION
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.errors import RequestError
 from linkwright.whole_files import refuse_target, write_new
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 T = TypeVar("T")
 #: Seconds between two times that finished parts are written.
@@ -37,7 +36,15 @@ class Interrupted(KeyboardInterrupt):
     """Work was interrupted; ``state`` is the file from which it goes on."""
 
     def __init__(self, state: Path) -> None:
-        super().__init__(str(Sentence("study.interrupted", path=state)))
+        super().__init__(
+            str(
+                _(
+                    "Interrupted; run the same command with --state {path} to go on.",
+                    code="study.interrupted",
+                    path=state,
+                )
+            )
+        )
         self.state = state
 
     def __reduce__(self) -> tuple[type[Interrupted], tuple[Path]]:
@@ -130,7 +137,13 @@ class Kept:
             raise self._bad(problem) from None
         if found != digest:
             self.parts.close()
-            raise RequestError("optimize.other_state", path=path)
+            raise RequestError(
+                _(
+                    'the state "{path}" belongs to another problem; name another file, or remove it',
+                    code="optimize.other_state",
+                    path=path,
+                )
+            )
 
     def part(self, key: str) -> tuple[Any] | None:
         """What is kept under a key, alone in a tuple; None: nothing."""
@@ -191,7 +204,14 @@ class Kept:
         return None if row is None else str(row[0])
 
     def _bad(self, problem: Exception) -> RequestError:
-        return RequestError("study.bad_state", path=self.path, reason=str(problem)[:200])
+        return RequestError(
+            _(
+                'the state "{path}" cannot be used ({reason}); name another file, or remove it',
+                code="study.bad_state",
+                path=self.path,
+                reason=str(problem)[:200],
+            )
+        )
 
 
 def _bytes(value: Any) -> int:

@@ -28,6 +28,7 @@ from linkwright.loads.base import Load
 from linkwright.loads.magnitude import Magnitude
 from linkwright.loads.over_cycle import activity
 from linkwright.loads.phases import Always
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,15 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     """
     rubbing = any(kind_of(name) == "friction" for name in fields)
     if rubbing and not can_be_traced(plain.forces.friction):
-        raise LinkwrightError("study.friction_slope", most=MOST)
+        raise LinkwrightError(
+            _(
+                "friction has a derivative where it is far from self-locking and no group has it in "
+                "more than {most} pairs; leave the friction out of the model, or vary the dimension "
+                "in a study",
+                code="study.friction_slope",
+                most=MOST,
+            )
+        )
     given = [
         name
         for name in (plain.forces.fields_needed() if rubbing else fields)
@@ -65,7 +74,15 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     loads = [plain.mechanism.loads[name] for name in named]
     for load in loads:
         if not load.magnitude.has_formula:
-            raise LinkwrightError("study.cycle_load_slope", name=load.name, kind=load.kind)
+            raise LinkwrightError(
+                _(
+                    "loads.{name}: a load of the kind {kind!r} is found from the whole cycle, for which "
+                    "no derivative is known; vary the dimension in a study instead",
+                    code="study.cycle_load_slope",
+                    name=load.name,
+                    kind=load.kind,
+                )
+            )
     signals = MotionSignals(plain.nominal)
     along = numbers_of_loads(loads, plain.mechanism)
     known = {middle_name(a, b): signals.angle_of(a, b, near) for (a, b), near in along.angles.items()}
@@ -112,6 +129,15 @@ def _moving(
 def _phase(load: Load, signals: MotionSignals) -> dict[str, Floats]:
     """Where a load acts, and the share of its phase; raises for a ramp whose ends are limit positions that move."""
     if load.magnitude.size.ramp and load.magnitude.limits is not None:
-        raise LinkwrightError("study.ramp_slope", name=load.name)
+        raise LinkwrightError(
+            _(
+                "loads.{name}: a ramp between limit positions has a derivative where these are the "
+                "only two in the cycle and no turns of links are counted, under other laws than "
+                "constant speed also where all groups have a closed form; change the dimension in "
+                "study instead",
+                code="study.ramp_slope",
+                name=load.name,
+            )
+        )
     active = activity(load, signals)
     return {acts_name(load.name): active.where.astype(float), f"share:{load.name}": active.share}

@@ -34,8 +34,7 @@ from linkwright.metrics.of_designs import (
     numbers_of_designs,
     refuse_obstacles,
 )
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 
 class Part(Protocol):
@@ -118,9 +117,23 @@ class Objective:
         try:
             given = np.asarray(values, dtype=float)
         except (TypeError, ValueError):
-            raise RequestError("study.objective_numbers", names=self.names, given=repr(values)[:60]) from None
+            raise RequestError(
+                _(
+                    "a design is given by one number for each of {names}, not by {given}",
+                    code="study.objective_numbers",
+                    names=self.names,
+                    given=repr(values)[:60],
+                )
+            ) from None
         if given.ndim != 2 or given.shape[1] != len(self.names):
-            raise RequestError("study.objective_shape", names=self.names, shape=str(np.shape(values)))
+            raise RequestError(
+                _(
+                    "the designs must have the columns {names}, not the shape {shape}",
+                    code="study.objective_shape",
+                    names=self.names,
+                    shape=str(np.shape(values)),
+                )
+            )
         return dict(zip(self.names, given.T, strict=True))
 
     def __repr__(self) -> str:
@@ -159,7 +172,12 @@ def objective(
     one_of("backend", backend, BACKENDS)
     names = checked_addresses(mechanism, vary)
     if not names:
-        raise RequestError("study.nothing_varied")
+        raise RequestError(
+            _(
+                'nothing varies; give dimensions with their values: {{"crank.length": values}}',
+                code="study.nothing_varied",
+            )
+        )
     given = weighted(terms)
     numbers = {term: weight for term, weight in given.items() if isinstance(term, str) and is_metric(term)}
     others = {term: weight for term, weight in given.items() if term not in numbers}
@@ -171,7 +189,13 @@ def objective(
         parts.append(_of_positions(mechanism, names, others, steps, at, compiled))
     idle = [name for name in names if not any(name in part.names for part in parts)]
     if idle:
-        raise RequestError("study.objective_idle", names=tuple(idle))
+        raise RequestError(
+            _(
+                "{names} has no influence on what is asked; leave it out",
+                code="study.objective_idle",
+                names=tuple(idle),
+            )
+        )
     known = mechanism.dimensions()
     return Objective(names, np.array([known[name] for name in names]), parts)
 
@@ -201,9 +225,22 @@ def over_metrics(
 def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str], steps: int) -> Message:
     """Why metrics of a mechanism have no gradient."""
     if hulls := tuple(name for name in missing if swept(name, mechanism)):
-        return Sentence("study.objective_swept", names=hulls, name=mechanism.name)
+        return _(
+            "{names} of {name!r} has a gradient where no change point is passed and, over other "
+            "cycles than whole turns at constant speed, groups have closed forms and no "
+            "dimension moves the inputs; for its value use sweep",
+            code="study.objective_swept",
+            names=hulls,
+            name=mechanism.name,
+        )
     if numbers_of_designs(mechanism, names, missing, steps=steps) is not None:
-        return Sentence("study.objective_metric", names=tuple(missing), name=mechanism.name)
+        return _(
+            "{names} of {name!r} is no number over the cycle that has a gradient, or does not "
+            "apply to it; choose another one",
+            code="study.objective_metric",
+            names=tuple(missing),
+            name=mechanism.name,
+        )
     _refuse_moved_cycle(mechanism, names, over_cycle(mechanism, steps))
     signals = MotionSignals(solve_motion(mechanism, steps=steps))
     for name, load in mechanism.loads.items():
@@ -211,8 +248,22 @@ def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str], s
         count = len(signals.limits(output)) if isinstance(output, Output) else 0
         if count > 2:
             values = {"load": name, "output": output, "count": count}
-            return Sentence("study.objective_reverses", name=mechanism.name, **values)
-    return Sentence("study.objective_loads", name=mechanism.name)
+            return _(
+                "{name!r}: the load {load!r} has the sign of the rate of {output}, which changes it "
+                "{count} times in a turn, where gradients beside groups without closed form take two "
+                "changes; for outputs use sensitivity, for design numbers study",
+            ).format(name=mechanism.name, **values)
+    return _(
+        "{name!r} has friction in more than 16 pairs of one group, or (for design numbers) "
+        "beside cams or groups without closed form, on a guide that is pressed from both "
+        "sides or teeth and chains that pull both ways, loads that divide by an output or "
+        "follow a link that turns through, or, over other cycles than whole turns at "
+        "constant speed, phases by outputs with more limits than two, groups without closed "
+        "form, or dimensions that move the inputs, so no gradient of many designs is found; "
+        "for outputs use sensitivity, which takes one design at a time, for design numbers "
+        "study",
+        name=mechanism.name,
+    )
 
 
 def of_path(mechanism: Mechanism, names: tuple[str, ...], path: PathError, backend: Backend) -> Part:
@@ -237,9 +288,22 @@ def _of_positions(
     points = number_of_points(given)
     positions = at_inputs(mechanism, at) if at is not None else over_cycle(mechanism, points or steps)
     if not positions.count:
-        raise RequestError("motion.no_positions")
+        raise RequestError(
+            _(
+                "no positions are given; give an input or a time, or leave at and times out for the "
+                "whole cycle",
+                code="motion.no_positions",
+            )
+        )
     if points and positions.count != points:
-        raise RequestError("study.objective_count", points=points, positions=positions.count)
+        raise RequestError(
+            _(
+                "{points} target points do not belong to {positions} positions; give as many inputs (at)",
+                code="study.objective_count",
+                points=points,
+                positions=positions.count,
+            )
+        )
     if at is None:
         _refuse_moved_cycle(mechanism, names, positions)
     return Builder(mechanism, names, positions, given).built(backend)

@@ -11,6 +11,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.errors import RequestError
+from linkwright.words import _
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,10 +38,18 @@ def weighted(terms: Terms) -> dict[str | PathError, float]:
     else:
         found = {terms: 1.0}
     if not found:
-        raise RequestError("study.no_outputs")
+        raise RequestError(
+            _('no outputs are asked for; name some, such as "driver.effort rms"', code="study.no_outputs")
+        )
     for term in found:
         if not isinstance(term, str | PathError):
-            raise RequestError("study.no_output_name", given=repr(term)[:60])
+            raise RequestError(
+                _(
+                    'an output is asked for by a text such as "driver.effort rms", not by {given}',
+                    code="study.no_output_name",
+                    given=repr(term)[:60],
+                )
+            )
     return found
 
 
@@ -49,11 +58,29 @@ def number_of_points(terms: Iterable[str | PathError]) -> int | None:
     are none."""
     targets = [_points(term.target) for term in terms if isinstance(term, PathError)]
     if any(target.ndim != 2 or target.shape[1] != 2 or not len(target) for target in targets):
-        raise RequestError("study.objective_target")
+        raise RequestError(
+            _(
+                "the target of a path error is a list of points [x, y] in m, and all targets have as "
+                "many points",
+                code="study.objective_target",
+            )
+        )
     if len({len(target) for target in targets}) > 1:
-        raise RequestError("study.objective_target")
+        raise RequestError(
+            _(
+                "the target of a path error is a list of points [x, y] in m, and all targets have as "
+                "many points",
+                code="study.objective_target",
+            )
+        )
     if not all(np.isfinite(target).all() for target in targets):
-        raise RequestError("study.objective_gaps")
+        raise RequestError(
+            _(
+                "the target of a path error has points that are not finite; leave them out, and give "
+                "the inputs of the others by at",
+                code="study.objective_gaps",
+            )
+        )
     return len(targets[0]) if targets else None
 
 
@@ -61,4 +88,10 @@ def _points(target: ArrayLike) -> Floats:
     try:
         return np.asarray(target, dtype=float)
     except (TypeError, ValueError):
-        raise RequestError("study.objective_target") from None
+        raise RequestError(
+            _(
+                "the target of a path error is a list of points [x, y] in m, and all targets have as "
+                "many points",
+                code="study.objective_target",
+            )
+        ) from None

@@ -16,8 +16,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 
 def note_of_positions(
@@ -39,14 +38,24 @@ def note_of_positions(
     except LinkwrightError:
         worst = None
     if worst is None:
-        return Sentence("study.of_positions", steps=steps)
+        return _(
+            "minima, maxima and means of outputs are those of the {steps} positions; metrics, "
+            "such as peak_input_torque, are found between them",
+            steps=steps,
+        )
     summary, sampled, exact, dimension = worst
     values = {
         "there": shown(sampled, dimension),
         "between": shown(exact, dimension),
         "share": f"{100.0 * off:.2g}",
     }
-    return Sentence("study.of_positions_off", steps=steps, name=summary.name, **values)
+    return _(
+        "minima, maxima and means of outputs are those of the {steps} positions: {name} of "
+        "the machine as it is is {there} there, but {between} between them ({share} % of the "
+        "largest value apart); use a metric, such as peak_input_torque, which is found "
+        "between the positions, or more steps",
+        code="study.of_positions_off",
+    ).format(steps=steps, name=summary.name, **values)
 
 
 def _both(analysis: Analysis, summary: Summary, forces: Forces | None) -> tuple[float, float, float]:

@@ -22,7 +22,7 @@ from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.strokes import TURN
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: What a summary is of values at positions; extremes skip those that do not exist.
 OF_VALUES: Mapping[str, Callable[[Floats], Any]] = {
@@ -97,4 +97,10 @@ def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:
         motion = motion_alone(traced, changes)
     except LinkwrightError as error:
         return error.sentence
-    return Sentence("study.not_followed") if motion.whole else motion.refusal().sentence
+    return (
+        _(
+            "it could not be followed from position to position together with the others; give more steps",
+        )
+        if motion.whole
+        else motion.refusal().sentence
+    )

@@ -34,6 +34,7 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.by_name import wanted
 from linkwright.units import LARGEST
+from linkwright.words import _
 
 VALUE = "objective"
 
@@ -119,7 +120,20 @@ class Builder:
         if self.iterated:
             self._refuse_ways(plain, loaded)
         if loaded is None:
-            raise RequestError("study.objective_loads", name=mechanism.name)
+            raise RequestError(
+                _(
+                    "{name!r} has friction in more than 16 pairs of one group, or (for design numbers) "
+                    "beside cams or groups without closed form, on a guide that is pressed from both "
+                    "sides or teeth and chains that pull both ways, loads that divide by an output or "
+                    "follow a link that turns through, or, over other cycles than whole turns at "
+                    "constant speed, phases by outputs with more limits than two, groups without closed "
+                    "form, or dimensions that move the inputs, so no gradient of many designs is found; "
+                    "for outputs use sensitivity, which takes one design at a time, for design numbers "
+                    "study",
+                    code="study.objective_loads",
+                    name=mechanism.name,
+                )
+            )
         self.loaded, self.loads, self.traced = loaded, loaded.loads, loaded.traced
 
     def _refuse_ways(self, plain: Traced, loaded: LoadedCycle | None) -> None:
@@ -128,7 +142,16 @@ class Builder:
         outputs = () if loaded is None else loaded.loads.outputs
         more = any(len(MotionSignals(plain.nominal).limits(output)) != 2 for output in outputs)
         if more or plain.nominal.modes or plain.positions.key != cycle.key:
-            raise RequestError("study.objective_iterates", name=plain.mechanism.name)
+            raise RequestError(
+                _(
+                    "{name!r} has a group without closed form, and passes change points, is given inputs "
+                    "other than its cycle, or has loads by an output with more than two limits, so no "
+                    "gradient of many designs is found; for outputs use sensitivity, for design numbers "
+                    "study",
+                    code="study.objective_iterates",
+                    name=plain.mechanism.name,
+                )
+            )
 
     @cached_property
     def summaries(self) -> dict[Summary, float]:
@@ -183,7 +206,7 @@ class Builder:
         trace = self.traced.solver.motion.trace
         outputs = {name: each.carrier for name, each in self.quantities.items()}
         targets: dict[str, Floats] = {}
-        for k, (term, _) in enumerate(self.paths):
+        for k, (term, _unused) in enumerate(self.paths):
             place = self.traced.solver.outputs.point(point_key(self.traced.mechanism, term.point))[0]
             points = np.asarray(term.target, dtype=float)
             squares: Scalar = 0.0
@@ -201,7 +224,7 @@ class Builder:
         total: Scalar = 0.0
         for summary, weight in self.summaries.items():
             total = total + weight * _summary(t, summary, self.quantities[summary.output])
-        for k, (_, weight) in enumerate(self.paths):
+        for k, (_unused, weight) in enumerate(self.paths):
             total = total + weight * t.parameter(f"path {k}.mean")
         return Program.of(t, {VALUE: total})
 
@@ -218,14 +241,28 @@ def counted_turns(traced: Traced) -> dict[str, Floats]:
     known = traced.solver.states(traced.positions)
     if any(np.nanmax(np.abs(np.diff(known[name])), initial=0.0) >= CLEAR for name in carried):
         links = tuple(traced.solver.motion.angles.counted)
-        raise RequestError("study.objective_turns", name=traced.mechanism.name, links=links)
+        raise RequestError(
+            _(
+                "{name!r}: {links} turns so far between two positions that its turns cannot be "
+                "counted; give more steps, or more inputs",
+                code="study.objective_turns",
+                name=traced.mechanism.name,
+                links=links,
+            )
+        )
     return {name: known[name] for name in carried}
 
 
 def _summary(t: Trace, summary: Summary, quantity: Quantity) -> Scalar:
     """A summary in its unit from the reductions of its carrier."""
     if summary.kind in ("argmin", "argmax"):
-        raise RequestError("study.place_without_slope", name=summary.name)
+        raise RequestError(
+            _(
+                "{name!r} is a place, which has no derivative here; ask for its extreme",
+                code="study.place_without_slope",
+                name=summary.name,
+            )
+        )
     parts = [t.parameter(f"{summary.output}.{kind}") for kind in KINDS[summary.kind]]
     shown = [replace(quantity, carrier=part).value for part in parts]
     if summary.kind == "range":

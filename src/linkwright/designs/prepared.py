@@ -36,6 +36,7 @@ from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.strokes import turned
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
 
 #: The row of how near a group is to a change point or a gap; 0 where it cannot be assembled, where a load has no
 #: value, where limit positions do not agree with the rates, and where friction is not certain.
@@ -132,7 +133,12 @@ class Prepared:
             if compiled is not None:
                 return compiled.repeated(arrays, tables=tables)
             if backend == "llvm":
-                raise LinkwrightError("study.not_compiled")
+                raise LinkwrightError(
+                    _(
+                        "this mechanism cannot be compiled here: llvmlite is missing, or a group iterates",
+                        code="study.not_compiled",
+                    )
+                )
         evaluator = numpy_program(self.program)
         return lambda table: evaluator.run(table, arrays, length=self.positions.count, tables=tables)
 
@@ -204,7 +210,14 @@ class Prepared:
     def _refuse_fixed(self, address: str) -> None:
         """Refuses a dimension that the programs hold as a known zero, or do not know."""
         if self.mechanism.dimension(address) == 0.0:
-            raise RequestError("study.zero_not_named", address=address)
+            raise RequestError(
+                _(
+                    "{address!r} is zero and was not named when the mechanism was prepared; write "
+                    "prepare(mechanism, vary=[{address!r}, …])",
+                    code="study.zero_not_named",
+                    address=address,
+                )
+            )
 
     def _solve_alone(self, design: Design, failures: str) -> Forces:
         """As a machine by itself: where loads are not traced, or change points and gaps may lie between positions."""

@@ -15,7 +15,7 @@ from linkwright.core.quantity import si_of, written
 from linkwright.errors import LinkwrightError, RequestError, about
 from linkwright.loads.keys import PhaseField
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: Values of a range without a number of its own.
 USUAL_COUNT = 11
@@ -77,7 +77,13 @@ def _parsed(address: str, text: str) -> Range:
             if (dashed := _DASHED.match(text)) is None:
                 raise
             first = " ".join(filter(None, (dashed["low"], dashed["unit"])))
-            raise RequestError("study.no_dots", right=f"{first}..{dashed['high']}") from None
+            raise RequestError(
+                _(
+                    "a range has two dots between its ends; write {right}",
+                    code="study.no_dots",
+                    right=f"{first}..{dashed['high']}",
+                )
+            ) from None
     high, unit = _quantity(match["high"], "", address, text)
     low, unit = _quantity(match["low"], unit, address, text)
     count = _count(match["count"], address, text)
@@ -97,14 +103,39 @@ def _quantity(part: str, unit: str, address: str, text: str) -> tuple[float, str
     """A number in SI and its unit; without a unit of its own that of ``unit``, else one of the same dimension."""
     match = _QUANTITY.match(part.strip())
     if match is None:
-        raise RequestError("study.no_quantity", address=address, text=text, part=part.strip())
+        raise RequestError(
+            _(
+                '{address}={text}: "{part}" is no quantity; write a range as 1.2..1.3 m:11, or '
+                "values as 1.2, 1.25, 1.3 m",
+                code="study.no_quantity",
+                address=address,
+                text=text,
+                part=part.strip(),
+            )
+        )
     number, own = match[1], match[2].strip() or unit
     factor, kind = units.unit(own) if own else (1.0, units.NONE)
     if unit and kind != units.unit(unit)[1]:
-        raise RequestError("study.units_differ", address=address, text=text, first=own, second=unit)
+        raise RequestError(
+            _(
+                "{address}={text}: {first} and {second} are units of different dimensions; give both in one",
+                code="study.units_differ",
+                address=address,
+                text=text,
+                first=own,
+                second=unit,
+            )
+        )
     value = float(number) * factor
     if not math.isfinite(value):
-        raise RequestError("study.value_not_finite", address=address, text=text)
+        raise RequestError(
+            _(
+                "{address}={text}: a value is not finite",
+                code="study.value_not_finite",
+                address=address,
+                text=text,
+            )
+        )
     return value, own
 
 
@@ -112,9 +143,26 @@ def _count(text: str | None, address: str, whole: str) -> int:
     if text is None:
         return USUAL_COUNT
     if not text.strip().isdecimal() or int(text) < 1:
-        raise RequestError("study.no_count", address=address, whole=whole, text=text.strip())
+        raise RequestError(
+            _(
+                '{address}={whole}: "{text}" is no number of values; end a range in a whole number, '
+                "such as :11",
+                code="study.no_count",
+                address=address,
+                whole=whole,
+                text=text.strip(),
+            )
+        )
     if int(text) > 1_000_000:
-        raise RequestError("study.count_large", address=address, whole=whole, count=text)
+        raise RequestError(
+            _(
+                "{address}={whole}: {count} values are too many; give a million or fewer",
+                code="study.count_large",
+                address=address,
+                whole=whole,
+                count=text,
+            )
+        )
     return int(text)
 
 
@@ -126,9 +174,27 @@ def _require_unit(mechanism: Mechanism, address: str, unit: str, text: str) -> N
     kind = units.unit(unit)[1] if unit else units.NONE
     if kind != expected:
         need, example = units.name_of(expected), units.si_symbol(expected)
-        told = Sentence("study.has_unit", unit=unit) if unit else Sentence("study.has_no_unit")
-        write = Sentence("study.with_unit" if example else "study.without_unit", example=example)
-        raise RequestError("study.wrong_unit", address=address, text=text, need=need, told=told, write=write)
+        told = (
+            _("it has the unit {unit}", code="study.has_unit", unit=unit)
+            if unit
+            else _("it has no unit", code="study.has_no_unit")
+        )
+        write = (
+            _("write it with a unit such as {example}", code="study.with_unit")
+            if example
+            else _("write it without a unit", code="study.without_unit")
+        ).format(example=example)
+        raise RequestError(
+            _(
+                "{address}={text}: this is {need}, but {told}; {write}",
+                code="study.wrong_unit",
+                address=address,
+                text=text,
+                need=need,
+                told=told,
+                write=write,
+            )
+        )
 
 
 def dimension_of(mechanism: Mechanism, address: str) -> units.Dimension | None:

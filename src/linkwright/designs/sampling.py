@@ -10,6 +10,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.given import whole
 from linkwright.designs.ranges import Range
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.words import _
 
 #: Designs of one study, at most.
 MOST = 1_000_000
@@ -21,7 +22,14 @@ def grid(ranges: Sequence[Range]) -> dict[str, Floats]:
     for each in ranges:
         count *= len(each.values)
     if count > MOST:
-        raise RequestError("study.grid_large", count=count, most=MOST)
+        raise RequestError(
+            _(
+                "the grid has {count} designs; give {most} or fewer, or sample it: sampling='sobol'",
+                code="study.grid_large",
+                count=count,
+                most=MOST,
+            )
+        )
     mesh = np.meshgrid(*(each.values for each in ranges), indexing="ij")
     return {each.address: rows.ravel() for each, rows in zip(ranges, mesh, strict=True)}
 
@@ -32,16 +40,37 @@ def sobol(ranges: Sequence[Range], samples: int, seed: int, sampling: str) -> di
     Raises LinkwrightError for another sampling, fewer than one sample, and where scipy is missing.
     """
     if sampling != "sobol":
-        raise RequestError("study.no_sampling", sampling=sampling)
+        raise RequestError(
+            _(
+                "there is no sampling {sampling!r}; use grid or sobol",
+                code="study.no_sampling",
+                sampling=sampling,
+            )
+        )
     samples, seed = whole("samples", samples), whole("seed", seed)
     if not 1 <= samples <= MOST:
-        raise RequestError("study.bad_samples", samples=samples, most=MOST)
+        raise RequestError(
+            _(
+                "{samples} samples are asked for; give 1 to {most}",
+                code="study.bad_samples",
+                samples=samples,
+                most=MOST,
+            )
+        )
     if seed < 0:
-        raise RequestError("study.bad_seed", seed=seed)
+        raise RequestError(
+            _(
+                "the seed is {seed}; give a whole number that is not negative",
+                code="study.bad_seed",
+                seed=seed,
+            )
+        )
     try:
         from scipy.stats import qmc
     except ImportError as error:
-        raise LinkwrightError("study.needs_scipy") from error
+        raise LinkwrightError(
+            _("a Sobol sequence needs scipy; install it with: pip install scipy", code="study.needs_scipy")
+        ) from error
     power = max(0, (samples - 1).bit_length())
     unit = qmc.Sobol(len(ranges), seed=seed).random_base2(power)[:samples]
     return {each.address: each.low + unit[:, i] * (each.high - each.low) for i, each in enumerate(ranges)}

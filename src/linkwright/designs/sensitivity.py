@@ -27,6 +27,7 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.friction_stage import MOST
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
 
 if TYPE_CHECKING:
     import pandas
@@ -64,7 +65,14 @@ class Sensitivity(Plotted, Frozen):
         """Derivative of an output with respect to a dimension at fixed input, (n,)."""
         self._asked(output)
         if by not in self.by:
-            raise RequestError("study.not_a_dimension", name=by, names=tuple(self.by))
+            raise RequestError(
+                _(
+                    "{name!r} is not among the dimensions {names}",
+                    code="study.not_a_dimension",
+                    name=by,
+                    names=tuple(self.by),
+                )
+            )
         return self.slopes[output, by]
 
     def value(self, output: str, kind: str | None = None) -> float:
@@ -123,13 +131,25 @@ class Sensitivity(Plotted, Frozen):
 
     def _asked(self, output: str) -> None:
         if output not in self.curves:
-            raise RequestError("study.no_curve", output=output)
+            raise RequestError(
+                _(
+                    "no curve of {output!r} was asked for; name an output without a summary, as in "
+                    "of=['jaw.angle']",
+                    code="study.no_curve",
+                    output=output,
+                )
+            )
 
     def _summary(self, output: str, kind: str | None) -> Summary:
         found = split(output if kind is None else (output, kind))
         if not isinstance(found, Summary) or found not in self.values:
             raise RequestError(
-                "study.no_summary_asked", output=output, names=tuple(s.name for s in self.values)
+                _(
+                    "no summary {output!r} was asked for; there is {names}",
+                    code="study.no_summary_asked",
+                    output=output,
+                    names=tuple(s.name for s in self.values),
+                )
             )
         return found
 
@@ -173,12 +193,19 @@ def sensitivity(
     positions = over_cycle(mechanism, steps)
     dimensions = checked_addresses(mechanism, by)
     if not dimensions:
-        raise RequestError("study.nothing_to_differentiate")
+        raise RequestError(
+            _(
+                "no dimension is given to differentiate by; name some, such as by=['crank.length']",
+                code="study.nothing_to_differentiate",
+            )
+        )
     _refuse_input(dimensions)
     refuse_misfits(mechanism, dimensions)
     asked = [split(each) for each in one_or_more(of)]
     if not asked:
-        raise RequestError("study.no_outputs")
+        raise RequestError(
+            _('no outputs are asked for; name some, such as "driver.effort rms"', code="study.no_outputs")
+        )
     traced = Traced(mechanism, dimensions, positions, turning=True)
     if not traced.nominal.whole:
         raise traced.nominal.refusal()
@@ -196,14 +223,27 @@ def split(each: str | tuple[str, str]) -> str | Summary:
     if len(found) == 2 and output is not None:
         return output
     if found[0].kind in ("argmin", "argmax"):
-        raise RequestError("study.place_without_slope", name=found[0].name)
+        raise RequestError(
+            _(
+                "{name!r} is a place, which has no derivative here; ask for its extreme",
+                code="study.place_without_slope",
+                name=found[0].name,
+            )
+        )
     return found[0]
 
 
 def _refuse_input(by: Iterable[str]) -> None:
     for address in by:
         if address.startswith("cycle.") or address.endswith(".start"):
-            raise RequestError("study.moves_input", address=address)
+            raise RequestError(
+                _(
+                    "{address} moves the positions of the input; derivatives are taken at fixed input, "
+                    "so leave it out",
+                    code="study.moves_input",
+                    address=address,
+                )
+            )
 
 
 class _Derivation:
@@ -226,7 +266,15 @@ class _Derivation:
         self.quantities = traced.quantities(names)
         self.work = Slopes(traced, self.quantities, by, backend, loads)
         if not self.work.certain:
-            raise LinkwrightError("study.friction_slope", most=MOST)
+            raise LinkwrightError(
+                _(
+                    "friction has a derivative where it is far from self-locking and no group has it in "
+                    "more than {most} pairs; leave the friction out of the model, or vary the dimension "
+                    "in a study",
+                    code="study.friction_slope",
+                    most=MOST,
+                )
+            )
         self.back = way == "reverse" or (way == "auto" and len(by) >= REVERSE_PAYS)
 
     def result(self) -> Sensitivity:

@@ -18,6 +18,7 @@ from linkwright.formula.program import Program
 from linkwright.formula.summaries import Backend
 from linkwright.kinetostatics.load_site import middle_name
 from linkwright.kinetostatics.named_outputs import Quantity
+from linkwright.words import _
 
 
 class Slopes:
@@ -117,7 +118,12 @@ class Slopes:
 
             compiled = compile_program(program)
             if compiled is None:
-                raise LinkwrightError("study.no_llvmlite")
+                raise LinkwrightError(
+                    _(
+                        "llvmlite cannot be loaded: install it, or use the numpy back end",
+                        code="study.no_llvmlite",
+                    )
+                )
             rows = {name: row[None, :] for name, row in inputs.items()}
             return np.array(compiled.store(numbers[None, :], arrays, rows, length=count, tables=tables)[0])
         return NumpyProgram(program).run(numbers, arrays, inputs, length=count, tables=tables)

@@ -41,7 +41,7 @@ from linkwright.metrics.of_output import Asked
 from linkwright.metrics.outputs import usual_output
 from linkwright.registry import offered
 from linkwright.units import si_unit
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 if TYPE_CHECKING:
     import pandas
@@ -90,7 +90,9 @@ class Study(Plotted, Frozen):
             if name in columns:
                 return columns[name]
         hint = offered(name, [*self.metrics, *self.varied])
-        raise RequestError(with_remedy(Sentence("study.not_in_study", name=name), hint))
+        raise RequestError(
+            with_remedy(_("{name!r} is not in the study", code="study.not_in_study", name=name), hint)
+        )
 
     def best(self, metric: str) -> int:
         """Number of the design that is best in a metric.
@@ -99,9 +101,17 @@ class Study(Plotted, Frozen):
         """
         values, better = self[metric], self.better.get(metric)
         if better is None:
-            raise RequestError("study.no_best", metric=metric)
+            raise RequestError(
+                _(
+                    "{metric!r} has no better direction, so no design is best in it",
+                    code="study.no_best",
+                    metric=metric,
+                )
+            )
         if not np.isfinite(values).any():
-            raise LinkwrightError("study.no_value", metric=metric)
+            raise LinkwrightError(
+                _("{metric!r} has no value in any of the designs", code="study.no_value", metric=metric)
+            )
         sizes = np.abs(values)
         return int(np.nanargmax(sizes) if better == "higher" else np.nanargmin(sizes))
 
@@ -411,10 +421,17 @@ class _Work:
             if np.isnan(values[ok]).all():
                 if (missing := unloaded(self.mechanism, [name])) is not None:
                     raise RequestError(missing)
-                told = Sentence("study.does_not_apply", name=name, mechanism=self.mechanism.name)
+                told = _(
+                    "{name!r} does not apply to {mechanism!r}",
+                    code="study.does_not_apply",
+                    name=name,
+                    mechanism=self.mechanism.name,
+                )
                 if self.notes:
-                    raise RequestError("cli.about", name=told, cause=list(self.notes))
-                raise RequestError(with_remedy(told, Sentence("study.leave_out")))
+                    raise RequestError(
+                        _("{name}: {cause}", code="cli.about", name=told, cause=list(self.notes))
+                    )
+                raise RequestError(with_remedy(told, _("leave it out", code="study.leave_out")))
 
     def _troubles(self) -> list[Failure]:
         """Designs for which a metric could not be found."""
@@ -443,9 +460,16 @@ def _piece(
 
 def _none_moves(count: int, failures: Iterable[Failure]) -> str:
     told = [
-        Sentence(
-            "study.fails" if f.count == 1 else "study.fail", count=f.count, place=f.place, example=f.example
-        )
+        (
+            _("{count} fails {place}, such as: {example}")
+            if f.count == 1
+            else _("{count} fail {place}, such as: {example}", code="study.fail")
+        ).format(count=f.count, place=f.place, example=f.example)
         for f in failures
     ]
-    return Sentence("study.none_passes", count=count, told=told)
+    return _(
+        "none of the {count} designs can pass its cycle: {told}; widen or move the ranges",
+        code="study.none_passes",
+        count=count,
+        told=told,
+    )

@@ -10,7 +10,7 @@ from linkwright.designs.criteria import criterion
 from linkwright.designs.failures import Failure
 from linkwright.designs.study import Study
 from linkwright.errors import speaker
-from linkwright.words import Say
+from linkwright.words import Say, _, pgettext
 from linkwright.words.sentence import in_language
 
 
@@ -18,22 +18,33 @@ def text(study: Study, language: str = "en", rows: int = 40, width: int | None =
     """Table, best designs, failures, notes."""
     say = speaker(language)
     lines = [
-        say("study.counts", name=study.mechanism.name, designs=study.designs, movable=int(study.ok.sum())),
+        say(
+            _(
+                "{name}: {designs} designs, {movable} can move",
+                name=study.mechanism.name,
+                designs=study.designs,
+                movable=int(study.ok.sum()),
+            )
+        ),
         "",
     ]
     lines += _table(study, language, rows, width, say)
     best = _best(study, language, say)
     if best:
-        lines += ["", say("study.best"), *best]
+        lines += ["", say(_("Best designs")), *best]
     if study.failures:
-        lines += ["", say("study.failed"), *(_failure(each, say, language) for each in study.failures)]
+        lines += [
+            "",
+            say(_("Designs that fail")),
+            *(_failure(each, say, language) for each in study.failures),
+        ]
     notes = [in_language(note, language) for note in study.notes]
     return "\n".join([*lines, *([""] if notes else []), *notes])
 
 
 def _table(study: Study, language: str, rows: int, width: int | None, say: Say) -> list[str]:
     chosen = _chosen(study.designs, rows)
-    head = [say("study.number"), *(each.address for each in study.ranges)]
+    head = [say(pgettext("study", "no.")), *(each.address for each in study.ranges)]
     head += [_heading(study, name, language) for name in study.metrics]
     table: list[list[Cell]] = []
     for index in chosen:
@@ -44,7 +55,15 @@ def _table(study: Study, language: str, rows: int, width: int | None, say: Say) 
         table.append(cells)
     lines = Table(head, table, ">" * len(head)).lines(language, width)
     if len(chosen) < study.designs:
-        lines.append(say("study.left_out", shown=len(chosen), designs=study.designs))
+        lines.append(
+            say(
+                _(
+                    "({shown} of {designs} designs shown; write all of them with --output FILE.csv)",
+                    shown=len(chosen),
+                    designs=study.designs,
+                )
+            )
+        )
     return lines
 
 
@@ -73,11 +92,19 @@ def _best(study: Study, language: str, say: Say) -> list[str]:
         )
         value = shown(float(values[index]), study.dimensions[name], 5)
         lines.append(
-            say("study.best_of", name=criterion(name).label(language), value=value, number=index, place=place)
+            say(
+                _(
+                    "{name}: {value} in design {number} ({place})",
+                    name=criterion(name).label(language),
+                    value=value,
+                    number=index,
+                    place=place,
+                )
+            )
         )
     return lines
 
 
 def _failure(failure: Failure, say: Say, language: str) -> str:
     place, example = in_language(failure.place, language), in_language(failure.example, language)
-    return say("study.failed_at", count=failure.count, place=place, example=example)
+    return say(_("{count} {place}; the first: {example}", count=failure.count, place=place, example=example))

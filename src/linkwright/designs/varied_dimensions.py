@@ -18,7 +18,7 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.positions import Positions
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.words import Message
+from linkwright.words import Message, _
 
 #: The change of a dimension with which it is tried, as share of its value or of the mechanism's size.
 SMALL = 1e-4
@@ -31,7 +31,15 @@ def checked_addresses(mechanism: Mechanism, addresses: Iterable[str]) -> tuple[s
     for address in wanted:
         if address not in known:
             hint = offered(address, known, "study.such_as", most=6)
-            raise RequestError("study.no_dimension", address=address, name=mechanism.name, hint=hint)
+            raise RequestError(
+                _(
+                    "there is no dimension or parameter {address!r} in {name!r}; {hint}",
+                    code="study.no_dimension",
+                    address=address,
+                    name=mechanism.name,
+                    hint=hint,
+                )
+            )
     return wanted
 
 
@@ -47,16 +55,31 @@ def varied_ranges(
     checked_addresses(mechanism, vary)
     ranges = tuple(parse_range(mechanism, address, given) for address, given in vary.items())
     if not ranges:
-        raise RequestError("study.nothing_varies")
+        raise RequestError(
+            _(
+                'nothing varies; give dimensions with ranges: {{"crank.length": "20..30 mm:11"}}',
+                code="study.nothing_varies",
+            )
+        )
     for each in ranges:
         if not each.values.size:
-            raise RequestError("study.no_values", address=each.address)
+            raise RequestError(_("{address} has no values", code="study.no_values", address=each.address))
         if gives_part_of_tooth(mechanism, each.address, between(each)) and (
             sampled or any(gives_part_of_tooth(mechanism, each.address, value) for value in each.values)
         ):
             low, high = math.ceil(each.low), math.floor(each.high)
             count = max(1, high - low + 1)
-            raise RequestError("study.whole_teeth", address=each.address, low=low, high=high, count=count)
+            raise RequestError(
+                _(
+                    "{address} gives numbers of teeth, which are whole; write "
+                    "{address}={low}..{high}:{count}, every whole number of a grid",
+                    code="study.whole_teeth",
+                    address=each.address,
+                    low=low,
+                    high=high,
+                    count=count,
+                )
+            )
     return ranges
 
 
@@ -85,16 +108,35 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
     require(vary, Mapping)
     checked_addresses(mechanism, vary)
     if not vary:
-        raise RequestError("study.nothing_varied")
+        raise RequestError(
+            _(
+                'nothing varies; give dimensions with their values: {{"crank.length": values}}',
+                code="study.nothing_varied",
+            )
+        )
     columns = {address: _column(address, values) for address, values in vary.items()}
     lengths = {len(column) for column in columns.values() if len(column) != 1}
     for address, column in columns.items():
         if column.ndim != 1:
-            raise RequestError("study.bad_shape", address=address, shape=str(column.shape))
+            raise RequestError(
+                _(
+                    "the values of {address} have the shape {shape}; give one per design, in one row "
+                    "(values.ravel())",
+                    code="study.bad_shape",
+                    address=address,
+                    shape=str(column.shape),
+                )
+            )
         _check(mechanism, address, column)
     if len(lengths) > 1:
         told = ", ".join(f"{address}: {len(column)}" for address, column in columns.items())
-        raise RequestError("study.uneven", told=told)
+        raise RequestError(
+            _(
+                "the dimensions have different numbers of values ({told}); give one per design each",
+                code="study.uneven",
+                told=told,
+            )
+        )
     count = lengths.pop() if lengths else 1
     return {address: np.broadcast_to(column, (count,)) for address, column in columns.items()}
 
@@ -103,16 +145,32 @@ def _column(address: str, values: ArrayLike) -> Floats:
     try:
         return np.atleast_1d(np.asarray(values, dtype=np.float64))
     except (ValueError, TypeError):
-        raise RequestError("study.no_numbers", address=address, given=repr(values)[:60]) from None
+        raise RequestError(
+            _(
+                "{address}: {given} is no list of numbers; give SI values, such as [0.05, 0.06] for "
+                "50 and 60 mm",
+                code="study.no_numbers",
+                address=address,
+                given=repr(values)[:60],
+            )
+        ) from None
 
 
 def _check(mechanism: Mechanism, address: str, column: Floats) -> None:
     """Every value on its own must be one that the mechanism takes."""
     if not len(column):
-        raise RequestError("study.no_values", address=address)
+        raise RequestError(_("{address} has no values", code="study.no_values", address=address))
     bad = np.flatnonzero(~np.isfinite(column))
     if len(bad):
-        raise RequestError("study.bad_value", place=int(bad[0]), address=address, value=column[bad[0]])
+        raise RequestError(
+            _(
+                "value {place} of {address} is {value}; give finite numbers",
+                code="study.bad_value",
+                place=int(bad[0]),
+                address=address,
+                value=column[bad[0]],
+            )
+        )
     for extreme in (column.min(), column.max()):
         mechanism.with_dimensions({address: float(extreme)})
 
@@ -139,7 +197,15 @@ def refuse_misfits(mechanism: Mechanism, addresses: Iterable[str]) -> None:
     for address in addresses:
         wrong = misfits(mechanism, address, SMALL * max(abs(mechanism.dimension(address)), size))
         if wrong:
-            raise RequestError("study.fixed_by_wheels", address=address, why=wrong[0])
+            raise RequestError(
+                _(
+                    "{address} cannot change alone: {why}; give the pair by its teeth, or by its ratio, "
+                    "alone, or let a parameter change all that belongs together",
+                    code="study.fixed_by_wheels",
+                    address=address,
+                    why=wrong[0],
+                )
+            )
 
 
 def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: Mapping[str, Floats]) -> None:

@@ -17,7 +17,7 @@ from linkwright.dyads.listed_numbers import ZERO
 from linkwright.dyads.plan import Guide, Pin, Plan, Step
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.link import centre
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 _MOTION = ("t", "w", "e", "p", "vp", "ap")
 _FORCES = ("p", "vp", "ap", "t", "w", "e", "fr")
@@ -184,9 +184,9 @@ class _Caller:
         if key in self.at:
             return self.at[key]
         name = (
-            Sentence("calls.beside", guide=guide.joint)
+            _("beside guide {guide}", guide=guide.joint)
             if offset
-            else Sentence("calls.on_guide", guide=guide.joint)
+            else _("on guide {guide}", guide=guide.joint)
         )
         number = self._numbered(key, name, (link,), place if link == "frame" else None)
         if link != "frame":
@@ -213,7 +213,7 @@ class _Caller:
         named = self._named(link, place)
         if named is not None:
             return self._point(link, named)
-        return self._numbered(f"{link}:{place:.9g}", Sentence("calls.point_of", link=link), (link,))
+        return self._numbered(f"{link}:{place:.9g}", _("point of {link}", link=link), (link,))
 
     def _motion(self, step: Step) -> None:
         made = getattr(self, f"_{step.kind.lower()}")(step)
@@ -256,7 +256,13 @@ class _Caller:
             across = -across
             for link in step.links:
                 self.axes[link] = replace(self.axes[link], lean=self.axes[link].lean + math.pi)
-            self.found.notes.append(Sentence("calls.reversed", links=", ".join(step.links)))
+            self.found.notes.append(
+                _(
+                    "t(k) of {links} points against the file's guide, since the subprogram counts the "
+                    "slide positive",
+                    links=", ".join(step.links),
+                )
+            )
         return self._given(step, m=_sign(across <= ZERO), n1=n1, n2=n2, r1=length(abs(across)))
 
     def _prp(self, step: Step) -> dict[str, str]:
@@ -277,7 +283,7 @@ class _Caller:
         n3 = (
             n1
             if abs(across) < ZERO
-            else self._numbered(f"foot:{arm}", Sentence("calls.foot", link=arm), (arm,))
+            else self._numbered(f"foot:{arm}", _("foot of {link} on its guide", link=arm), (arm,))
         )
         turn = math.pi if abs(across) < ZERO else math.pi - math.copysign(0.5 * math.pi, across)
         self.axes[block] = replace(self.axes[block], lean=self.axes[block].lean + step.angle)
@@ -333,7 +339,7 @@ class _Caller:
             named = self._named(link, place)
             if named is None:
                 self.centres[link] = self._numbered(
-                    f"{link}:centre", Sentence("calls.centre", link=link), (link,)
+                    f"{link}:centre", _("mass centre of {link}", link=link), (link,)
                 )
             else:
                 self.centres[link] = self._point(link, named)
@@ -370,7 +376,13 @@ class _Caller:
             if at is not None and at.link in self.mechanism.links:
                 self.loaded.setdefault(at.link, []).append(-self._point(at.link, at.point))
             else:
-                self.found.notes.append(Sentence("calls.other_load", load=load.name))
+                self.found.notes.append(
+                    _(
+                        "the load {load} is not a force at a point of a link; add it in the subprogram of "
+                        "external forces",
+                        load=load.name,
+                    )
+                )
 
     def _forces(self, step: Step) -> None:
         given = {f"k{i}": str(self.numbers[link]) for i, link in enumerate(step.links, 1)}
@@ -404,7 +416,14 @@ class _Caller:
         found = list(dict.fromkeys(self.loaded.get(link, [])))
         if len(found) > 1:
             points = ", ".join(str(abs(each)) for each in found)
-            self.found.notes.append(Sentence("calls.several", link=link, points=points))
+            self.found.notes.append(
+                _(
+                    "several forces act on {link} (points {points}); the subprogram takes one, so add "
+                    "the others up there",
+                    link=link,
+                    points=points,
+                )
+            )
         return found[0] if found else 0
 
 

@@ -15,6 +15,7 @@ from linkwright.dyads.cell import cell
 from linkwright.dyads.motion import DyadMotion, run
 from linkwright.dyads.values import Line, line_inputs, numbers, pairs, state
 from linkwright.errors import RequestError
+from linkwright.words import _
 
 Pair = Sequence[float]
 
@@ -91,7 +92,13 @@ def forces(
         RequestError: something is no number, or a force has no point.
     """
     if not isinstance(motion, DyadMotion):
-        raise RequestError("dyads.no_motion", given=type(motion).__name__)
+        raise RequestError(
+            _(
+                "expected the motion of a dyad, from lw.dyads.rrr(…) and its like, got {given}",
+                code="dyads.no_motion",
+                given=type(motion).__name__,
+            )
+        )
     inputs = dict(motion.inputs) | _gravity(gravity)
     for link, body in (("first", first), ("second", second)):
         inputs |= _body(link, body, getattr(motion, link))
@@ -158,11 +165,25 @@ def _body(link: str, body: Body | None, line: Line) -> dict[str, Floats]:
     """Inputs of a link: its mass, and all its loads together about the origin of its line."""
     body = Body() if body is None else body
     if not isinstance(body, Body):
-        raise RequestError("dyads.no_body", name=link, given=type(body).__name__)
+        raise RequestError(
+            _(
+                "{name}: expected a lw.dyads.Body (mass, inertia, centre, loads), got {given}",
+                code="dyads.no_body",
+                name=link,
+                given=type(body).__name__,
+            )
+        )
     try:
         x, y = body.centre
     except (TypeError, ValueError):
-        raise RequestError("dyads.no_two", name=f"{link}.centre", given=repr(body.centre)[:60]) from None
+        raise RequestError(
+            _(
+                "{name}: expected two values, one for each, got {given}",
+                code="dyads.no_two",
+                name=f"{link}.centre",
+                given=repr(body.centre)[:60],
+            )
+        ) from None
     inputs = {
         f"{link}.mass": numbers("mass", body.mass),
         f"{link}.inertia": numbers("inertia", body.inertia),
@@ -179,5 +200,11 @@ def _body(link: str, body: Body | None, line: Line) -> dict[str, Floats]:
             arm = state("at", load.at)[0] - origin
             moment = moment + arm[..., 0] * own[..., 1] - arm[..., 1] * own[..., 0]
         elif own.any():
-            raise RequestError("dyads.no_place", name=link)
+            raise RequestError(
+                _(
+                    "a load of the {name} link has a force but no point; give `at=`",
+                    code="dyads.no_place",
+                    name=link,
+                )
+            )
     return inputs | {f"{link}.fx": force[..., 0], f"{link}.fy": force[..., 1], f"{link}.moment": moment}

@@ -12,6 +12,7 @@ from linkwright.dyads.script import Script
 from linkwright.elements.topology import Connection
 from linkwright.kinetostatics.link_balance import applied_rows
 from linkwright.mechanism.link import centre
+from linkwright.words import _
 
 #: Share of the largest load below which another is rounding.
 FADED = 1e-12
@@ -222,7 +223,9 @@ class ForceLines:
         if all("np" not in each for each in parts):
             return f"({parts[0]}, {parts[1]})"
         own = self.listing.names.of("load", f"{link}_force")
-        said = self.listing.say("dyads.listing_load", link=" ".join(link.split()))
+        said = self.listing.say(
+            _("loads of the model and friction on {link}, by positions", link=" ".join(link.split()))
+        )
         self.listing.write(f"# {said}", f"{own} = np.zeros(({len(self.listing.rows)}, 2))")
         self.listing.write(*(f"{own}[:, {i}] = {part}" for i, part in enumerate(parts) if part != "0"))
         return own

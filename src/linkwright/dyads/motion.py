@@ -15,6 +15,7 @@ from linkwright.dyads.cell import Cell, cell
 from linkwright.dyads.values import Line, Slide, State, line_inputs, numbers, point_inputs
 from linkwright.errors import RequestError
 from linkwright.kinematics.outcome import Outcome, PositionError
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 #: What becomes of positions in which a dyad cannot be assembled.
@@ -45,7 +46,13 @@ class DyadMotion:
     def slide(self) -> Slide:
         """The displacement of the first prismatic joint; raises RequestError for RRR, which has none."""
         if not self.slides:
-            raise RequestError("dyads.no_slide", signature=self.signature)
+            raise RequestError(
+                _(
+                    "the {signature} dyad has no prismatic joint, hence no slide",
+                    code="dyads.no_slide",
+                    signature=self.signature,
+                )
+            )
         return self.slides[0]
 
     def __repr__(self) -> str:
@@ -226,14 +233,28 @@ def _two(name: str, given: Any) -> tuple[Floats, Floats]:
     try:
         one, two = given
     except (TypeError, ValueError):
-        raise RequestError("dyads.no_two", name=name, given=repr(given)[:60]) from None
+        raise RequestError(
+            _(
+                "{name}: expected two values, one for each, got {given}",
+                code="dyads.no_two",
+                name=name,
+                given=repr(given)[:60],
+            )
+        ) from None
     return numbers(name, one), numbers(name, two)
 
 
 def _length(name: str, given: Floats) -> Floats:
     """Lengths, which are positive; raises RequestError for others."""
     if not np.all(given > 0.0):
-        raise RequestError("dyads.no_length", name=name, value=f"{float(np.min(given)):g}")
+        raise RequestError(
+            _(
+                "{name}: a link's length must be positive, got {value} m",
+                code="dyads.no_length",
+                name=name,
+                value=f"{float(np.min(given)):g}",
+            )
+        )
     return given
 
 
@@ -256,10 +277,16 @@ def run(program: Any, inputs: Mapping[str, Floats]) -> dict[str, Floats]:
         shape = np.broadcast_shapes(*(np.shape(each) for each in inputs.values()))
     except ValueError:
         shapes = sorted({str(np.shape(each)) for each in inputs.values() if np.ndim(each)})
-        raise RequestError("dyads.no_shape", shapes=tuple(shapes)) from None
+        raise RequestError(
+            _(
+                "the inputs have different numbers of positions, which do not fit each other: {shapes}",
+                code="dyads.no_shape",
+                shapes=tuple(shapes),
+            )
+        ) from None
     flat = {name: np.broadcast_to(each, shape).reshape(-1) for name, each in inputs.items()}
     rows = program.run((), flat, length=int(np.prod(shape)))
-    names = (name for name, _ in program.program.outputs)
+    names = (name for name, _unused in program.program.outputs)
     return {name: row.reshape(shape) for name, row in zip(names, rows, strict=True)}
 
 
@@ -314,9 +341,12 @@ def _refused(own: Cell, found: Mapping[str, Floats], ok: Flags) -> PositionError
     numbers_known = np.isfinite(list(facts.values())).all()
     reached = bool(found["reached"].reshape(-1)[at]) and own.dyad.words[0] != ""
     if not numbers_known:
-        reason: str = Sentence("dyads.not_finite")
+        reason: str = _("its inputs are not finite numbers there", code="dyads.not_finite")
     elif reached:
-        reason = Sentence("dyads.singular")
+        reason = _(
+            "it is at a singular position (its two assembly modes meet), where its motion is not determined",
+            code="dyads.singular",
+        )
     else:
         reason = own.dyad.explain(facts)
     key = "dyads.apart" if ok.ndim else "dyads.apart_alone"

@@ -22,7 +22,7 @@ from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.groups import dyad_shape
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: Share of the mechanism's size up to which a function's positions are those of the solver.
 AGREEING = 1e-7
@@ -294,7 +294,11 @@ class _Planner:
                 continue
             if self._agrees(tried, found):
                 return tried
-        reason = Sentence("dyads.modes_change" if step.kind in MODES else "dyads.singular_there")
+        reason = (
+            _("its assembly mode changes over the cycle, at a change point")
+            if step.kind in MODES
+            else _("one of the positions is singular")
+        )
         return Step(step.number, step.group, "", step.group.links, reason=reason)
 
     def _known(self, outer: Pin | Guide) -> State | Line:
@@ -353,9 +357,9 @@ def line_of(motion: Motion, link: str, local: complex, rows: Iterable[int] | Ind
 def _why(group: Group) -> str:
     """Why no function fits a group."""
     if any(cut.higher for cut in group.cuts):
-        return Sentence("dyads.higher_pairs")
+        return _("it is closed by a higher pair (gear, belt, rack or cam)")
     if group.drivers:
-        return Sentence("dyads.driven_inside")
+        return _("its driver acts between two of its own links")
     if len(group.unknowns) > 2:
-        return Sentence("dyads.no_dyad")
-    return Sentence("dyads.other_joints")
+        return _("it is a group of more than two links")
+    return _("its joints are not those of a dyad")

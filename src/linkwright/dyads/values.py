@@ -13,6 +13,7 @@ from linkwright.errors import RequestError
 from linkwright.formula.vector import Vec
 from linkwright.joints import pose
 from linkwright.joints.pose import Pose, Rotor
+from linkwright.words import _
 
 #: Longest value that a sentence repeats.
 _LONGEST = 60
@@ -104,14 +105,28 @@ def numbers(name: str, given: Any) -> Floats:
     try:
         return np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError):
-        raise RequestError("dyads.no_numbers", name=name, given=_shown(given)) from None
+        raise RequestError(
+            _(
+                "{name}: expected a number or an array of numbers, got {given}",
+                code="dyads.no_numbers",
+                name=name,
+                given=_shown(given),
+            )
+        ) from None
 
 
 def pairs(name: str, given: Any) -> Floats:
     """Pairs of numbers, (…, 2); raises RequestError where they are none."""
     found = numbers(name, given)
     if found.ndim == 0 or found.shape[-1] != 2:
-        raise RequestError("dyads.no_pairs", name=name, given=_shown(given))
+        raise RequestError(
+            _(
+                "{name}: expected pairs (x, y), an array whose last axis is 2 long, got {given}",
+                code="dyads.no_pairs",
+                name=name,
+                given=_shown(given),
+            )
+        )
     return found
 
 
@@ -134,7 +149,14 @@ def point_inputs(name: str, given: Any) -> dict[str, Floats]:
 def line_inputs(name: str, given: Any) -> dict[str, Floats]:
     """The same of a line, with its direction; raises RequestError for what is none."""
     if not isinstance(given, Line):
-        raise RequestError("dyads.no_line", name=name, given=_shown(given))
+        raise RequestError(
+            _(
+                "{name}: expected a lw.dyads.Line (origin, angle and their rates), got {given}",
+                code="dyads.no_line",
+                name=name,
+                given=_shown(given),
+            )
+        )
     return point_inputs(f"{name}.origin", given.origin) | given.inputs()
 
 

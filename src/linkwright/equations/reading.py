@@ -35,6 +35,7 @@ from linkwright.equations.notation import (
     upright,
 )
 from linkwright.errors import LinkwrightError
+from linkwright.words import _
 
 #: Around a number with its unit, which is one factor.
 OPEN, CLOSE = "\ue010", "\ue011"
@@ -118,7 +119,7 @@ def read_name(text: str) -> Row:
     """What a result is called: a symbol with any names in its index, a formula, or words, which stand upright."""
     if text[:1] == "∠":
         return row((sign("∠"), read_name(text[1:])))
-    head, _, index = text.partition("_")
+    head, _unused, index = text.partition("_")
     if head.isalnum() and head[0].isalpha() and head[0] not in _PREFIX and not _OPERATION.search(index):
         return row((name(text),))
     if not (WIDE.search(text) or re.search(r"[a-z]{4,} |[a-z] [a-z]", text)):
@@ -145,7 +146,16 @@ class _Reader:
         self.tokens, self.text, self.at = tokens, text, 0
 
     def error(self) -> LinkwrightError:
-        return LinkwrightError("report.no_formula", sign=self.here or "…", text=plain(self.text))
+        return LinkwrightError(
+            _(
+                'the formula "{text}" has "{sign}", which no form of the report can print; write it '
+                "with letters, fractions, roots, indices, brackets, functions, sums, integrals, "
+                "matrices and cases, as in LaTeX",
+                code="report.no_formula",
+                sign=self.here or "…",
+                text=plain(self.text),
+            )
+        )
 
     @property
     def here(self) -> str:
@@ -223,7 +233,7 @@ class _Reader:
     def factor(self, ends: str) -> Node:
         token = self.take()
         if token[0] == OPEN:
-            value, _, unit = token[1:-1].strip().partition(" ")
+            value, _unused, unit = token[1:-1].strip().partition(" ")
             return group(quantity(value, unit))
         if token[0].isdigit():
             return group(number(token))

@@ -14,6 +14,7 @@ from linkwright.equations.reading import read, read_name, sides
 from linkwright.equations.terms import Pair, Term, symbol
 from linkwright.equations.typeset import plain, typeset
 from linkwright.errors import SelfCheckError
+from linkwright.words import _
 from linkwright.words.characters import aligned
 
 #: A result smaller than this (SI) whose formula gives nothing at all is zero but for rounding.
@@ -243,7 +244,16 @@ def _equation(result: Term, formula: Term, what: str | Output) -> Equation:
     value, error = result.amount, error_of(formula)
     if abs(value - formula.value) > OFF * error + FADED:
         raise SelfCheckError(
-            "worked.off", symbol=plain(result), value=f"{value:.6g}", formula=f"{formula.value:.6g}"
+            _(
+                "the worked solution does not come out: {symbol} is {value} by the solver, but "
+                "{formula} by its formula. Next to a singular position the numbers may have no "
+                "digits left: ask for a position away from it. Elsewhere this is an error of the "
+                "program: please report it with the model file",
+                code="worked.off",
+                symbol=plain(result),
+                value=f"{value:.6g}",
+                formula=f"{formula.value:.6g}",
+            )
         )
     place = last_place(value, error)
     text = "0" if formula.value == 0.0 and abs(value) < FADED else printed(value, place)

@@ -34,6 +34,7 @@ from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import place_meant, program_names
 from linkwright.kinematics.reached_stretches import Reach
 from linkwright.loads.signals import Limit, LimitKind
+from linkwright.words import _
 
 #: An output whose largest rate is below this share of the mechanism's does not move.
 CONSTANT = 1e-10
@@ -97,7 +98,7 @@ def _limits(motion: Motion, output: Output) -> tuple[LimitPosition, ...]:
 
 def bend_times(motion: Motion) -> Floats:
     """Times of a motion, s, at which it passes change points, or a joint goes over to another formula."""
-    return np.concatenate([cuts for _, cuts in _Way(motion).cut])
+    return np.concatenate([cuts for _unused, cuts in _Way(motion).cut])
 
 
 def limits_of(motion: Motion, output: str | None = None) -> tuple[LimitPosition, ...]:
@@ -109,7 +110,13 @@ def limits_of(motion: Motion, output: str | None = None) -> tuple[LimitPosition,
     name = output or _last_to_and_fro(motion)
     found = limit_positions(motion, name)
     if not found:
-        raise RequestError("picture.no_limit_positions", name=name)
+        raise RequestError(
+            _(
+                '"{name}" does not turn back in this motion, so it has no limit positions',
+                code="picture.no_limit_positions",
+                name=name,
+            )
+        )
     values = np.array([each.value for each in found])
     high, low = found[first_largest(values)], found[first_largest(-values)]
     return (high,) if high is low else (high, low)
@@ -128,7 +135,14 @@ def _last_to_and_fro(motion: Motion) -> str:
                 angle = motion.link(link).angle
                 if np.nanmax(angle) - np.nanmin(angle) < 1.9 * pi:
                     return link
-    raise RequestError("picture.none_to_and_fro", name=motion.mechanism.name)
+    raise RequestError(
+        _(
+            'no link of "{name}" on the frame goes to and fro, so there are no limit positions; '
+            "name a link or a guide, such as limits:coupler",
+            code="picture.none_to_and_fro",
+            name=motion.mechanism.name,
+        )
+    )
 
 
 class _Way:
@@ -175,7 +189,7 @@ class _Way:
             rows, phase = bend_rows(bends), self.motion.mechanism.dimension(bends.phase)
             signals = SolvedAgain(self.between, self.reach, rows, of_bends(bends, phase), len(bends.angles))
             for k, each in enumerate(events(signals, NO_NUMBERS, ONE, Stretches(one_span(course), []))):
-                cosines, _ = of_bends(bends, phase, cosines=True)(self.rows(rows, each.time))
+                cosines, _unused = of_bends(bends, phase, cosines=True)(self.rows(rows, each.time))
                 found.append(each.time[cosines[k] > 0.0])
         time = np.concatenate(found)
         return np.asarray(
@@ -237,10 +251,10 @@ class _Reversals:
         made = of_rate if way.whole else of_bounded_rate(float(np.nanmedian(rate[rate > CONSTANT * largest])))
         rates = SolvedAgain(way.between, way.reach, self.rate_names, made)
         parts = [(each, events(rates, NO_NUMBERS, ONE, each)[0]) for each in way.parts]
-        time = np.concatenate([np.empty(0), *(each.time for _, each in parts)])
-        rising = np.concatenate([np.empty(0, dtype=np.bool_), *(each.rising for _, each in parts)])
+        time = np.concatenate([np.empty(0), *(each.time for _unused, each in parts)])
+        rising = np.concatenate([np.empty(0, dtype=np.bool_), *(each.rising for _unused, each in parts)])
         inside = np.concatenate([rising[:0], *(_inside(each.time, stretches) for stretches, each in parts)])
-        tied = np.concatenate([rising[:0], *(each.edges[0] >= 0 for _, each in parts)])
+        tied = np.concatenate([rising[:0], *(each.edges[0] >= 0 for _unused, each in parts)])
         time, moved = self._on_changes(time)
         rows = way.rows((*self.rate_names[:1], *self.value_names), time)
         kept = inside & (tied | moved | (np.abs(rows[0]) <= POLE * largest))

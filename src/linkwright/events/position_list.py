@@ -18,6 +18,7 @@ from linkwright.errors import QuantityError, RequestError
 from linkwright.kinematics.names import place_meant
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
+from linkwright.words import _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.events.limit_positions import LimitPosition
@@ -112,7 +113,14 @@ class PositionList:
         for value, timed in self._values(mechanism, output, "time"):
             driver = next(iter(mechanism.drivers.values()))
             if not timed and not driver.law.constant_speed:
-                raise CycleError("motion.own_law", name=driver.name)
+                raise CycleError(
+                    _(
+                        "driver {name!r} follows its own law in time; ask for positions by times instead of "
+                        "inputs",
+                        code="motion.own_law",
+                        name=driver.name,
+                    )
+                )
             found.append(value if timed else float(driver.law.time_at(value)))
         return found
 
@@ -149,11 +157,24 @@ def _limits(cycle: Motion, entry: AtLimit, output: str) -> list[LimitPosition]:
     except RequestError:
         if entry.output or output:
             raise
-        raise RequestError("solve.no_limits", name=cycle.mechanism.name) from None
+        raise RequestError(
+            _(
+                'no link of "{name}" on the frame turns back, so limits has no positions to stand '
+                'for; name the output that does: "coupler limits", "C.x max"',
+                code="solve.no_limits",
+                name=cycle.mechanism.name,
+            )
+        ) from None
     found = sorted(limits, key=lambda each: each.index)
     chosen = [each for each in found if entry.kind in ("limits", each.kind)]
     if not chosen:
-        raise RequestError("picture.no_limit_positions", name=entry.output or output)
+        raise RequestError(
+            _(
+                '"{name}" does not turn back in this motion, so it has no limit positions',
+                code="picture.no_limit_positions",
+                name=entry.output or output,
+            )
+        )
     return chosen
 
 
@@ -167,7 +188,9 @@ def of_text(text: str, dimensions: Sequence[str]) -> PositionList:
     """
     parts = [part.strip() for part in text.split(",")]
     if not all(parts):
-        raise RequestError("solve.empty_value", text=text)
+        raise RequestError(
+            _('"{text}" has an empty place between commas', code="solve.empty_value", text=text)
+        )
     if _COMMA.fullmatch(text.strip()):
         raise units.decimal_comma(text.strip())
     found: list[Entry] = []
@@ -189,7 +212,9 @@ def of_value(given: Any, dimensions: Sequence[str]) -> PositionList:
         return PositionList(tuple(_stepped(given, dimensions)))
     parts = given if isinstance(given, list | tuple) else [given]
     if not parts:
-        raise RequestError("solve.empty_value", text="[]")
+        raise RequestError(
+            _('"{text}" has an empty place between commas', code="solve.empty_value", text="[]")
+        )
     entries: list[Entry] = []
     for part in parts:
         entries += (
@@ -220,7 +245,7 @@ def _word(part: str) -> AtLimit | None:
     """``limits``, ``OUTPUT min``, ``OUTPUT max``, ``OUTPUT limits``; None for what may be a quantity."""
     if part in LIMITS:
         return AtLimit("", part)
-    output, _, kind = part.rpartition(" ")
+    output, _unused, kind = part.rpartition(" ")
     if kind not in LIMITS or _NUMBER.fullmatch(output):
         return None
     return AtLimit(output.strip(), kind)
@@ -230,15 +255,35 @@ def _stepped(given: Mapping[str, Any], dimensions: Sequence[str]) -> Iterable[En
     """``{from, step, to}`` or ``{from, step, count}``, or ``{from, to, count}``."""
     for key in given:
         if key not in STEPPED:
-            raise RequestError("solve.step_key", name=str(key), hint=offered(str(key), STEPPED))
+            raise RequestError(
+                _(
+                    '"{name}" is no key of positions with a step; {hint}',
+                    code="solve.step_key",
+                    name=str(key),
+                    hint=offered(str(key), STEPPED),
+                )
+            )
     texts = {key: str(value).strip() for key, value in given.items()}
     if "from" not in texts or len(texts) != 3:
-        raise RequestError("solve.step_keys")
+        raise RequestError(
+            _(
+                "positions with a step need from and two of step, to and count: {{from: 0 deg, step: "
+                "-15 deg, to: -360 deg}}",
+                code="solve.step_keys",
+            )
+        )
     count = _count(texts["count"]) if "count" in texts else 0
     first = _word(texts["from"])
     if first is not None:
         if first.kind == "limits" or "to" in texts:
-            raise RequestError("solve.step_from_limit", text=texts["from"])
+            raise RequestError(
+                _(
+                    'from "{text}" on, give one limit position with step and count: {{from: jaw max, '
+                    "step: 15 deg, count: 24}}",
+                    code="solve.step_from_limit",
+                    text=texts["from"],
+                )
+            )
         return [Stepped(first, _place(texts["step"], "", dimensions).value, count)]
     begin = _place(texts["from"], "", dimensions)
     if "to" not in texts:
@@ -255,7 +300,15 @@ def _stepped(given: Mapping[str, Any], dimensions: Sequence[str]) -> Iterable[En
 
 def _count(text: str) -> int:
     if not text.isdecimal() or not 2 <= int(text) <= MOST:
-        raise RequestError("solve.bad_count", text=text, most=MOST)
+        raise RequestError(
+            pgettext(
+                "solve",
+                '"{text}" is no number of positions; give 2 to {most}',
+                code="solve.bad_count",
+                text=text,
+                most=MOST,
+            )
+        )
     return int(text)
 
 
@@ -263,7 +316,13 @@ def _range(text: str, dimensions: Sequence[str]) -> list[Place]:
     bounds, colon, step_text = text.partition(":")
     first, last = bounds.split("..", 1)
     if not colon or not step_text.strip():
-        raise RequestError("solve.range_step", text=text)
+        raise RequestError(
+            _(
+                '"{text}" has no step; write from..to:step, such as 0..90deg:10',
+                code="solve.range_step",
+                text=text,
+            )
+        )
     number = _NUMBER.match(last.strip())
     unit = last.strip()[number.end() :] if number else ""
     if not number or re.match(r"[*/^+-]", unit):
@@ -278,9 +337,22 @@ def _steps(begin: float, end: float, step: float, text: str) -> list[float]:
     """From ``begin`` on, not beyond ``end``; a step without a sign leads towards the end."""
     count = abs(end - begin) / abs(step) if step else math.inf
     if count > MOST:
-        raise RequestError("solve.range_long", text=text, most=MOST)
+        raise RequestError(
+            _(
+                '"{text}" has more than {most} steps; take a larger step',
+                code="solve.range_long",
+                text=text,
+                most=MOST,
+            )
+        )
     if step < 0.0 < end - begin:
-        raise RequestError("solve.step_away", text=text)
+        raise RequestError(
+            _(
+                '"{text}" never comes to its end, from which the step leads away; turn the sign of the step',
+                code="solve.step_away",
+                text=text,
+            )
+        )
     along = math.copysign(step, end - begin)
     return [begin + along * k for k in range(math.floor(count * (1 + 1e-12) + 1e-9) + 1)]
 

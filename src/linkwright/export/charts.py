@@ -16,7 +16,7 @@ from linkwright.export.tables import Column
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.pictures.diagram import COLOURS
 from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_outputs
-from linkwright.words import say
+from linkwright.words import _, say
 from linkwright.words.characters import printable
 
 #: Pixels of a chart over the input and of a square one, and between them.
@@ -90,7 +90,7 @@ class Charts:
     @property
     def _input_title(self) -> str:
         place = self._input
-        word = self.say("export.quantity.time") if place.column.quantity else place.column.owner
+        word = self.say(_("time")) if place.column.quantity else place.column.owner
         return f"{word} [{place.column.unit}]"
 
     def _motion(self) -> Iterator[list[Chart]]:
@@ -120,7 +120,7 @@ class Charts:
         forces = self.results.forces
         if forces is None or not loaded(forces):
             return []
-        word, curves = self.say("plot.kind.reactions"), []
+        word, curves = self.say(_("joint forces")), []
         for joint, link in reaction_pairs(self.mechanism):
             if largest(forces.reaction(joint, on=link)) > forces.rounding:
                 name = f"{joint} on {link}"
@@ -137,7 +137,7 @@ class Charts:
             if place is not None:
                 by_unit.setdefault(place.column.unit, []).append(Curve(name, self._input, place))
         for unit, curves in by_unit.items():
-            word = self.say("plot.kind.torque")
+            word = self.say(_("what the driver must supply"))
             axis = f"{self.say('export.quantity.effort')} [{unit}]"
             yield Chart(word, self._input_title, axis, tuple(curves[:MOST]))
 

@@ -17,7 +17,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import Registry, nearest, offered
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -45,10 +45,13 @@ def package(name: str, purpose: str, install: str | None = None) -> Any:
     except ImportError:
         command = f"pip install {install or name}"
         raise RequestError(
-            "export.needs_package",
-            purpose=Sentence(f"nouns.{purpose}"),
-            install=install or name,
-            command=command,
+            _(
+                "{purpose} need the package {install}; install it with: {command}",
+                code="export.needs_package",
+                purpose=Sentence(f"nouns.{purpose}"),
+                install=install or name,
+                command=command,
+            )
         ) from None
 
 
@@ -101,14 +104,30 @@ def chosen_format(path: Path, name: str | None) -> str:
     if suffix in by_suffix:
         return by_suffix[suffix]
     if suffix in ENDINGS[:2]:
-        raise RequestError("export.no_ending", path=path, suffix=suffix, hint=Sentence("export.model_text"))
+        raise RequestError(
+            _(
+                '{path}: no format is written to files with the ending "{suffix}"; {hint}',
+                code="export.no_ending",
+                path=path,
+                suffix=suffix,
+                hint=_("lw.dump gives the text of a model in Python"),
+            )
+        )
     names, near = tuple(sorted(by_suffix)), nearest(suffix[1:], [each[1:] for each in by_suffix])
     hint = (
-        Sentence("names.near_one_of", offer=f".{near}", names=names)
+        _('did you mean "{offer}"? (one of: {names})', offer=f".{near}", names=names)
         if near
-        else Sentence("export.say_format", names=names)
+        else _("use {names}, or say which format", names=names)
     )
-    raise RequestError("export.no_ending", path=path, suffix=suffix, hint=hint)
+    raise RequestError(
+        _(
+            '{path}: no format is written to files with the ending "{suffix}"; {hint}',
+            code="export.no_ending",
+            path=path,
+            suffix=suffix,
+            hint=hint,
+        )
+    )
 
 
 def check_options(name: str, form: Format, options: dict[str, Any]) -> None:
@@ -117,4 +136,12 @@ def check_options(name: str, form: Format, options: dict[str, Any]) -> None:
     for option in options:
         if option not in known:
             hint = offered(option, known, "names.it_has")
-            raise RequestError("export.no_option", name=name, option=option, hint=hint)
+            raise RequestError(
+                _(
+                    "the format {name} has no option {option}; {hint}",
+                    code="export.no_option",
+                    name=name,
+                    option=option,
+                    hint=hint,
+                )
+            )

@@ -14,6 +14,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.table import MetricsTable
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.structure import Structure
@@ -70,5 +71,11 @@ class Results:
     def first_ok(self) -> int:
         """Index of the first position that was reached; raises LinkwrightError if there is none."""
         if not self.motion.ok.any():
-            raise LinkwrightError("export.nothing_reached", name=self.mechanism.name)
+            raise LinkwrightError(
+                _(
+                    "no position of {name!r} was reached, so there is nothing to export",
+                    code="export.nothing_reached",
+                    name=self.mechanism.name,
+                )
+            )
         return int(self.motion.ok.argmax())

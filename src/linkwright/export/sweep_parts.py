@@ -28,6 +28,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import METRICS
 from linkwright.metrics.by_name import wanted
 from linkwright.whole_files import make_folder, write_whole
+from linkwright.words import _
 from linkwright.words.sentence import in_language
 
 Sampling = Literal["grid", "sobol"]
@@ -147,7 +148,7 @@ class SweepParts:
 
     def each(self, names: Iterable[str] | None = None) -> Iterator[dict[str, Floats]]:
         """The columns part by part, so that memory does not grow with the designs."""
-        _, parquet = _arrow()
+        _unused, parquet = _arrow()
         chosen = None if names is None else list(names)
         for number in range(self.parts):
             table = parquet.read_table(self.path(number), columns=chosen)
@@ -170,7 +171,14 @@ class SweepParts:
         kept: dict[str, Floats] = {}
         for part in self.each():
             if name not in part:
-                raise RequestError("study.no_column", name=name, names=tuple(part))
+                raise RequestError(
+                    _(
+                        'the sweep has no column "{name}"; it has {names}',
+                        code="study.no_column",
+                        name=name,
+                        names=tuple(part),
+                    )
+                )
             merged = {key: np.concatenate([kept[key], each]) for key, each in part.items()} if kept else part
             sizes = -merged[name] if largest else merged[name]
             order = np.argsort(sizes, kind="stable")
@@ -227,7 +235,12 @@ def sweep_parts(
     """
     require(mechanism, Mechanism)
     if not str(folder):
-        raise RequestError("study.no_folder")
+        raise RequestError(
+            _(
+                'the folder has no name; name one, or give "." for the folder you are in',
+                code="study.no_folder",
+            )
+        )
     plan = _plan(mechanism, vary, outputs, sampling, samples, seed, steps, part)
     found = SweepParts(Path(folder), plan)
     missing = _missing(found)
@@ -252,14 +265,33 @@ def _plan(
     sampling: Sampling, samples: int, seed: int, steps: int, part: int,
 ) -> Plan:  # fmt: skip
     if sampling not in ("grid", "sobol"):
-        raise RequestError("study.no_sampling", sampling=sampling)
+        raise RequestError(
+            _(
+                "there is no sampling {sampling!r}; use grid or sobol",
+                code="study.no_sampling",
+                sampling=sampling,
+            )
+        )
     ranges = varied_ranges(mechanism, vary, sampled=sampling == "sobol")
     count = samples if sampling == "sobol" else int(np.prod([float(len(each.values)) for each in ranges]))
     part = whole("part", part)
     if seed < 0:
-        raise RequestError("study.bad_seed", seed=seed)
+        raise RequestError(
+            _(
+                "the seed is {seed}; give a whole number that is not negative",
+                code="study.bad_seed",
+                seed=seed,
+            )
+        )
     if not 1 <= count <= MOST:
-        raise RequestError("study.bad_samples", samples=count, most=MOST)
+        raise RequestError(
+            _(
+                "{samples} samples are asked for; give 1 to {most}",
+                code="study.bad_samples",
+                samples=count,
+                most=MOST,
+            )
+        )
     names = tuple(each.name.strip() for each in wanted(outputs))
     size = 1 << max(0, (min(part, count) - 1).bit_length()) if part > 0 else PART
     return Plan(mechanism, ranges, names, sampling, count, seed, steps, size)
@@ -267,7 +299,7 @@ def _plan(
 
 def _missing(found: SweepParts) -> list[int]:
     """Parts that are not there yet, in a folder that belongs to the plan."""
-    _, parquet = _arrow()
+    _unused, parquet = _arrow()
     make_folder(found.folder)
     note, digest = found.folder / "sweep.json", found.plan.digest
     said = {"plan": digest, "designs": found.designs, "parts": found.parts, "outputs": found.plan.outputs}
@@ -281,7 +313,13 @@ def _missing(found: SweepParts) -> list[int]:
     except (OSError, ValueError, AttributeError):
         same = False
     if not same:
-        raise RequestError("study.other_sweep", folder=found.folder)
+        raise RequestError(
+            _(
+                'the folder "{folder}" holds another sweep; name another folder, or remove it',
+                code="study.other_sweep",
+                folder=found.folder,
+            )
+        )
 
     def there(number: int) -> bool:
         try:

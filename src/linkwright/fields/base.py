@@ -22,7 +22,7 @@ from linkwright.core.expressions import Expression
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
-from linkwright.words import LANGUAGES, Message
+from linkwright.words import LANGUAGES, Message, _, pgettext
 from linkwright.words.sentence import Sentence, Worded
 
 Schema = dict[str, Any]
@@ -146,11 +146,13 @@ class Quantity(Field):
 
     def _fault(self, value: float) -> str:
         if value == 0:
-            return Sentence("model.zero")
+            return _("zero", code="model.zero")
         if self.below is not None and value >= self.below:
-            return Sentence("model.too_large")
-        return Sentence(
-            "model.negative" if value < 0 and not (self.minimum or self.above) else "model.too_small"
+            return _("too large", code="model.too_large")
+        return (
+            _("negative", code="model.negative")
+            if value < 0 and not (self.minimum or self.above)
+            else _("too small")
         )
 
     def limit(self, value: float) -> Message | None:
@@ -165,11 +167,17 @@ class Quantity(Field):
         if self.below is not None and self.above is None:
             unit = "deg" if self.dimension == "angle" else None
             low, high = (units.format(each, self.dimension, unit) for each in (least or 0.0, self.below))
-            return Sentence("model.from_to_below", noun=noun, low=low, high=high)
+            return _(
+                "{noun} from {low} to below {high}", code="model.from_to_below", noun=noun, low=low, high=high
+            )
         if least is None:
-            return Sentence("model.not_zero", noun=noun)
-        shown = units.format(least, self.dimension) if least else Sentence("model.length_zero")
-        return Sentence("model.or_more" if self.above is None else "model.above", noun=noun, limit=shown)
+            return _("{noun} other than zero", code="model.not_zero", noun=noun)
+        shown = units.format(least, self.dimension) if least else pgettext("model", "zero")
+        return (
+            _("{noun} of {limit} or more", code="model.or_more")
+            if self.above is None
+            else _("{noun} above {limit}", code="model.above")
+        ).format(noun=noun, limit=shown)
 
     def shape(self) -> Schema:
         return quantity_schema(self.dimension)
@@ -363,7 +371,7 @@ class TimeTable(Field):
     def read(
         self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
     ) -> TimeTableValues | None:
-        with reader.plain_numbers(Sentence("model.plain_driver_table")):
+        with reader.plain_numbers(_("a driver's table")):
             values = reader.table(node, place, self._fields())
         if values is None or values.get("time") is None or values.get("position") is None:
             return None
@@ -379,7 +387,7 @@ class TimeTable(Field):
         )
         if way == "periodic" and abs(turns - (round(turns) if self.dimension == "angle" else 0)) > 1e-6:
             key = "periodic_turns" if self.dimension == "angle" else "periodic_ends"
-            reader.finding(node, place, key, "table", Sentence("model.last_as_first"))
+            reader.finding(node, place, key, "table", _("make the last position equal to the first"))
             return None
         return TimeTableValues(times, positions, way)
 

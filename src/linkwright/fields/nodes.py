@@ -14,7 +14,7 @@ from typing import Any
 from linkwright import units
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 MAX_DEPTH, MAX_NODES = 40, 30_000
 _NULLS = frozenset(("", "~", "null", "Null", "NULL"))
@@ -125,12 +125,12 @@ def below(node: Node | None, *keys: str) -> Node | None:
 def noun(node: Node | None) -> str:
     """What the node is, in words, for messages."""
     if isinstance(node, Mapping):
-        return Sentence("model.a_mapping")
+        return _("a mapping (key: value)")
     if isinstance(node, Sequence):
-        return Sentence("model.a_list")
+        return _("a list", code="model.a_list")
     if node is None or (isinstance(node, Scalar) and node.empty):
-        return Sentence("model.nothing")
-    return Sentence("model.a_value")
+        return _("nothing", code="model.nothing")
+    return _("a single value")
 
 
 def node_of(value: Any) -> Node:

@@ -12,7 +12,7 @@ from linkwright.fields.base import Field, Schema, given_by_file, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 Make = Callable[..., Any]
 
@@ -173,8 +173,14 @@ class Whole(Field):
             return None
         if _WHOLE.fullmatch(text.strip()) and self.least <= int(text) <= self.most:
             return int(text)
-        message = Sentence("part.no_whole", text=text, least=self.least, most=self.most)
-        reader.error(node, place, message, Sentence("part.no_whole_remedy"), "range")
+        message = _(
+            '"{text}" is not a whole number from {least} to {most}',
+            code="part.no_whole",
+            text=text,
+            least=self.least,
+            most=self.most,
+        )
+        reader.error(node, place, message, _("write digits only"), "range")
         return None
 
     def shape(self) -> Schema:

@@ -10,6 +10,7 @@ from linkwright.errors import ModelError, RequestError
 from linkwright.fields.nodes import node_of
 from linkwright.files.read_model import read_model
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
 
 Value = float | str
 Pair = tuple[Value, Value] | list[Value]
@@ -36,7 +37,14 @@ class Model:
     def _section(self, section: str, name: str, value: Any) -> None:
         entries = self._data.setdefault(section, {})
         if name in entries:
-            raise RequestError("model.there_already", section=section, name=name)
+            raise RequestError(
+                _(
+                    '{section}: "{name}" is there already; choose another name',
+                    code="model.there_already",
+                    section=section,
+                    name=name,
+                )
+            )
         entries[name] = value
 
     def parameters(self, **values: Value) -> None:

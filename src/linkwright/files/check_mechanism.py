@@ -15,7 +15,7 @@ from linkwright.mechanism.link import Link, Vec
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.wheel_sizes import disc_radii
 from linkwright.units import number
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: Points of a link of which all pairs are measured.
 MOST_PAIRED = 32
@@ -41,7 +41,7 @@ def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None
 def _all_read(reader: Reader, root: MappingNode, mechanism: Mechanism) -> bool:
     """Whether every link and joint could be read: only then is a missing connection really missing."""
     joints = root.get("joints")
-    declared = [key for key, _ in joints] if isinstance(joints, MappingNode) else []
+    declared = [key for key, _unused in joints] if isinstance(joints, MappingNode) else []
     links = all(name in mechanism.links or name == "frame" for name in reader.names.links)
     return links and bool(mechanism.links) and all(name in mechanism.joints for name in declared)
 
@@ -179,12 +179,18 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
             continue
         if link.mass:
             radius = math.sqrt(link.inertia / link.mass)
-            said = Sentence("model.gyration", mass=number(link.mass, 6), radius=number(radius, 4))
-            problem = Sentence("model.gyration_large", said=said, size=number(size, 4))
+            said = _(
+                "with {mass} kg the radius of gyration is {radius} m",
+                mass=number(link.mass, 6),
+                radius=number(radius, 4),
+            )
+            problem = _(
+                "{said}, more than twice the link's size of {size} m", said=said, size=number(size, 4)
+            )
         else:
-            problem = Sentence("model.inertia_without_mass")
+            problem = _("a link without mass has a moment of inertia", code="model.inertia_without_mass")
         at = below(root, "links", name, "inertia")
-        remedy = Sentence("model.check_inertia")
+        remedy = _("check its unit (kg·m²), the mass, and that it is about the mass centre")
         reader.error(at, f"links.{name}.inertia", problem, remedy, "unlikely", severity="warning")
 
 
@@ -206,8 +212,19 @@ def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -
             continue
         if name in sliding or not link.mass or below(root, "links", name, "inertia"):
             continue
-        message = Sentence("model.no_inertia", link=name, mass=number(link.mass, 6))
-        at, remedy = below(root, "links", name, "mass"), Sentence("model.add_inertia")
+        message = _(
+            'the link "{link}" turns and has a mass of {mass} kg, but no moment of inertia: it '
+            "counts as zero",
+            link=name,
+            mass=number(link.mass, 6),
+        )
+        at, remedy = (
+            below(root, "links", name, "mass"),
+            _(
+                "add the moment of inertia about its mass centre (inertia: … kg·m²), or inertia: 0 "
+                "if that is meant",
+            ),
+        )
         reader.error(at, f"links.{name}.inertia", message, remedy, "no-inertia", severity="warning")
 
 
@@ -221,8 +238,17 @@ def _assumed_centres(reader: Reader, root: MappingNode, mechanism: Mechanism) ->
         middle = [(min(row) + max(row)) / 2 for row in zip(*link.points.values(), strict=True)]
         if math.dist(middle, link.centre) > 1e-9 * link.reach:
             first, second = list(link.points)[:2]
-            message = Sentence("model.no_mass_centre", link=name, first=first, second=second)
-            at, remedy = below(root, "links", name, "mass"), Sentence("model.add_mass_centre")
+            message = _(
+                'the link "{link}" has a mass and more than two points, but no mass centre: it is '
+                "taken midway between the first two, {first} and {second}",
+                link=name,
+                first=first,
+                second=second,
+            )
+            at, remedy = (
+                below(root, "links", name, "mass"),
+                _("give mass_centre: [x, y] in the link's axes, or one of its points"),
+            )
             reader.error(
                 at, f"links.{name}.mass_centre", message, remedy, "no-mass-centre", severity="warning"
             )
@@ -251,11 +277,14 @@ def _phases_of_no_motion(reader: Reader, root: MappingNode, mechanism: Mechanism
         key = "moving" if below(root, "loads", name, "phase", "moving") else "of"
         at = below(root, "loads", name, "phase", key)
         guides = [joint for joint in mechanism.guides if output.owner in mechanism.joints[joint].joined]
-        message = Sentence("model.phase_of_sliding", link=output.owner)
+        message = _(
+            'the link "{link}" only slides: its angle never changes, so there is nothing to act by',
+            link=output.owner,
+        )
         remedy = (
-            Sentence("model.phase_of_guide", word=key, guide=guides[0])
+            _("name the guide's displacement: {word}: {guide}", word=key, guide=guides[0])
             if guides
-            else Sentence("model.phase_of_point")
+            else _("name a point's coordinate, such as C.x, or a guide")
         )
         severity: Severity = "error" if key == "of" else "warning"
         reader.error(at, f"loads.{name}.phase.{key}", message, remedy, "no-motion", severity=severity)

@@ -20,6 +20,7 @@ from yaml.events import (
 from linkwright.fields.nodes import MAX_DEPTH, MAX_NODES, Entry, Mapping, Node, Remark, Scalar, Sequence
 from linkwright.files.events import Source, event_reader
 from linkwright.files.syntax import accident_remarks, explain, tab_remarks, wide_remarks
+from linkwright.words import _
 from linkwright.words.characters import UNFIT
 from linkwright.words.sentence import Sentence
 
@@ -62,8 +63,8 @@ def compose(text: str) -> tuple[Node | None, list[Remark]]:
 
 
 def _unreadable(error: Exception) -> Remark:
-    message = Sentence("yaml.failed", name=type(error).__name__)
-    return Remark(0, 0, message, Sentence("yaml.failed_do"), "syntax")
+    message = _("the file cannot be read as YAML ({name})", name=type(error).__name__)
+    return Remark(0, 0, message, _("check quotes, brackets and escapes"), "syntax")
 
 
 class _Stop(Exception):

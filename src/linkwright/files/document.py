@@ -14,7 +14,7 @@ from linkwright.files.write import flow
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.whole_files import write_whole
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 _AXES = {"x": "0", "y": "1"}
 ReadText = Callable[[str, str], tuple[Mechanism | None, list[Finding]]]
@@ -100,7 +100,8 @@ class Document:
                 return self._added(text, node, rest[0], value)
         raise LinkwrightError(
             with_remedy(
-                Sentence("model.no_place", address=address), offered(address, self.mechanism.dimensions())
+                _('the file has no place for "{address}"', code="model.no_place", address=address),
+                offered(address, self.mechanism.dimensions()),
             )
         )
 
@@ -177,7 +178,7 @@ class Document:
 
 
 def _root(text: str) -> Mapping:
-    root, _ = compose(text.removeprefix("\ufeff"))
+    root, _unused = compose(text.removeprefix("\ufeff"))
     assert isinstance(root, Mapping)
     return root
 

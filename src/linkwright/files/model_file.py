@@ -11,7 +11,7 @@ from linkwright.files.compose import compose
 from linkwright.files.read_model import read_model
 from linkwright.files.source import ENDINGS, GALLERY, gallery_names, read_source
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -36,9 +36,21 @@ def loads(text: str, name: str = "<text>") -> Mechanism:
     Raises ModelError with all findings where the text cannot be used.
     """
     if not isinstance(text, str):
-        raise RequestError("given_instead.no_text", told=told(text))
+        raise RequestError(
+            _(
+                "the text of a model is needed, not {told}; files are read by lw.load",
+                code="given_instead.no_text",
+                told=told(text),
+            )
+        )
     if "\n" not in text.strip() and (text.startswith(GALLERY) or text.endswith(ENDINGS)):
-        raise RequestError("given_instead.name_for_text", name=text)
+        raise RequestError(
+            _(
+                'the text of a model is needed, not the name of a file; write lw.load("{name}")',
+                code="given_instead.name_for_text",
+                name=text,
+            )
+        )
     mechanism, findings = read_text(text, name)
     if mechanism is None:
         raise ModelError(findings)
@@ -94,7 +106,7 @@ def read_root(text: str, name: str) -> tuple[Node | None, list[Finding]]:
     root, findings = read_nodes(text, name)
     if root is None or (isinstance(root, Scalar) and root.empty):
         empty = Finding(
-            "error", f"{name}:1:1", "", Sentence("model.empty"), Sentence("model.begin_with"), "empty"
+            "error", f"{name}:1:1", "", _("the file is empty"), _("begin with format: 1"), "empty"
         )
         return None, findings or [empty]
     return root, findings

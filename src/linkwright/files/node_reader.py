@@ -17,6 +17,7 @@ from linkwright.fields.reading import K, Place, Reader, Sayings
 from linkwright.files.syntax import wide_remedy
 from linkwright.registry import PROBABLE, listed, nearest
 from linkwright.units import decimal_comma
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
@@ -149,7 +150,7 @@ class PlainReader:
         """The items of a list, of a given count where there is one; ``form`` is an example."""
         if not isinstance(node, Sequence):
             self.finding(
-                node, place, "where_list", "type", Sentence("model.write_as", form=form), node=noun(node)
+                node, place, "where_list", "type", _("write it as {form}", form=form), node=noun(node)
             )
             return None
         if count is None or len(node.items) == count:

@@ -19,6 +19,7 @@ from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint, JointName
 from linkwright.mechanism.mechanism import Cycle
 from linkwright.registry import nearest
+from linkwright.words import _
 from linkwright.words.sentence import Sentence, together
 
 TURN_FIELDS: Mapping[str, Field] = {
@@ -57,7 +58,7 @@ def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint])
     for entry in mapping.entries if mapping else []:
         name = reader.name(entry.key, f"drivers.{entry.key.text}", "driver")
         if name in reader.names.links or name in reader.names.joints:
-            remedy = Sentence("model.rename_driver")
+            remedy = _("rename the driver")
             reader.finding(entry.key, f"drivers.{name}", "name_taken", "duplicate", remedy, name=name)
         elif name is not None:
             _add(reader, found, joints, entry.value, name, Place(f"drivers.{name}", name))
@@ -135,7 +136,7 @@ def _meant(reader: Reader, mapping: MappingNode) -> str:
     for pin, links in reader.names.pins.items():
         link = next((each for each in links if each != "frame"), "")
         if len(links) == 2 and "frame" in links and told & {pin, link}:
-            return Sentence("model.turns_link", link=link, pin=pin)
+            return _("write turn: {link} and about: {pin}", code="model.turns_link", link=link, pin=pin)
     return ""
 
 
@@ -162,9 +163,17 @@ def _read_law(
     chosen = [key for key in laws if key in given]
     if len(chosen) != 1:
         speed = "170 rpm" if rotary else "0.1 m/s"
-        message = Sentence("model.both_laws", laws=together(chosen)) if chosen else Sentence("model.no_law")
+        message = (
+            _("{laws} are both given", code="model.both_laws", laws=together(chosen))
+            if chosen
+            else _("the driver has no law", code="model.no_law")
+        )
         reader.error(
-            node, place, message, Sentence("model.give_law", laws=tuple(laws), speed=speed), "choice"
+            node,
+            place,
+            message,
+            _("give exactly one of {laws}, such as speed: {speed}", laws=tuple(laws), speed=speed),
+            "choice",
         )
         return None
     key = chosen[0]
@@ -185,7 +194,7 @@ def _revolute(
     owners = reader.names.pins[pin]
     if link not in owners:
         mine = [name for name, links in reader.names.pins.items() if link in links]
-        remedy = Sentence("model.its_pins", pins=tuple(mine)) if mine else Sentence("model.no_pins")
+        remedy = _("its pins: {pins}", pins=tuple(mine)) if mine else _("it has no pins")
         at, key = node.get("about"), place.child("about")
         reader.finding(at, key, "no_pin_at", "reference", remedy, link=link, pin=pin)
         return None
@@ -200,7 +209,7 @@ def _revolute(
         if other != "frame":
             _tell_against(reader, node, place, link, pin, other)
     elif other not in rest:
-        remedy = Sentence("names.one_of", names=tuple(rest))
+        remedy = _("one of: {names}", names=tuple(rest))
         at, key = node.get("relative_to"), place.child("relative_to")
         reader.finding(at, key, "not_on_pin", "reference", remedy, other=other, pin=pin)
         return None
@@ -210,7 +219,11 @@ def _revolute(
 def _tell_against(reader: Reader, node: MappingNode, place: Place, link: str, pin: str, other: str) -> None:
     """That a link is turned against another one than the frame: doubtful where it has a pin on the frame too."""
     held = [name for name, links in reader.names.pins.items() if {link, "frame"} <= set(links)]
-    remedy = Sentence("model.driven_against_or", other=other, held=held[0]) if held else ""
+    remedy = (
+        _("write relative_to: {other} if that is meant, else about: {held}", other=other, held=held[0])
+        if held
+        else ""
+    )
     severity: Severity = "warning" if held else "note"
     values = {"link": link, "pin": pin, "other": other}
     at, key = node.get("about"), place.child("about")
@@ -230,10 +243,16 @@ def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver])
     if given is None or reader.error_count > before:
         return None
     if set(given) not in map(set, CYCLE_FORMS):
-        problem = Sentence("model.nothing_given")
+        problem = _("nothing is given")
         if given:
-            problem = Sentence("model.is_given", given=together(list(given)))
-        reader.error(node, "cycle", problem, Sentence("model.write_cycle"), "choice")
+            problem = _("{given} is given", given=together(list(given)))
+        reader.error(
+            node,
+            "cycle",
+            problem,
+            _("write one of {{duration: 2 s}}, {{from: 0 deg, to: 90 deg}}, {{turns: 1}}"),
+            "choice",
+        )
         return None
     law = next((driver.law for driver in drivers.values()), None)
     if "duration" not in given and law is not None:
@@ -242,15 +261,19 @@ def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver])
 
 
 def _check_range(reader: Reader, node: Node, given: Mapping[str, float], law: Law) -> None:
-    word = "turns" if "turns" in given else Sentence("model.from_and_to")
+    word = "turns" if "turns" in given else _("from and to")
     problem, remedy, code = None, "give_duration", "choice"
     if law.constant_speed is None:
-        problem = Sentence("model.needs_constant", word=word)
+        problem = _("{word} needs a first driver of constant speed", word=word)
     elif law.constant_speed == 0:
-        problem = Sentence("model.needs_speed", word=word)
+        problem = _("{word} needs a speed other than zero", word=word)
     elif "turns" in given and not law.rotary:
-        problem, remedy = Sentence("model.does_not_turn"), "give_duration_or"
+        problem, remedy = _("the first driver does not turn"), "give_duration_or"
     elif "from" in given and (given["to"] - given["from"]) * law.constant_speed <= 0:
-        problem, remedy, code = Sentence("model.wrong_way"), "exchange_or_turn", "range"
+        problem, remedy, code = (
+            _("the driver does not move from the first value to the last", code="model.wrong_way"),
+            "exchange_or_turn",
+            "range",
+        )
     if problem is not None:
         reader.error(node, "cycle", problem, Sentence(f"model.{remedy}"), code)

@@ -14,7 +14,8 @@ from linkwright.files.reader import Reader
 from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
 from linkwright.mechanism.link import Link
 from linkwright.registry import PROBABLE, nearest
-from linkwright.words.sentence import Sentence, together
+from linkwright.words import _
+from linkwright.words.sentence import together
 
 
 def scan_joints(reader: Reader, node: Node | None) -> None:
@@ -24,7 +25,7 @@ def scan_joints(reader: Reader, node: Node | None) -> None:
         if isinstance(node, MappingNode)
         else []
     )
-    reader.names.pins = _implied_pins(reader.names, [value for _, value in declared])
+    reader.names.pins = _implied_pins(reader.names, [value for _unused, value in declared])
     reader.names.joints = dict.fromkeys(reader.names.pins, IMPLIED)
     slides: list[tuple[str, str, str]] = []
     for key, value in declared:
@@ -98,7 +99,16 @@ def _of_points(reader: Reader, table: MappingNode, place: Place) -> MappingNode:
     if told:
         joined = [link for link in names.links if any(link in _texts(each.value) for each in told)]
         lacking = [each for each in joined if pin not in names.links[each]]
-        remedy = Sentence("model.pin_name_points", pin=pin, links=together(lacking)) if lacking else ""
+        remedy = (
+            _(
+                'remove it, and name a point of {links} "{pin}": points: [{pin}, …]',
+                code="model.pin_name_points",
+                pin=pin,
+                links=together(lacking),
+            )
+            if lacking
+            else ""
+        )
         keys = tuple(each.key.text for each in told)
         at = place.child(told[0].key.text)
         reader.finding(told[0].key, at, "pin_joins", "unknown-key", remedy, pin=pin, keys=keys)

@@ -14,7 +14,8 @@ from linkwright.files.node_reader import NAME, as_meant
 from linkwright.files.reader import Reader
 from linkwright.mechanism.link import FRAME_FIELDS, LINK_FIELDS, Geometry, Link, Vec, from_drawing
 from linkwright.registry import offered
-from linkwright.words.sentence import Sentence, together
+from linkwright.words import _
+from linkwright.words.sentence import together
 
 #: Links of a model, at most; more than that no machine has, and none is answered quickly.
 MOST_LINKS = 1000
@@ -61,7 +62,7 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
     """Coordinates of the assembled drawing in frame axes."""
     if node is None:
         return {}
-    with reader.plain_numbers(Sentence("model.plain_drawing")):
+    with reader.plain_numbers(_("a drawing")):
         found = Coordinates().read(reader, node, Place("drawing", "drawing"), {}) or {}
     everywhere = list(dict.fromkeys(point for points in reader.names.links.values() for point in points))
     drawing: dict[str, Vec] = {}
@@ -91,8 +92,10 @@ def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[
     if not mapping.entries:
         reader.finding(node, "links", "no_link", "missing-key")
     if len(mapping.entries) > MOST_LINKS:
-        said = Sentence("model.too_many_links", count=len(mapping.entries), most=MOST_LINKS)
-        reader.error(node, "links", said, Sentence("model.split_up"), "many")
+        said = _(
+            "a model of {count} links; at most {most} are read", count=len(mapping.entries), most=MOST_LINKS
+        )
+        reader.error(node, "links", said, _("split it up into machines of their own"), "many")
         return {}
     links: dict[str, Link] = {}
     seen = {**frame.points, **drawing}
@@ -161,20 +164,28 @@ def _place_points(
     wanted = None
     if isinstance(points, dict):
         if sizes:
-            wanted = Sentence("model.beside_coordinates", size=sizes[0]), Sentence("model.remove_or_list")
+            wanted = (
+                _("{size} stands next to coordinates", size=sizes[0]),
+                _("remove it, or list the points as [A, B]"),
+            )
         else:
             return "coordinates", dict(points), ()
     elif len(points) == 1:
         if sizes:
-            wanted = Sentence("model.one_point", size=sizes[0]), Sentence("model.list_two")
+            wanted = (
+                _("a link with one point has a {size}", size=sizes[0]),
+                _("list its two points, or remove it"),
+            )
         else:
             return "point", {points[0]: (0.0, 0.0)}, ()
     elif sizes == ["length"]:
         if len(points) == 2:
             return "length", {points[0]: (0.0, 0.0), points[1]: (given["length"], 0.0)}, (given["length"],)
         wanted = (
-            Sentence("model.one_length", count=len(points)),
-            Sentence("model.two_in_points"),
+            _("{count} points, but one length", code="model.one_length", count=len(points)),
+            _(
+                "keep two in points and put the others under also: {{P: [x, y]}}, or give lengths and angle",
+            ),
         )
     elif not sizes:
         return _from_drawing(reader, node, place, points, drawing)
@@ -182,8 +193,8 @@ def _place_points(
         return _bent(given)
     else:
         wanted = (
-            Sentence("model.sizes_with_points", sizes=together(sizes), count=len(points)),
-            Sentence("model.sizes_rule"),
+            _("{sizes} with {count} points", sizes=together(sizes), count=len(points)),
+            _("two points take length; three take lengths: [l1, l2] and angle; others go under also"),
         )
     reader.error(node.get(sizes[0]), place.child(sizes[0]), *wanted, "geometry")
     return None
@@ -202,7 +213,7 @@ def _from_drawing(
 ) -> _Placed | None:
     missing = [point for point in points if point not in drawing]
     if missing:
-        form = Sentence("model.form_length" if len(points) == 2 else "model.form_lengths")
+        form = _("length: 0.5 m") if len(points) == 2 else _("lengths: [0.3 m, 0.4 m] and angle: 30 deg")
         reader.finding(node, place, "no_dimensions", "missing-key", missing=tuple(missing), form=form)
         return None
     if drawing[points[0]] == drawing[points[1]]:

@@ -28,8 +28,7 @@ from linkwright.files.reader import Reader
 from linkwright.loads.base import Load, read_load
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import GRAVITY, Mechanism
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 FORMAT = 1
 #: Keys of a file that holds a task of synthesis and no model.
@@ -71,19 +70,21 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
         return None, reader.findings
     task = mapping.get("synthesis")
     if task is not None and mapping.get("frame") is None and mapping.get("links") is None:
-        reader.finding(task, "synthesis", "task_alone", "kind", Sentence("model.synthesize"))
+        reader.finding(
+            task, "synthesis", "task_alone", "kind", _("linkwright synthesize finds machines for it")
+        )
         return None, reader.findings
     try:
         mechanism = _sections(reader, mapping, source)
     except TooManyFindings:
-        more = Sentence("model.more_findings", count=len(reader.findings))
+        more = _("there are more than {count} findings; mend these first", count=len(reader.findings))
         return None, [*reader.findings, Finding("error", source, "", more, code="many")]
     return (None if reader.error_count else mechanism), reader.findings
 
 
 def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     top = Place("", "")
-    root, _ = reader.unknown_keys(in_place(reader, root, SECTIONS), top, list(SECTIONS))
+    root, _unused = reader.unknown_keys(in_place(reader, root, SECTIONS), top, list(SECTIONS))
     _scan(reader, root)
     parameters = read_parameters(reader, root.get("parameters"))
     header = reader.table(_only(root, HEADER), top, HEADER) or {}
@@ -191,13 +192,16 @@ def _parameter(
     name = place.address
     reserved = {*expressions.OWN_NAMES, "t", "input"}
     if not re.fullmatch(r"[^\W\d]\w*", name) or name in reserved:
-        what, remedy = Sentence("model.no_word"), Sentence("model.rename_l")
+        what, remedy = _("not a word of letters, digits and _"), _('rename it, such as "l_1"')
         if name in reserved:
-            what, remedy = Sentence("model.reserved"), Sentence("model.rename_first", first=name[:1])
+            what, remedy = (
+                _("a function or a reserved word"),
+                _('rename it, such as "{first}_1"', first=name[:1]),
+            )
         reader.finding(key, place, "bad_parameter", "name", remedy, name=name, what=what)
         return None
     if name in {*reader.names.links, *reader.names.joints} - set(reader.names.pins):
-        reader.finding(key, place, "name_taken", "duplicate", Sentence("model.rename_one"), name=name)
+        reader.finding(key, place, "name_taken", "duplicate", _("rename one of them"), name=name)
         return None
     text = reader.quantity_text(node, place, "1.25 m")
     if text is None:

@@ -15,7 +15,7 @@ from linkwright.fields.reading import Place
 from linkwright.fields.references import resolve_output
 from linkwright.files.reader import Reader
 from linkwright.mechanism.named_output import NamedOutput
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: First dimensions that a formula is taken for, where several have the same powers.
 _FIRST = ("dimensionless", "length", "angle", "angular_velocity", "torque")
@@ -44,15 +44,21 @@ def _free(reader: Reader, key: Node, place: Place, name: str) -> bool:
     """Whether a name is one, and nothing else has it."""
     reserved = {*expressions.OWN_NAMES, *units.UNITS, "t", "input"}
     if not _NAME.fullmatch(name) or name in reserved:
-        what = Sentence("model.reserved" if name in reserved else "model.no_word")
+        what = (
+            _("a function or a reserved word")
+            if name in reserved
+            else _("not a word of letters, digits and _")
+        )
         remedy = (
-            Sentence("model.rename_first", first=name[:1]) if name in reserved else Sentence("model.rename_l")
+            _('rename it, such as "{first}_1"', first=name[:1])
+            if name in reserved
+            else _('rename it, such as "l_1"')
         )
         reader.finding(key, place, "bad_output_name", "name", remedy, name=name, what=what)
         return False
     points = {point for link in reader.names.links.values() for point in link}
     if name in {*reader.names.links, *reader.names.joints, *reader.kinds, *points}:
-        reader.finding(key, place, "name_taken", "duplicate", Sentence("model.rename_one"), name=name)
+        reader.finding(key, place, "name_taken", "duplicate", _("rename one of them"), name=name)
         return False
     return True
 
@@ -67,7 +73,7 @@ def _named(
     text = reader.quantity_text(node, place, "guide - 180 mm*wheel")
     if text is None:
         return None
-    kinds = {**reader.kinds, **{each: kind for each, (kind, _) in known.items()}}
+    kinds = {**reader.kinds, **{each: kind for each, (kind, _unused) in known.items()}}
     try:
         expression = expressions.parse_any(text, kinds)
         reader.used |= expression.names

@@ -20,7 +20,7 @@ from linkwright.fields.reading import Names, Place, Sayings
 from linkwright.fields.references import LinkPoint, resolve_output
 from linkwright.files.node_reader import NUMBER, PlainReader
 from linkwright.registry import listed, nearest
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 #: A name with dots in a text; superscripts belong to units.
@@ -106,11 +106,11 @@ class Reader(PlainReader):
         if text and len(text) <= expressions.MAX_LENGTH:
             return text
         problem = (
-            Sentence("model.text_long", text=text[:40], count=len(text))
+            _('"{text}…" has {count} characters', text=text[:40], count=len(text))
             if text
-            else Sentence("model.where_quantity", node=noun(node))
+            else _("{node} stands where a quantity is needed", node=noun(node))
         )
-        self.error(node, place, problem, Sentence("units.as_in", example=example), "type")
+        self.error(node, place, problem, _('write it as in "{example}"', example=example), "type")
         return None
 
     def quantity_error(self, error: QuantityError, node: Node, place: Place, text: str) -> None:
@@ -122,7 +122,15 @@ class Reader(PlainReader):
         if isinstance(node, Scalar) and "\n" not in node.text:
             offset = error.column + (0 if node.plain else 1)
         bare = error.code == "wrong-dimension" and self.kinds.get(text) == units.NONE
-        remedy = Sentence("model.give_unit_there", name=text) if bare else error.remedy
+        remedy = (
+            _(
+                'give the parameter "{name}" its unit where it stands under parameters',
+                code="model.give_unit_there",
+                name=text,
+            )
+            if bare
+            else error.remedy
+        )
         self.error(node, place, error.message, remedy, error.code, column=offset)
 
     def follows(self, text: str) -> bool:
@@ -184,7 +192,7 @@ class Reader(PlainReader):
         found |= {f"{link}.angle": angle for link in self.names.links if link != "frame"}
         found |= {f"{name}.displacement": length for name in self.names.sliding.values()}
         owned = {(link, point) for link, points in self.names.links.items() for point in points}
-        places = {*(point for _, point in owned), *(f"{link}.{point}" for link, point in owned)}
+        places = {*(point for _unused, point in owned), *(f"{link}.{point}" for link, point in owned)}
         found |= {
             f"{each}{way}.{axis}": length for each in places for way in ("", ".position") for axis in "xy"
         }
@@ -254,7 +262,7 @@ class Reader(PlainReader):
                 points=tuple(points),
             )
             return False
-        return self.known(node, place, Sentence("model.point_on", link=link), name, points)
+        return self.known(node, place, _("point on {link}:", link=link), name, points)
 
     def link_point(self, node: Node, place: Place, text: str) -> LinkPoint | None:
         """A point of the mechanism: ``link.point``, or ``point`` where it is one place."""
@@ -291,9 +299,12 @@ class Reader(PlainReader):
         names = [*self.names.links, *self.names.sliding]
         points = dict.fromkeys(f"{point}.x" for points in self.names.links.values() for point in points)
         offer = nearest(text, [*(name for name in names if name != "frame"), *points])
-        remedy = Sentence("model.output_forms")
+        remedy = _("(a link's name for its angle, POINT.x, POINT.y, or a prismatic joint's name)")
         if offer:
-            remedy = Sentence("model.names_an_output", hint=Sentence("names.did_you_mean", offer=offer))
+            remedy = _(
+                "{hint} (a link's name for its angle, POINT.x, POINT.y, or a prismatic joint's name)",
+                hint=_('did you mean "{offer}"?', offer=offer),
+            )
         self.finding(node, place, "no_output", "unknown-name", remedy, text=text)
         return None
 
@@ -315,8 +326,16 @@ class Reader(PlainReader):
             and units.unit_fits(first.text, "length")
         ):
             guide = self.names.blocks.get(found.owner)
-            remedy = Sentence("model.over_guide", guide=guide) if guide else Sentence("model.over_point")
-            message = Sentence("model.over_angle", link=found.owner)
+            remedy = (
+                _("for the way of the link write the name of its guide: over: {guide}", guide=guide)
+                if guide
+                else _("name a guide or a point's coordinate, such as C.x", code="model.over_point")
+            )
+            message = _(
+                '"{link}" is the angle of that link, and x are lengths',
+                code="model.over_angle",
+                link=found.owner,
+            )
             self.error(value, place.child("over"), message, remedy, "unit")
             return None, "length"
         return found, found.dimension if found else self.input_dimension()

@@ -8,6 +8,7 @@ from itertools import islice
 from typing import Any
 
 from linkwright.fields.nodes import Remark
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 #: What the reader's complaints mean: keys of the catalogue ``yaml``, the remedy under KEY_do.
@@ -69,15 +70,19 @@ def explain(error: Any, text: str) -> Remark:
     ended = mark is not None and not text[mark.index :].strip()
     if began is not None and (ended or key in _AT_THE_BEGINNING):
         line, column = began
-    since = Sentence("yaml.began", line=began[0] + 1) if began is not None and began[0] != line else ""
+    since = (
+        _(" (it began in line {line})", line=began[0] + 1) if began is not None and began[0] != line else ""
+    )
     if key is not None:
         sign = text.split("\n")[line][column : column + 1]
-        told = Sentence("yaml.unreadable", message=Sentence(f"yaml.{key}", sign=sign), since=since)
+        told = _(
+            "not readable as YAML: {message}{since}", message=Sentence(f"yaml.{key}", sign=sign), since=since
+        )
         return Remark(line, column, told, Sentence(f"yaml.{key}_do"), "syntax")
     context = str(getattr(error, "context", None) or "")
     where = f" {context}" if context else ""
-    told = Sentence("yaml.unreadable_so", where=where, said=said, since=since)
-    return Remark(line, column, told, Sentence("yaml.other_do"), "syntax")
+    told = _("not readable as YAML{where}: {said}{since}", where=where, said=said, since=since)
+    return Remark(line, column, told, _("check indentation, brackets and quotes"), "syntax")
 
 
 def _slip(text: str, began: int, line: int) -> Remark | None:
@@ -182,7 +187,9 @@ def wide_remarks(text: str) -> list[Remark]:
         ]
         if places:
             wide = line[min(places)]
-            told = Sentence("yaml.wide", wide=wide)
+            told = _(
+                'the full-width character "{wide}" is no punctuation of YAML', code="yaml.wide", wide=wide
+            )
             found.append(Remark(number, min(places), told, wide_remedy(wide), "syntax"))
     return found[:_MOST]
 
@@ -193,5 +200,10 @@ def wide_remedy(text: str) -> str:
     if found is None:
         return ""
     if found[0] in _QUOTES:
-        return Sentence("yaml.quotes_do", wide=found[0], half=_QUOTES[found[0]])
-    return Sentence("yaml.wide_do", half=_HALF[found[0]], wide=found[0])
+        return _(
+            "write the quotation mark {half} in place of {wide}, or none",
+            code="yaml.quotes_do",
+            wide=found[0],
+            half=_QUOTES[found[0]],
+        )
+    return _('write "{half}" in place of "{wide}"', half=_HALF[found[0]], wide=found[0])

@@ -20,6 +20,7 @@ from linkwright.core.given import real
 from linkwright.core.search import ends
 from linkwright.errors import RequestError
 from linkwright.gears.involute import involute, involute_at
+from linkwright.words import _
 
 #: Fewest and most teeth, and the range of the pressure angle, rad.
 TEETH = (4, 2000)
@@ -59,20 +60,48 @@ class Gear:
     def __post_init__(self) -> None:
         require_ranges(self, {"teeth": TEETH, "profile_shift": (-5.0, 5.0), **TOOTH})
         self._check_tip()
-        _ = self.space
+        _unused = self.space
 
     def _check_tip(self) -> None:
         if self.internal:
             if not self.base_diameter <= self.tip_diameter < self.root_diameter:
                 raise RequestError(
-                    "gears.ring_tip", tip=1e3 * self.tip_diameter, base=1e3 * self.base_diameter
+                    _(
+                        "the ring's tip circle of {tip:.6g} mm lies inside its base circle of {base:.6g} mm "
+                        "or beyond its root, so its teeth have no flanks there; give more teeth, a larger "
+                        "profile shift or a smaller addendum",
+                        code="gears.ring_tip",
+                        tip=1e3 * self.tip_diameter,
+                        base=1e3 * self.base_diameter,
+                    )
                 )
         elif not self.root_diameter < self.tip_diameter or self.tip_diameter <= self.base_diameter:
-            raise RequestError("gears.no_flank", tip=1e3 * self.tip_diameter)
+            raise RequestError(
+                _(
+                    "no involute is left below the tip circle of {tip:.6g} mm; give more teeth, a larger "
+                    "profile shift or a larger addendum",
+                    code="gears.no_flank",
+                    tip=1e3 * self.tip_diameter,
+                )
+            )
         if self._thickness(0.5 * self.tip_diameter) <= 0:
-            raise RequestError("gears.pointed", tip=1e3 * self.tip_diameter)
+            raise RequestError(
+                _(
+                    "the teeth come to a point before the tip circle of {tip:.6g} mm; give a smaller "
+                    "profile shift or addendum",
+                    code="gears.pointed",
+                    tip=1e3 * self.tip_diameter,
+                )
+            )
         if self.root_diameter <= 0:
-            raise RequestError("gears.no_flank", tip=1e3 * self.tip_diameter)
+            raise RequestError(
+                _(
+                    "no involute is left below the tip circle of {tip:.6g} mm; give more teeth, a larger "
+                    "profile shift or a larger addendum",
+                    code="gears.no_flank",
+                    tip=1e3 * self.tip_diameter,
+                )
+            )
 
     @property
     def outward(self) -> int:
@@ -119,7 +148,14 @@ class Gear:
         ends = sorted((self.form_diameter / 2, self.tip_diameter / 2))
         if not ends[0] * (1 - 1e-9) <= radius <= ends[1] * (1 + 1e-9):
             raise RequestError(
-                "gears.no_flank_there", radius=1e3 * radius, low=1e3 * ends[0], high=1e3 * ends[1]
+                _(
+                    "at a radius of {radius:.6g} mm the flank is no involute; give {low:.6g} to "
+                    "{high:.6g} mm",
+                    code="gears.no_flank_there",
+                    radius=1e3 * radius,
+                    low=1e3 * ends[0],
+                    high=1e3 * ends[1],
+                )
             )
         return self._thickness(radius)
 
@@ -159,7 +195,16 @@ class Gear:
         All points lie on the exact curves; a tooth is on the x axis, of a ring a space.
         """
         if not 2 <= points <= 5000:
-            raise RequestError("gears.out_of_range", name="points", value=points, low=2, high=5000)
+            raise RequestError(
+                _(
+                    "{name} is {value}; give {low} to {high}",
+                    code="gears.out_of_range",
+                    name="points",
+                    value=points,
+                    low=2,
+                    high=5000,
+                )
+            )
         return self.space.around(self, points)
 
     def turned(self, angle: float, points: int = 40) -> Floats:
@@ -175,9 +220,19 @@ def require_ranges(teeth: Any, ranges: Mapping[str, tuple[float, float]]) -> Non
         unit = {"pressure_angle": " rad", "module": " m"}.get(name, "")
         if not low <= value <= high:
             said = {"value": f"{value:.6g}{unit}", "low": f"{low:.4g}", "high": f"{high:.4g}{unit}"}
-            raise RequestError("gears.out_of_range", name=name, **said)
+            raise RequestError(
+                _("{name} is {value}; give {low} to {high}", code="gears.out_of_range").format(
+                    name=name, **said
+                )
+            )
     if int(teeth.teeth) != teeth.teeth:
-        raise RequestError("gears.whole_teeth", teeth=teeth.teeth)
+        raise RequestError(
+            _(
+                "a gear cannot have {teeth} teeth; give a whole number",
+                code="gears.whole_teeth",
+                teeth=teeth.teeth,
+            )
+        )
 
 
 @dataclass(frozen=True)
@@ -267,7 +322,14 @@ def tool_space(gear: Gear) -> ToothSpace:
         last = _crossing(gear, tip)
     form = float(tip.foot(np.array([last]))[0][0])
     if form >= 0.5 * gear.tip_diameter:
-        raise RequestError("gears.no_flank", tip=1e3 * gear.tip_diameter)
+        raise RequestError(
+            _(
+                "no involute is left below the tip circle of {tip:.6g} mm; give more teeth, a larger "
+                "profile shift or a larger addendum",
+                code="gears.no_flank",
+                tip=1e3 * gear.tip_diameter,
+            )
+        )
     return ToothSpace(max(form, 0.5 * gear.base_diameter), tip, last)
 
 
@@ -276,7 +338,15 @@ def tool_tip(gear: Gear) -> ToolTip:
     m, slope = gear.module, gear.pressure_angle
     deep = m * (gear.dedendum - gear.profile_shift)
     if deep <= 0.02 * m:
-        raise RequestError("gears.shift_too_large", shift=gear.profile_shift, most=gear.dedendum - 0.02)
+        raise RequestError(
+            _(
+                "a rack tool does not reach below the rolling line with a profile shift of {shift}; "
+                "give at most {most}",
+                code="gears.shift_too_large",
+                shift=gear.profile_shift,
+                most=gear.dedendum - 0.02,
+            )
+        )
     half = m * (math.pi / 4 - gear.dedendum * math.tan(slope))
     room = half / (1 / math.cos(slope) - math.tan(slope))
     radius = max(0.0, min(gear.fillet * m, room, deep - 0.02 * m))
@@ -312,7 +382,14 @@ def ring_space(gear: Gear) -> ToothSpace:
     root, base = 0.5 * gear.root_diameter, 0.5 * gear.base_diameter
     half_root = float(gear.half_angle(np.array([root]))[0])
     if half_root <= 0:
-        raise RequestError("gears.pointed_space", root=1e3 * gear.root_diameter)
+        raise RequestError(
+            _(
+                "the ring's spaces come to a point before the root circle of {root:.6g} mm; give a "
+                "smaller profile shift or dedendum",
+                code="gears.pointed_space",
+                root=1e3 * gear.root_diameter,
+            )
+        )
     size = min(gear.fillet * gear.module, 0.9 * half_root * base)
     centre = root - size
     while (

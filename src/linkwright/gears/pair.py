@@ -17,7 +17,7 @@ from linkwright.core.given import require_pair
 from linkwright.errors import RequestError
 from linkwright.gears.gear import Gear
 from linkwright.gears.involute import angle_of_involute, involute
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.pictures.drawing import Drawing
@@ -74,19 +74,43 @@ class GearPair:
     def __post_init__(self) -> None:
         for name in ("module", "pressure_angle"):
             if getattr(self.pinion, name) != getattr(self.wheel, name):
-                raise RequestError("gears.differ", name=name)
+                raise RequestError(
+                    _(
+                        "the {name} of the two gears differs, so they do not mesh; give both the same",
+                        code="gears.differ",
+                        name=name,
+                    )
+                )
         if self.pinion.internal:
-            raise RequestError("gears.ring_first")
+            raise RequestError(_("the pinion is a ring; give the ring as the wheel", code="gears.ring_first"))
         if self.wheel.internal and self.wheel.teeth <= self.pinion.teeth:
-            raise RequestError("gears.ring_small", ring=self.wheel.teeth, pinion=self.pinion.teeth)
+            raise RequestError(
+                _(
+                    "a ring of {ring} teeth has no room for a pinion of {pinion}; give it more teeth",
+                    code="gears.ring_small",
+                    ring=self.wheel.teeth,
+                    pinion=self.pinion.teeth,
+                )
+            )
         if self._touching_involute <= 0:
-            raise RequestError("gears.no_mesh")
+            raise RequestError(
+                _(
+                    "with these profile shifts the flanks meet at no centre distance; give larger ones",
+                    code="gears.no_mesh",
+                )
+            )
         least = 0.5 * self._bases
         if self.distance is not None and (
             self.distance <= least or self.backlash < -1e-9 * self.pinion.module
         ):
             raise RequestError(
-                "gears.distance", distance=1e3 * self.distance, touching=1e3 * self._touching_distance
+                _(
+                    "a centre distance of {distance:.9g} mm is out of range: the flanks touch on both "
+                    "sides at {touching:.9g} mm",
+                    code="gears.distance",
+                    distance=1e3 * self.distance,
+                    touching=1e3 * self._touching_distance,
+                )
             )
 
     @property
@@ -197,13 +221,39 @@ class GearPair:
         found: list[str] = []
         for gear in (self.pinion, self.wheel):
             if gear.undercut:
-                found.append(Sentence("gears.undercut", teeth=gear.teeth, least=gear.least_profile_shift))
+                found.append(
+                    _(
+                        "the gear of {teeth} teeth is undercut; a profile shift of {least:.4g} or more "
+                        "avoids it",
+                        code="gears.undercut",
+                        teeth=gear.teeth,
+                        least=gear.least_profile_shift,
+                    )
+                )
         if self.contact_ratio == 0:
-            found.append(Sentence("gears.no_contact"))
+            found.append(
+                _(
+                    "no flank reaches the other: the gears do not touch; bring them nearer or give "
+                    "longer teeth",
+                    code="gears.no_contact",
+                )
+            )
         elif self.contact_ratio < 1:
-            found.append(Sentence("gears.gap", ratio=self.contact_ratio))
+            found.append(
+                _(
+                    "the contact ratio is {ratio:.4g}, below 1: there are positions without contact",
+                    code="gears.gap",
+                    ratio=self.contact_ratio,
+                )
+            )
         if min(self.tip_clearances) < 0:
-            found.append(Sentence("gears.no_clearance", clearance=1e3 * min(self.tip_clearances)))
+            found.append(
+                _(
+                    "a tip reaches {clearance:.4g} mm into a root: shorten the tips or deepen the roots",
+                    code="gears.no_clearance",
+                    clearance=1e3 * min(self.tip_clearances),
+                )
+            )
         start, end = self._between_tips
         below = {
             self.pinion: start < _reach(self.pinion, self.pinion.form_diameter) - 1e-12,
@@ -211,9 +261,23 @@ class GearPair:
         }
         for gear, touched in below.items():
             if touched and not gear.undercut:
-                found.append(Sentence("gears.fillet_touched", teeth=gear.teeth))
+                found.append(
+                    _(
+                        "the mating tip reaches below the involute of the gear of {teeth} teeth, into its "
+                        "fillet",
+                        code="gears.fillet_touched",
+                        teeth=gear.teeth,
+                    )
+                )
         if self.wheel.internal and self.tip_overlap > 0:
-            found.append(Sentence("gears.tips_overlap", overlap=math.degrees(self.tip_overlap)))
+            found.append(
+                _(
+                    "tips of pinion and ring overlap by {overlap:.4g}° beside the mesh; take a larger "
+                    "difference of the teeth",
+                    code="gears.tips_overlap",
+                    overlap=math.degrees(self.tip_overlap),
+                )
+            )
         return tuple(found)
 
     def wheel_angle(self, pinion_angle: float) -> float:

@@ -13,6 +13,7 @@ from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.gears.gear import TOOTH, require_ranges
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.pictures.drawing import Drawing
@@ -36,9 +37,23 @@ class Rack:
     def __post_init__(self) -> None:
         require_ranges(self, {"teeth": (1, 10_000), **TOOTH})
         if self.dedendum * math.tan(self.pressure_angle) >= math.pi / 4:
-            raise RequestError("gears.pointed_rack_space", dedendum=self.dedendum)
+            raise RequestError(
+                _(
+                    "the rack's spaces come to a point above the dedendum of {dedendum} modules; give a "
+                    "smaller one",
+                    code="gears.pointed_rack_space",
+                    dedendum=self.dedendum,
+                )
+            )
         if self.addendum * math.tan(self.pressure_angle) >= math.pi / 4:
-            raise RequestError("gears.pointed_rack", addendum=self.addendum)
+            raise RequestError(
+                _(
+                    "the rack's teeth come to a point below the addendum of {addendum} modules; give a "
+                    "smaller one",
+                    code="gears.pointed_rack",
+                    addendum=self.addendum,
+                )
+            )
 
     @property
     def pitch(self) -> float:

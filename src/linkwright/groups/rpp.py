@@ -6,8 +6,7 @@ from collections.abc import Mapping
 
 from linkwright.formula.trace import Scalar, reciprocal
 from linkwright.groups.base import DYADS, Chain, Solved
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 
 @DYADS.register("RPP")
@@ -36,7 +35,11 @@ class RPP:
         )
 
     def at_end(self, facts: Mapping[str, float]) -> Message:
-        return Sentence("range.parallel")
+        return _("has its guides parallel", code="range.parallel")
 
     def explain(self, facts: Mapping[str, float]) -> Message:
-        return Sentence("outcome.rpp_parallel", sine=f"{facts['sine']:.1e}")
+        return _(
+            "the two slides are parallel (sine of the angle between them {sine})",
+            code="outcome.rpp_parallel",
+            sine=f"{facts['sine']:.1e}",
+        )

@@ -9,8 +9,7 @@ from linkwright.core.quantity import reported
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.joints.pose import Rotor
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 
 @DYADS.register("RPR")
@@ -48,12 +47,14 @@ class RPR:
         )
 
     def at_end(self, facts: Mapping[str, float]) -> Message:
-        return Sentence("range.closest")
+        return _("has its outer pins as close as the offset of the guide allows", code="range.closest")
 
     def explain(self, facts: Mapping[str, float]) -> Message:
         distance, offset = root_of(max(facts["distance²"], 0.0)), abs(facts["offset"])
-        return Sentence(
-            "outcome.rpr_near",
+        return _(
+            "the outer pins are {distance} apart, the guide holds them {offset} apart across its "
+            "direction: {missing} too close",
+            code="outcome.rpr_near",
             distance=reported(distance, "length", 7),
             offset=reported(offset, "length", 7),
             missing=reported(offset - distance, "length", 7),

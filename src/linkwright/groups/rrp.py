@@ -9,8 +9,7 @@ from linkwright.core.quantity import reported
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.joints.pose import Rotor
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 
 @DYADS.register("RRP")
@@ -46,12 +45,14 @@ class RRP:
         )
 
     def at_end(self, facts: Mapping[str, float]) -> Message:
-        return Sentence("range.perpendicular")
+        return _("has its link perpendicular to the guide", code="range.perpendicular")
 
     def explain(self, facts: Mapping[str, float]) -> Message:
         height, length = abs(facts["height"]), root_of(max(facts["length²"], 0.0))
-        return Sentence(
-            "outcome.rrp_far",
+        return _(
+            "the outer pin is {height} from the path of the slider's pin, the link reaches "
+            "{length}: {missing} missing",
+            code="outcome.rrp_far",
             height=reported(height, "length", 7),
             length=reported(length, "length", 7),
             missing=reported(height - length, "length", 7),

@@ -9,8 +9,7 @@ from linkwright.core.quantity import reported
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.joints.pose import Rotor
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 
 @DYADS.register("RRR")
@@ -51,14 +50,25 @@ class RRR:
     def at_end(self, facts: Mapping[str, float]) -> Message:
         distance, r1, r2 = (root_of(max(facts[key], 0.0)) for key in ("distance²", "first²", "second²"))
         stretched = abs(distance - r1 - r2) < abs(distance - abs(r1 - r2))
-        return Sentence("range.stretched" if stretched else "range.folded")
+        return _("is stretched", code="range.stretched") if stretched else _("is folded", code="range.folded")
 
     def explain(self, facts: Mapping[str, float]) -> Message:
         distance, r1, r2 = (root_of(max(facts[key], 0.0)) for key in ("distance²", "first²", "second²"))
         far = distance > r1 + r2
         reach = r1 + r2 if far else abs(r1 - r2)
-        return Sentence(
-            "outcome.rrr_far" if far else "outcome.rrr_near",
+        return (
+            _(
+                "the outer pins are {distance} apart, links of {first} and {second} reach {reach}: "
+                "{missing} missing",
+                code="outcome.rrr_far",
+            )
+            if far
+            else _(
+                "the outer pins are {distance} apart, links of {first} and {second} need at least "
+                "{reach}: {missing} too close",
+                code="outcome.rrr_near",
+            )
+        ).format(
             distance=reported(distance, "length", 7),
             first=reported(r1, "length", 7),
             second=reported(r2, "length", 7),

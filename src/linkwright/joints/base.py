@@ -20,7 +20,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import Vec
 from linkwright.joints.ends import Ends, Hung
 from linkwright.registry import Registry
-from linkwright.words import Message, has
+from linkwright.words import Message, _, has
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -117,7 +117,7 @@ class Joint(ABC):
         fields, ``JOINT.FIELD``, or of one that holds several, ``JOINT.FIELD.0`` and so on."""
         new: dict[str, Any] = {}
         for address in self.dimensions():
-            key, _, index = address.removeprefix(f"{self.name}.").partition(".")
+            key, _unused, index = address.removeprefix(f"{self.name}.").partition(".")
             new[key] = (*new.get(key, ()), value(address)) if index else value(address)
         return replace(self, **new)
 
@@ -264,13 +264,13 @@ class Joint(ABC):
     def gains(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float]]:
         """Factors of links' rotations and of guides' displacements that together gain nothing while the drivers come
         back; by default those of :meth:`sums`."""
-        rotations, slides, _ = self.sums(mechanism)
+        rotations, slides, _unused = self.sums(mechanism)
         return rotations, slides
 
     def tied(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float]]:
         """Factors of the speeds, of links' rotations and of guides' displacements, that the row of a higher pair ties
         to each other in a position of no special kind; by default those of :meth:`sums`."""
-        rotations, slides, _ = self.sums(mechanism)
+        rotations, slides, _unused = self.sums(mechanism)
         return rotations, slides
 
     def pulls(self, force: Callable[[], Floats]) -> Flags | None:
@@ -294,7 +294,15 @@ class Joint(ABC):
     @classmethod
     def lacks(cls, what: str) -> LackingError:
         """The error for what the kind does not supply."""
-        return LackingError("model.kind_lacks", kind=getattr(cls, "kind", cls.__name__), what=what)
+        return LackingError(
+            _(
+                'a joint of the kind "{kind}" does not supply "{what}", which is needed here; add '
+                "the method to its class",
+                code="model.kind_lacks",
+                kind=getattr(cls, "kind", cls.__name__),
+                what=what,
+            )
+        )
 
 
 class HigherPair(Joint):

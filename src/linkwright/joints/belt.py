@@ -13,8 +13,7 @@ from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Size
 from linkwright.joints.ends import Ends
 from linkwright.joints.toothed import WheelPair, length
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
@@ -60,14 +59,23 @@ class BeltPair(WheelPair):
     def check(self, entry: Entry, distance: float) -> None:
         problem = self._touching(distance)
         if problem is not None:
-            entry.say("radii" if self.radii else "teeth", problem, Sentence("joints.pulleys_apart"), "range")
+            entry.say(
+                "radii" if self.radii else "teeth",
+                problem,
+                _("put the centres further apart, or take smaller wheels"),
+                "range",
+            )
 
     def _touching(self, distance: float) -> Message | None:
         a, b = self.pitch_radii()
         if a + b < distance:
             return None
-        return Sentence(
-            "joints.pulleys_touch", sum=length(a + b), centres=self.centres, distance=length(distance)
+        return _(
+            "the radii add up to {sum}, but the centres {centres} are {distance} apart",
+            code="joints.pulleys_touch",
+            sum=length(a + b),
+            centres=self.centres,
+            distance=length(distance),
         )
 
     def misfit(self, mechanism: Model) -> Message | None:

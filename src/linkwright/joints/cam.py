@@ -29,6 +29,7 @@ from linkwright.joints.base import (
 from linkwright.joints.cam_geometry import Geometry
 from linkwright.joints.ends import Ends
 from linkwright.laws.program_fields import ProgramField
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -202,7 +203,7 @@ class CamJoint(HigherPair):
             least, most = (shown(each, "length", 5) for each in (found.least, found.most))
             report(
                 "base_radius",
-                Sentence("joints.cam_reach"),
+                _("the follower does not reach the base circle"),
                 Sentence(f"joints.{word}", least=least, most=most),
             )
         return found
@@ -252,12 +253,12 @@ class CamJoint(HigherPair):
 
         On a guide the part of the contact force across it, on a pivot all of it, with the moments of the couples.
         """
-        _, rate = self._lift(at)
+        _unused, rate = self._lift(at)
         if not self.side:
             way, gap = self._way(at)
             across = force * (rate - gap.cross(way)) / way.dot(gap)
             return [] if self.touch == "flat" else [(way.perp.dot(gap), across)]
-        scale, _, side, reach, _ = self._swung(at)
+        scale, _unused2, side, reach, _unused3 = self._swung(at)
         own, driven = scale * side, scale * rate
         pivot, centre = at.point(self.follower, self.holder), at.point(self.cam, self.centre)
         if self.touch == "flat":
@@ -324,7 +325,14 @@ class CamJoint(HigherPair):
         return none
 
     def sums(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float], float]:
-        raise LackingError("joints.cam_sums")
+        raise LackingError(
+            _(
+                "the lift of a cam is no sum of rotations and displacements, which is all that can "
+                "be said here: exports to MuJoCo and Modelica, and worked solutions of a cam within "
+                "a loop, take gears, racks and belts only",
+                code="joints.cam_sums",
+            )
+        )
 
     def tied(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float]]:
         """With a slope of the lift that no sizes of wheels have: the golden section, m of the base circle or rad."""

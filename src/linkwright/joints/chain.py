@@ -13,7 +13,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.belt import BeltPair
 from linkwright.joints.toothed import Numbers
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 
 @JOINTS.register("chain")
@@ -41,10 +41,20 @@ class ChainPair(BeltPair):
     def read(cls, entry: Entry) -> Joint | None:
         teeth, pitch, radii = (entry.values.get(key) for key in ("teeth", "pitch", "radii"))
         if teeth is not None and pitch is None:
-            entry.say("", Sentence("joints.no_pitch"), Sentence("joints.give_pitch"), "missing-key")
+            entry.say(
+                "",
+                _("the chain's pitch is missing", code="joints.no_pitch"),
+                _("give pitch: 12.7 mm beside teeth, or radii instead"),
+                "missing-key",
+            )
             return None
         if pitch is not None and radii is not None:
-            entry.say("radii", Sentence("joints.radii_and_pitch"), Sentence("joints.leave_radii"), "choice")
+            entry.say(
+                "radii",
+                _("pitch with teeth already gives the radii", code="joints.radii_and_pitch"),
+                _("leave one of them out"),
+                "choice",
+            )
             return None
         return super().read(entry)
 

@@ -15,7 +15,7 @@ from linkwright.joints.base import JOINTS, Entry, Joint, Size
 from linkwright.joints.ends import Ends
 from linkwright.joints.rolling import RollingPair
 from linkwright.joints.toothed import FITS, Numbers
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: The pressure angle of standard teeth, and the clearance at their bottom in modules (ISO 53): by so much the centres
 #: of involute wheels may be off, as tolerances and sweeps have it, before teeth touch the bottom or let go.
@@ -59,8 +59,16 @@ class GearPair(RollingPair):
     def read(cls, entry: Entry) -> Joint | None:
         values = entry.values
         if values.get("module") and not values.get("teeth") and (values.get("ratio") or values.get("radii")):
-            remedy = Sentence("joints.teeth_or_no_module")
-            entry.say("module", Sentence("joints.module_without_teeth"), remedy, "choice")
+            remedy = _("give teeth in place of the radii or the ratio, or leave the module out")
+            entry.say(
+                "module",
+                _(
+                    "a module says nothing about wheels without numbers of teeth",
+                    code="joints.module_without_teeth",
+                ),
+                remedy,
+                "choice",
+            )
             return None
         return super().read(entry)
 

@@ -11,6 +11,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.formula.trace import Scalar
 from linkwright.joints.base import Joint
 from linkwright.joints.ends import Ends
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,14 @@ class TurningJoint(Joint):
     @property
     def friction_arm(self) -> float:
         if self.friction and self.pin_radius is None:
-            raise LinkwrightError("forces.needs_pin_radius", name=self.name)
+            raise LinkwrightError(
+                _(
+                    "joints.{name}: friction needs the pin's radius; add pin_radius, such as pin_radius: "
+                    "20 mm",
+                    code="forces.needs_pin_radius",
+                    name=self.name,
+                )
+            )
         return self.friction * (self.pin_radius or 0.0)
 
 

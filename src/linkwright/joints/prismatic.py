@@ -16,7 +16,8 @@ from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower import SlidingJoint
 from linkwright.joints.revolute import FRICTION
-from linkwright.words.sentence import Sentence, together
+from linkwright.words import _
+from linkwright.words.sentence import together
 
 if TYPE_CHECKING:
     from linkwright.elements.model import Sizes
@@ -78,8 +79,8 @@ class PrismaticJoint(SlidingJoint):
         if first is None or second is None:
             return joint
         if math.dist(first, second) == 0:
-            problem = Sentence("model.same_place", points=together(direction))
-            entry.say("direction", problem, Sentence("model.points_apart"), "range")
+            problem = _("{points} are at the same place", code="model.same_place", points=together(direction))
+            entry.say("direction", problem, _("name two points apart from each other"), "range")
         return joint.aligned(links[guide].points)
 
     @classmethod
@@ -92,12 +93,21 @@ class PrismaticJoint(SlidingJoint):
         """Whether guide and block, and their points, are different ones."""
         guide, block, point = (entry.values[key] for key in ("guide", "block", "at"))
         if guide == block:
-            entry.say("block", Sentence("model.guide_is_block", guide=guide), Sentence("model.two_links"))
+            entry.say(
+                "block",
+                _('guide and block are both "{guide}"', code="model.guide_is_block", guide=guide),
+                _("name two different links"),
+            )
             return False
         others = [owner for owner in entry.reader.names.owners(point) if owner not in (guide, block)]
         if point == entry.values["through"] and others:
-            problem = Sentence("model.point_on_both", point=point, others=tuple(others))
-            entry.say("at", problem, Sentence("model.rename_point"), "ambiguous")
+            problem = _(
+                '"{point}" names a point of the guide and of the block, and {others} has it too',
+                code="model.point_on_both",
+                point=point,
+                others=tuple(others),
+            )
+            entry.say("at", problem, _("rename the point of the guide"), "ambiguous")
             return False
         return True
 
@@ -134,7 +144,9 @@ class PrismaticJoint(SlidingJoint):
         start, end = (dimensions.point(self.guide, name) for name in self.direction_points)
         d = end - start
         if isinstance(d.y, float) and d.y == 0.0 and not isinstance(d.x, float):
-            (x0, _), (x1, _) = (dimensions.link(self.guide).points[each] for each in self.direction_points)
+            (x0, _unused), (x1, _unused2) = (
+                dimensions.link(self.guide).points[each] for each in self.direction_points
+            )
             if f"{self.guide}.length" not in dimensions.free and x1 > x0:
                 return Vec(1.0, 0.0)
         return d * reciprocal(sqrt(d.square))

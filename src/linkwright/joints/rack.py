@@ -25,8 +25,7 @@ from linkwright.joints.base import (
 from linkwright.joints.ends import Ends
 from linkwright.joints.gear import CLEARANCE, STANDARD
 from linkwright.joints.toothed import FITS, length, whole
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import Connection, Group
@@ -96,11 +95,23 @@ class RackPair(HigherPair):
         values = entry.values
         pinion, rack = values["pinion"], values["rack"]
         if pinion == rack:
-            entry.say("rack", Sentence("model.both_links", first=pinion), Sentence("model.two_links"))
+            entry.say(
+                "rack",
+                _('both links are "{first}"', code="model.both_links", first=pinion),
+                _("name two different links"),
+            )
             return None
         if not any(pinion in owners for owners in entry.reader.names.pins.values()):
             wheel = {"wheel": pinion}
-            entry.say("pinion", Sentence("joints.without_pin", **wheel), Sentence("joints.give_pin", **wheel))
+            entry.say(
+                "pinion",
+                _('the wheel "{wheel}" has no pin about which it turns', code="joints.without_pin").format(
+                    **wheel
+                ),
+                _('give "{wheel}" a point that a carrier (the frame, an arm) has as well: its centre').format(
+                    **wheel
+                ),
+            )
             return None
         if not _sized(entry):
             return None
@@ -116,20 +127,41 @@ class RackPair(HigherPair):
         way = self._way(mechanism)
         elsewhere = None if way is not None else replace(self, centre="")._way(mechanism)
         if elsewhere is not None:
-            problem = Sentence("joints.centre_unguided", centre=self.centre, rack=self.rack)
-            report("centre", problem, Sentence("joints.take_centre", centre=elsewhere.centre))
+            problem = _(
+                "{centre!r} is no pin to whose link a guide of the rack {rack!r} leads",
+                code="joints.centre_unguided",
+                centre=self.centre,
+                rack=self.rack,
+            )
+            report("centre", problem, _("leave the centre out: it is {centre}", centre=elsewhere.centre))
             return replace(self, direction=elsewhere.direction, centre=elsewhere.centre)
         if way is None:
             report(
                 "rack",
-                Sentence("joints.no_guide", rack=self.rack, pinion=self.pinion),
-                Sentence("joints.give_guide"),
+                _(
+                    "no guide leads from the rack {rack!r} to a link that carries the pin of {pinion!r}: "
+                    "nothing keeps the pinion at its distance from the rack",
+                    code="joints.no_guide",
+                    rack=self.rack,
+                    pinion=self.pinion,
+                ),
+                _(
+                    "add a prismatic joint between the rack and the link that carries the pinion, along "
+                    "the rack",
+                ),
             )
             return replace(self, direction=self.direction or 0.0)
         wrong = self._misplaced(way)
         if wrong is not None:
             key, problem = wrong
-            remedy = Sentence("joints.guide_along" if key == "direction" else "joints.fit_rack")
+            remedy = (
+                _("give both the same direction, or leave the direction out")
+                if key == "direction"
+                else _(
+                    "move the rack's guide or the point through which its pitch line goes, or change the "
+                    "radius",
+                )
+            )
             loose = self._misplaced(way, self._slack) is None
             report(key, problem, remedy, "warning" if loose else "error")
         off = way.gap.imag
@@ -139,13 +171,25 @@ class RackPair(HigherPair):
         """What keeps the pinion off the pitch line by more than the slack, m, and the key that says it."""
         if not way.parallel:
             guide = way.guides[-1][0]
-            return "direction", Sentence("joints.guide_askew", guide=guide, rack=self.rack)
+            return "direction", _(
+                "the guide {guide!r} is not parallel to the pitch line of {rack!r}",
+                code="joints.guide_askew",
+                guide=guide,
+                rack=self.rack,
+            )
         distance = abs(way.gap.imag)
         if abs(distance - self.radius) <= max(FITS * self.radius, slack):
             return None
         apart, radius = length(distance), length(self.radius)
         key = "module" if self.module is not None else "radius"
-        return key, Sentence("joints.rack_misfit", centre=way.centre, distance=apart, radius=radius)
+        return key, _(
+            "the pinion's centre {centre!r} is {distance} away from the pitch line, but its "
+            "radius is {radius}",
+            code="joints.rack_misfit",
+            centre=way.centre,
+            distance=apart,
+            radius=radius,
+        )
 
     @property
     def _slack(self) -> float:
@@ -264,15 +308,22 @@ class RackPair(HigherPair):
 def _sized(entry: Entry) -> bool:
     """Whether the pinion has one size, by its radius or by whole teeth of a module."""
     radius, teeth, module = (entry.values.get(key) for key in ("radius", "teeth", "module"))
-    remedy = Sentence("joints.give_rack_size")
+    remedy = _("give radius: 40 mm, or teeth: 20 with module: 4 mm")
     if radius is not None and (teeth is not None or module is not None):
-        entry.say("radius", Sentence("joints.sizes_twice"), remedy, "choice")
+        entry.say("radius", _("the size is given twice", code="joints.sizes_twice"), remedy, "choice")
         return False
     if radius is None and (teeth is None or module is None):
-        entry.say("radius", Sentence("joints.no_size"), remedy, "missing-key")
+        entry.say(
+            "radius", _("nothing says how large the wheels are", code="joints.no_size"), remedy, "missing-key"
+        )
         return False
     if teeth is not None and not whole(teeth):
-        entry.say("teeth", Sentence("joints.no_teeth", value=teeth), Sentence("joints.whole_teeth"), "range")
+        entry.say(
+            "teeth",
+            _("{value:g} is no number of teeth", code="joints.no_teeth", value=teeth),
+            _("give a whole number of 1 or more"),
+            "range",
+        )
         return False
     return True
 

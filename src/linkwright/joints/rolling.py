@@ -14,8 +14,7 @@ from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint, Size
 from linkwright.joints.ends import Ends
 from linkwright.joints.toothed import FITS, WheelPair, length
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 
 @JOINTS.register("rolling")
@@ -69,20 +68,36 @@ class RollingPair(WheelPair):
             own = self.sense * given[0] / given[1]
             if abs(self.ratio - own) > FITS * abs(own):
                 key = "teeth" if self.teeth else "radii"
-                problem = Sentence("joints.ratio_misfit", ratio=self.ratio, key_=key, own=own)
-                entry.say("ratio", problem, Sentence("joints.leave_ratio"), "choice")
+                problem = _(
+                    "the ratio {ratio:g} does not fit {key_}, which give {own:g}",
+                    code="joints.ratio_misfit",
+                    ratio=self.ratio,
+                    key_=key,
+                    own=own,
+                )
+                entry.say("ratio", problem, _("leave the ratio out, or change it"), "choice")
                 return
         if i == 1.0:
-            entry.say("", Sentence("joints.equal_internal"), Sentence("joints.unequal"), "range")
+            entry.say(
+                "",
+                _("a wheel cannot run in a ring of its own size", code="joints.equal_internal"),
+                _("give different sizes; equal wheels that turn the same way need a belt or a chain"),
+                "range",
+            )
             return
         if distance == 0.0:
-            problem = Sentence("joints.same_centre", centres=self.centres)
-            entry.say("links", problem, Sentence("joints.centres_apart"), "range")
+            problem = _(
+                "the centres {centres} lie in one place", code="joints.same_centre", centres=self.centres
+            )
+            entry.say("links", problem, _("put the centres apart"), "range")
             return
         apart = self._apart(distance)
         if apart is not None:
             loose = self._apart(distance, self._slack(distance)) is None
-            key, remedy = "radii" if self.radii else "module", Sentence("joints.fit_distance")
+            key, remedy = (
+                "radii" if self.radii else "module",
+                _("change the distance of the centres, or the sizes of the wheels"),
+            )
             entry.say(key, apart, remedy, "range", "warning" if loose else "error")
 
     @property
@@ -100,13 +115,16 @@ class RollingPair(WheelPair):
         wanted = self.asked
         if not wanted or abs(wanted - distance) <= max(FITS * distance, slack):
             return None
-        return Sentence(
-            "joints.distance_misfit",
+        return _(
+            "the centres {centres} on {carrier!r} are {distance} apart, but the {mesh} pair needs {wanted}",
+            code="joints.distance_misfit",
             centres=self.centres,
             carrier=self.carrier,
             distance=length(distance),
             wanted=length(wanted),
-            mesh=Sentence("joints.internal" if self.sense > 0 else "joints.external"),
+            mesh=_("internal", code="joints.internal")
+            if self.sense > 0
+            else _("external", code="joints.external"),
         )
 
     def misfit(self, mechanism: Model) -> Message | None:
@@ -142,5 +160,5 @@ class RollingPair(WheelPair):
 
     def place(self, at: Ends, link: str) -> Vec:
         """The pitch point."""
-        arm, *_ = self.traced_arms(at)
+        arm, *_unused = self.traced_arms(at)
         return at.point(self.carrier, self.centres[0]) + at.vector(self.carrier, self.axis(at)) * arm

@@ -25,7 +25,7 @@ from linkwright.formula.vector import Vec
 from linkwright.joints.base import Entry, HigherPair, Joint
 from linkwright.joints.ends import Ends
 from linkwright.units import number
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -118,7 +118,7 @@ class WheelPair(HigherPair):
     def rotation_sum(self, drawing: Drawing) -> tuple[Mapping[str, float], float] | None:
         if self.phase is None:
             return None
-        factors, _, rest = self.sums(drawing.mechanism)
+        factors, _unused, rest = self.sums(drawing.mechanism)
         return factors, rest
 
     def dimensions(self) -> Mapping[str, float]:
@@ -133,7 +133,11 @@ class WheelPair(HigherPair):
     def limit(self, address: str, value: float) -> Message | None:
         """A pair does not become an internal one, or the other way round, by a changed ratio."""
         if address == f"{self.name}.ratio" and value * self.transmission < 0:
-            return Sentence("joints.same_sign", ratio=self.transmission)
+            return _(
+                "a ratio of the same sign as {ratio:g}; the other sign is another mesh",
+                code="joints.same_sign",
+                ratio=self.transmission,
+            )
         return super().limit(address, value)
 
     # motion -----------------------------------------------------------------------------------
@@ -209,8 +213,8 @@ class Numbers(Field):
                 reader.error(
                     item,
                     place,
-                    Sentence("joints.no_teeth", value=value),
-                    Sentence("joints.whole_teeth"),
+                    _("{value:g} is no number of teeth", code="joints.no_teeth", value=value),
+                    _("give a whole number of 1 or more"),
                     "range",
                 )
                 return None
@@ -231,13 +235,20 @@ def _one_size(entry: Entry, keys: tuple[str, ...]) -> bool:
     values = entry.values
     given = [key for key in keys if values.get(key) is not None]
     if not given:
-        remedy = Sentence("joints.give_size" if len(keys) > 1 else "joints.give_key", keys=keys)
-        entry.say("", Sentence("joints.no_size"), remedy, "missing-key")
+        remedy = (_("give one of {keys}") if len(keys) > 1 else _("give {keys}")).format(keys=keys)
+        entry.say(
+            "", _("nothing says how large the wheels are", code="joints.no_size"), remedy, "missing-key"
+        )
         return False
     if {"teeth", "radii"} <= set(given):
         (a, b), (c, d) = values["teeth"], values["radii"]
         if abs(a * d - b * c) > FITS * abs(b * c):
-            entry.say("radii", Sentence("joints.sizes_misfit"), Sentence("joints.leave_radii"), "choice")
+            entry.say(
+                "radii",
+                _("teeth and radii give different ratios", code="joints.sizes_misfit"),
+                _("leave one of them out"),
+                "choice",
+            )
             return False
     return True
 
@@ -257,10 +268,23 @@ class _Centres:
         for wheel, mine in zip(self.wheels, own, strict=True):
             if not mine:
                 tied = self.entry.reader.names.welded.get(wheel)
-                way = Sentence("joints.name_welded", wheel=wheel, tied=tied) if tied else None
+                way = (
+                    _(
+                        '"{wheel}" is welded to "{tied}": name "{tied}" in its place',
+                        code="joints.name_welded",
+                        wheel=wheel,
+                        tied=tied,
+                    )
+                    if tied
+                    else None
+                )
                 self._say(
                     Sentence(f"joints.{self._without(kind)}", wheel=wheel),
-                    way or Sentence("joints.give_pin", wheel=wheel),
+                    way
+                    or _(
+                        'give "{wheel}" a point that a carrier (the frame, an arm) has as well: its centre',
+                        wheel=wheel,
+                    ),
                 )
                 return None
         ways = [
@@ -274,20 +298,36 @@ class _Centres:
         bearing = sorted({link for p in own[0] for q in own[1] for link in pins[p] if link in pins[q]})
         bearing = [link for link in bearing if link not in self.wheels]
         if not ways and self.named is not None and bearing:
-            problem = Sentence("joints.no_such_carrier", name=self.named, wheels=self.wheels)
-            self.entry.say("carrier", problem, Sentence("joints.carried_by", names=tuple(bearing)))
+            problem = _(
+                "{name!r} does not carry the pins of both wheels {wheels}",
+                code="joints.no_such_carrier",
+                name=self.named,
+                wheels=self.wheels,
+            )
+            self.entry.say("carrier", problem, _("they are carried by {names}", names=tuple(bearing)))
             return None
         if not ways:
             self._say(
-                Sentence("joints.no_carrier", wheels=self.wheels),
-                Sentence("joints.give_carrier", wheels=self.wheels),
+                _(
+                    "no link carries the pins of both wheels {wheels}, so nothing keeps their centres apart",
+                    code="joints.no_carrier",
+                    wheels=self.wheels,
+                ),
+                _(
+                    "give one link (the frame, an arm) a point in the centre of each of {wheels}",
+                    wheels=self.wheels,
+                ),
             )
             return None
         ways.sort(key=lambda way: way[0] != "frame")
         if (len(ways) > 1 and ways[0][0] != "frame") or len([w for w in ways if w[0] == ways[0][0]]) > 1:
             self._say(
-                Sentence("joints.carriers", names=tuple(f"{link} ({p}, {q})" for link, p, q in ways)),
-                Sentence("joints.name_carrier"),
+                _(
+                    "the centres of the wheels may be {names}",
+                    code="joints.carriers",
+                    names=tuple(f"{link} ({p}, {q})" for link, p, q in ways),
+                ),
+                _("say which link carries both: carrier: NAME"),
             )
             return None
         return ways[0]

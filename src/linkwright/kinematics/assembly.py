@@ -22,8 +22,8 @@ from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import nearest, offered
 from linkwright.structure.analysis import Structure
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence, lines
+from linkwright.words import Message, _
+from linkwright.words.sentence import lines
 
 #: Where modes are looked for if the drawn inputs are out of reach: beside them, rad or shares of the size.
 BESIDE = (0.01, -0.01, 0.03, -0.03, 0.1, -0.1)
@@ -107,14 +107,15 @@ def _from_words(mechanism: Mechanism, structure: Structure) -> dict[str, float]:
         group, words = of_joint[joint]
         if word not in words:
             offer = nearest(word, list(words))
-            hint = Sentence("motion.write_mode", first=words[0], second=words[1])
-            problems[joint] = Sentence(
-                "motion.no_mode",
+            hint = _("write {first} or {second}", first=words[0], second=words[1])
+            problems[joint] = _(
+                "assembly.{joint}: {word!r} is no assembly mode of the {signature} group ({links}); {hint}",
+                code="motion.no_mode",
                 joint=joint,
                 word=word,
                 signature=group.signature,
                 links=tuple(group.links),
-                hint=Sentence("names.did_you_mean", offer=offer) if offer else hint,
+                hint=_('did you mean "{offer}"?', offer=offer) if offer else hint,
             )
             continue
         modes[group.name] = 1.0 if word == words[0] else -1.0
@@ -131,10 +132,24 @@ def _no_such_joint(
     for group in open_groups:
         if any(connection.joint == joint for connection in group.inner_joints):
             drawn = _to_draw(group)
-            return Sentence("motion.word_in_open", joint=joint, links=tuple(group.links), drawn=drawn)
-    inner = [c.joint for group, _ in groups.values() for c in group.inner_joints]
+            return _(
+                "assembly.{joint}: as the machine is driven now, this is a joint of the group "
+                "({links}), which has no closed form and so takes no word; remove it and give the "
+                "coordinates of the group's points in a drawing of the assembled mechanism: drawing: "
+                "{{{drawn}}}",
+                code="motion.word_in_open",
+                joint=joint,
+                links=tuple(group.links),
+                drawn=drawn,
+            )
+    inner = [c.joint for group, _unused in groups.values() for c in group.inner_joints]
     hint = offered(joint, inner, "motion.inner_joints")
-    return Sentence("motion.not_inner", joint=joint, hint=hint)
+    return _(
+        "assembly.{joint}: this is not the inner joint of a group with two assembly modes; {hint}",
+        code="motion.not_inner",
+        joint=joint,
+        hint=hint,
+    )
 
 
 def _to_draw(group: Group) -> str:
@@ -147,10 +162,14 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
     for group in iterated(structure):
         if not drawing and any(step.turns for step in group.unknowns):
             raise AssemblyError(
-                "motion.needs_drawing",
-                links=tuple(group.links),
-                level=group.assur_class,
-                drawn=_to_draw(group),
+                _(
+                    "the group ({links}) of class {level} has no closed form; give the coordinates of "
+                    "its points in a drawing of the assembled mechanism: drawing: {{{drawn}}}",
+                    code="motion.needs_drawing",
+                    links=tuple(group.links),
+                    level=group.assur_class,
+                    drawn=_to_draw(group),
+                )
             )
         for step in group.unknowns:
             name = state_name(step)
@@ -170,7 +189,7 @@ def _drawn_states(mechanism: Mechanism, structure: Structure, drawing: Drawing) 
 def _from_drawing(mechanism: Mechanism, structure: Structure, assembly: Assembly) -> None:
     """Of both modes of a group, the one that comes closer to the drawing; without a drawing the first."""
     modes, drawing = assembly.modes, assembly.drawing
-    open_groups = [group for name, (group, _) in modal_groups(structure).items() if name not in modes]
+    open_groups = [group for name, (group, _unused) in modal_groups(structure).items() if name not in modes]
     modes |= {group.name: 1.0 for group in open_groups}
     if not drawing or not open_groups:
         return

@@ -16,6 +16,7 @@ from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.passing_proof import modal
 from linkwright.kinematics.positions import Positions, at_one_time, at_times, off_law
 from linkwright.kinematics.solve import reached_modes
+from linkwright.words import _
 
 
 class Between:
@@ -27,7 +28,15 @@ class Between:
         if motion.positions.cycle:
             return
         if (name := off_law(motion.mechanism, motion.positions)) is not None:
-            raise LinkwrightError("motion.no_way_between", name=name)
+            raise LinkwrightError(
+                _(
+                    "the positions of this motion do not follow the law of driver {name!r} in time, so "
+                    "there is no way between them; find limit positions in a motion over a cycle or at "
+                    "times",
+                    code="motion.no_way_between",
+                    name=name,
+                )
+            )
 
     @cached_property
     def passing(self) -> list[Passage]:

@@ -18,6 +18,7 @@ from linkwright.kinematics.groups import state_name
 from linkwright.kinematics.positions import coordinate_text, rotary
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.rotation_sums import Key, RotationSums
+from linkwright.words import _
 
 #: What Newton's method may correct of a drawing (rad, or share of the size) that counts as exact, and how many steps
 #: it may take there.
@@ -71,7 +72,15 @@ class Follower:
             turns = rotary(self.mechanism)
             known = zip(self.drivers, q.tolist(), strict=True)
             said = tuple(coordinate_text(name, each, turns[name]) for name, each in known)
-            raise AssemblyError("motion.not_near_drawing", name=self.mechanism.name, inputs=said)
+            raise AssemblyError(
+                _(
+                    "{name!r} cannot be put together near its drawing (input {inputs}); check the "
+                    "drawing's coordinates against the lengths",
+                    code="motion.not_near_drawing",
+                    name=self.mechanism.name,
+                    inputs=said,
+                )
+            )
         return found
 
     def _as_drawn(self, group: Group, step: TreeJoint) -> float:
@@ -165,15 +174,15 @@ class Follower:
         sums = RotationSums(self.mechanism, self.structure)
         ahead = dict(zip(self.drivers, np.broadcast_to(lap, len(self.drivers)).tolist(), strict=True))
         found = np.zeros(len(self.groups.scale))
-        for k, (_, step) in enumerate(self.groups.formula.steps):
+        for k, (_unused, step) in enumerate(self.groups.formula.steps):
             if self.groups.formula.as_angle[k] and step.turns:
                 terms = sums.reduced({("turn", step.child): 1.0})
-                found[k] = sum(factor * ahead.get(name, 0.0) for (_, name), factor in terms.items())
+                found[k] = sum(factor * ahead.get(name, 0.0) for (_unused, name), factor in terms.items())
         return _turns(found)
 
     def named(self, coordinates: Floats) -> dict[Key, Floats]:
         """Rotations of links and displacements of guides (m,) from coordinates (m, n)."""
-        steps = [step for _, step in self.groups.formula.steps]
+        steps = [step for _unused, step in self.groups.formula.steps]
         keys = [("turn", step.child) if step.turns else ("slide", step.joint) for step in steps]
         return dict(zip(keys, coordinates.T, strict=True))
 

@@ -15,6 +15,7 @@ from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.positions import CycleError, Positions, at_times, rotary
 from linkwright.kinematics.whole_turns import MOST, whole_turns
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
 
 #: More positions of a cycle than one computer takes at once.
 MOST_POSITIONS = 10_000_000
@@ -67,7 +68,14 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
         return 0.0, cycle.duration, _closes(mechanism, cycle.duration)
     speed = first.law.constant_speed
     if not speed:
-        raise CycleError("motion.cycle_by_coordinate", name=first.name)
+        raise CycleError(
+            _(
+                "the cycle is given by the coordinate of driver {name!r}, which has no constant "
+                "speed; write cycle: {{duration: …}} instead",
+                code="motion.cycle_by_coordinate",
+                name=first.name,
+            )
+        )
     if cycle.turns is not None:
         duration = cycle.turns * 2 * np.pi / abs(speed)
         return 0.0, duration, _closes(mechanism, duration)

@@ -28,7 +28,7 @@ from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 #: Step of the search: of a turning driver in rad, of a sliding one as share of the mechanism's size; how far a
@@ -106,10 +106,10 @@ class InputRange:
     def _ends(self) -> str | tuple[str, ...]:
         low, high = self.low, self.high
         if low is not None and high is not None and (low.group, low.how) == (high.group, high.how):
-            return Sentence("range.both_ends", group=low.group, how=low.how)
+            return _("at both ends {group} {how}", group=low.group, how=low.how)
         return tuple(
-            Sentence(
-                "range.at",
+            _(
+                "at {place} {group} {how}",
                 place=reported(end.value, "angle" if self.rotary else "length"),
                 group=end.group,
                 how=end.how,
@@ -135,7 +135,7 @@ def input_range(mechanism: Mechanism, driver: str | None = None) -> InputRange:
     name = driver or next(iter(mechanism.drivers), None)
     if name is None or name not in mechanism.drivers:
         if not driver:
-            raise RequestError("range.no_driver", name=mechanism.name)
+            raise RequestError(_("{name!r} has no driver", code="range.no_driver", name=mechanism.name))
         raise RequestError(no_such("driver", driver, mechanism.drivers))
     search = _Search(mechanism, name)
     high = search.end(1.0)
@@ -157,7 +157,11 @@ def range_sentence(mechanism: Mechanism, links: Sequence[str] = ()) -> str:
             return found.explain()
         groups = [end.group for end in (found.low, found.high) if end is not None]
         if any(isinstance(each, Message) and each.values.get("links") == tuple(links) for each in groups):
-            return Sentence("range.others_still", told=found.explain())
+            return _(
+                "with the other drivers at their start {told}",
+                code="range.others_still",
+                told=found.explain(),
+            )
     return ""
 
 
@@ -222,10 +226,14 @@ class _Search:
             if len(good):
                 return float(q[good[0]])
         raise LinkwrightError(
-            "range.not_assembled",
-            name=self.mechanism.name,
-            driver=self.driver,
-            place=reported(nominal, "angle" if self.rotary else "length"),
+            _(
+                "{name!r} cannot be assembled at any coordinate of driver {driver!r} near {place}, "
+                "so it has no range; check the dimensions",
+                code="range.not_assembled",
+                name=self.mechanism.name,
+                driver=self.driver,
+                place=reported(nominal, "angle" if self.rotary else "length"),
+            )
         )
 
     # one direction --------------------------------------------------------------------------------
@@ -241,7 +249,15 @@ class _Search:
         if change and stop.group in (None, change) and abs(reached - place) < AHEAD * unit:
             group = next(each for each in self.solver.structure.groups if each.name == change)
             precision = (CHANGED + TOUCHED * math.sqrt(abs(stop.quality))) * unit
-            return _range_end(place, group, Sentence("range.change"), precision)
+            return _range_end(
+                place,
+                group,
+                _(
+                    "has a change point, through which the groups without closed form cannot be followed",
+                    code="range.change",
+                ),
+                precision,
+            )
         rough = COARSE * unit
         good, bad = (stop.good, stop.bad) if stop.group else self._narrowed(stop, rough)
         group, how = self._reason(stop, good, bad)
@@ -269,7 +285,7 @@ class _Search:
         if branch.complete:
             return stop
         reached = stop.good + branch.reached * (stop.bad - stop.good)
-        places = stop.good + np.array([end.x for _, end in branch.steps]) * (stop.bad - stop.good)
+        places = stop.good + np.array([end.x for _unused, end in branch.steps]) * (stop.bad - stop.good)
         fine = self._fine(stop, places)
         if not fine.all():
             return replace(stop, bad=float(places[np.argmin(fine)]))
@@ -391,7 +407,7 @@ class _Search:
         stuck = stuck or solver.follower().groups.formula.groups[-1].name
         told = getattr(placed[stuck].dyad, "at_end", None)
         if told is None:
-            return groups[stuck], Sentence("range.singular")
+            return groups[stuck], _("is singular", code="range.singular")
         facts = tuple(placed[stuck].facts)
         row = solver.evaluate(tuple(row_name("fact", stuck, on=fact) for fact in facts), ends, states, modes)[
             :, 0
@@ -400,7 +416,7 @@ class _Search:
 
 
 def _range_end(value: float, group: Group, how: str, precision: float) -> RangeEnd:
-    said = Sentence("range.group", signature=group.signature, links=tuple(group.links))
+    said = _("group {signature} ({links})", signature=group.signature, links=tuple(group.links))
     return RangeEnd(value, said, how, precision)
 
 

@@ -24,6 +24,7 @@ from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.structure import Structure
+from linkwright.words import _
 
 if TYPE_CHECKING:
     import pandas
@@ -225,7 +226,13 @@ class Motion(Plotted):
     def input(self) -> Floats:
         """Coordinate of the first driver, (n,) rad or m."""
         if not self.inputs:
-            raise RequestError("motion.no_input", name=self.mechanism.name)
+            raise RequestError(
+                _(
+                    "{name!r} has no driver, so it has no input",
+                    code="motion.no_input",
+                    name=self.mechanism.name,
+                )
+            )
         return next(iter(self.inputs.values()))
 
     @cached_property
@@ -326,7 +333,14 @@ class Motion(Plotted):
                 locked(b.angular_acceleration - a.angular_acceleration),
             )
         hint = offered(name, self.mechanism.joints)
-        raise RequestError("motion.no_coordinate", name=name, hint=hint)
+        raise RequestError(
+            _(
+                "there is no joint {name!r} with a coordinate; {hint}",
+                code="motion.no_coordinate",
+                name=name,
+                hint=hint,
+            )
+        )
 
     def reaction_place(self, joint: str) -> Floats:
         """Where the force of a joint is reported, (n, 2) m in frame axes: a pin, a block's point, a pitch point."""

@@ -14,7 +14,7 @@ from linkwright.loads.signals import place_named
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.named_output import named_outputs
 from linkwright.registry import no_such, offered
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: Kinds of outputs that are phrases, ``transmission_angle B``, by their first words.
 PHRASES = {
@@ -48,7 +48,15 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
         points = mechanism.link(link).points
         if point not in points:
             hint = offered(point, points)
-            raise RequestError("names.no_such_point", link=link, name=point, hint=hint)
+            raise RequestError(
+                _(
+                    'there is no point of link {link}: "{name}"; {hint}',
+                    code="names.no_such_point",
+                    link=link,
+                    name=point,
+                    hint=hint,
+                )
+            )
         return link, point
     welded = {weld.links[1] for weld in mechanism.welds.values() if weld.at == name}
     found = [link for link in owners(mechanism, name) if link not in welded]
@@ -57,7 +65,14 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
         raise _unknown("point", name, everything)
     if len(found) > 1 and not mechanism.pin_links(name):
         choices = tuple(f"{link}.{name}" for link in found)
-        raise RequestError("motion.several_points", name=name, choices=choices)
+        raise RequestError(
+            _(
+                "several links have a point {name!r} of their own; say which: {choices}",
+                code="motion.several_points",
+                name=name,
+                choices=choices,
+            )
+        )
     return found[0], name
 
 
@@ -95,7 +110,14 @@ def place_meant(mechanism: Mechanism, text: str) -> Output:
     """
     meant, found = _output(mechanism, text), place_named(text, mechanism)
     if meant is not None and meant.kind in NAMED:
-        raise RequestError("motion.no_limits_of_formula", name=text)
+        raise RequestError(
+            _(
+                '"{name}" is a formula, whose limit positions are not found; ask for its extremes, '
+                '"{name} max" and "{name} min"',
+                code="motion.no_limits_of_formula",
+                name=text,
+            )
+        )
     if meant is None or found is None:
         points = [
             f"{point}.{axis}" for link in mechanism.links.values() for point in link.points for axis in "xy"
@@ -103,7 +125,15 @@ def place_meant(mechanism: Mechanism, text: str) -> Output:
         known = [*mechanism.links, *mechanism.guides, *points]
         if meant is None:
             no_output(mechanism, text, known)
-        raise RequestError("motion.no_output", text=text, hint=offered(text, known))
+        raise RequestError(
+            _(
+                "there is no output {text!r}; name a link (its angle), POINT.x, POINT.y or a guide "
+                "(its displacement); {hint}",
+                code="motion.no_output",
+                text=text,
+                hint=offered(text, known),
+            )
+        )
     return meant if found.kind == "displacement" else found
 
 
@@ -186,12 +216,20 @@ def no_output(mechanism: Mechanism, text: str, known: Iterable[str] = ()) -> NoR
     where none are given."""
     alone = () if "." in text else (*mechanism.links, *mechanism.guides)
     hint = offered(text, known or [*output_names(mechanism), *alone], "study.such_as", most=6)
-    raise RequestError("study.no_such_output", name=text, mechanism=mechanism.name, hint=hint)
+    raise RequestError(
+        _(
+            "there is no output {name!r} in {mechanism!r}; {hint}",
+            code="study.no_such_output",
+            name=text,
+            mechanism=mechanism.name,
+            hint=hint,
+        )
+    )
 
 
 def _part(mechanism: Mechanism, text: str) -> Output | None:
     """``OWNER.PART``, with ``.x`` or ``.y`` of what is a vector; ``POINT.x``."""
-    base, _, last = text.rpartition(".")
+    base, _unused, last = text.rpartition(".")
     axis = last if last in ("x", "y") else ""
     if axis and base == "shaking_force":
         return Output(base, "", axis)
@@ -205,7 +243,7 @@ def _part(mechanism: Mechanism, text: str) -> Output | None:
             return Output(_PARTS["guide", last], guide)
     owner, part = base, last
     if axis:
-        owner, _, part = base.rpartition(".")
+        owner, _unused2, part = base.rpartition(".")
         if ("point", part) not in _PARTS:
             owner, part = base, "position"
     if not owner or ("point", part) not in _PARTS or (part == "position" and not axis):
@@ -245,7 +283,7 @@ def _phrase(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Outp
 
 def _over_column(mechanism: Mechanism, text: str, joint: str, place: str) -> Output | None:
     """``JOINT on LINK``, with ``.magnitude``, ``.x``, ``.y`` or ``.direction`` of the force, or ``.couple``."""
-    link, _, part = place.partition(".")
+    link, _unused, part = place.partition(".")
     axis = f".{part}" if part in ("x", "y") else ""
     if not axis and part not in ("", "magnitude", "direction", "couple"):
         return None
@@ -263,11 +301,25 @@ def _at_joint(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Ou
         return None
     joint, joined = rest[0], joints[rest[0]].joined
     if len(rest) == 3 and rest[2] not in joined:
-        told = Sentence("study.not_touching", name=text, joint=joint, link=rest[2], joined=tuple(joined))
+        told = _(
+            "{name!r}: joint {joint!r} does not touch {link!r}; it joins {joined}",
+            code="study.not_touching",
+            name=text,
+            joint=joint,
+            link=rest[2],
+            joined=tuple(joined),
+        )
         raise RequestError(told)
     links = rest[2:] or [link for link in joined if link != "frame"]
     if len(links) != 1:
-        told = Sentence("study.say_link", name=text, joint=joint, joined=tuple(joined), moving=links[0])
+        told = _(
+            '{name!r}: joint {joint!r} joins {joined}; say on which link: "{name} on {moving}"',
+            code="study.say_link",
+            name=text,
+            joint=joint,
+            joined=tuple(joined),
+            moving=links[0],
+        )
         raise RequestError(told)
     return Output(kind, joint, axis, links[0])
 

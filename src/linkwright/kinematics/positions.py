@@ -21,7 +21,7 @@ from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.units import LARGEST, SI_UNITS
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 #: Dimensions of a coordinate and its rates, by whether the driver turns.
@@ -77,7 +77,9 @@ class Positions:
         """Whether the positions are a cycle, or follow each other closely enough to be one motion."""
         if self.cycle or self.count < 3:
             return self.cycle
-        steps = (np.abs(np.diff(q)).max() for name, (q, *_) in self.coordinates.items() if self.rotary[name])
+        steps = (
+            np.abs(np.diff(q)).max() for name, (q, *_unused) in self.coordinates.items() if self.rotary[name]
+        )
         return self.closed or bool(max(steps, default=0.0) <= LARGEST_STEP)
 
     @property
@@ -88,7 +90,9 @@ class Positions:
     @cached_property
     def paces(self) -> dict[str, float]:
         """The largest rate of every driver, rad/s or m/s."""
-        return {name: float(np.abs(rate).max()) for name, (_, rate, _) in self.coordinates.items()}
+        return {
+            name: float(np.abs(rate).max()) for name, (_unused, rate, _unused2) in self.coordinates.items()
+        }
 
     @property
     def turns(self) -> float:
@@ -124,7 +128,7 @@ def at_times(mechanism: Mechanism, time: ArrayLike, period: float | None = None)
     """The positions at given times, s, of a closed cycle that is back after a ``period``, s, if one is given."""
     t = _numbers(time)
     if not np.isfinite(t).all():
-        raise CycleError("motion.bad_time")
+        raise CycleError(_("a time is not a finite number; give times in seconds", code="motion.bad_time"))
     coordinates = {name: _driven(driver, t) for name, driver in mechanism.drivers.items()}
     return Positions(t, coordinates, rotary(mechanism), period)
 
@@ -138,11 +142,30 @@ def _numbers(given: ArrayLike) -> Floats:
         )
         if texts:
             raise CycleError(
-                "motion.text_for_number", text=str(texts[0])[:60], right=_in_si(str(texts[0]))
+                _(
+                    '"{text}" is a text; give the number in SI units (rad, m, s): {right}',
+                    code="motion.text_for_number",
+                    text=str(texts[0])[:60],
+                    right=_in_si(str(texts[0])),
+                )
             ) from None
-        raise CycleError("motion.no_numbers", given=repr(given)[:60]) from None
+        raise CycleError(
+            _(
+                "{given} is no input and no time; give numbers in SI units (rad, m, s), such as 0.5 "
+                "or [0.0, 0.5]",
+                code="motion.no_numbers",
+                given=repr(given)[:60],
+            )
+        ) from None
     if found.ndim > 1:
-        raise CycleError("motion.no_row", shape=str(found.shape))
+        raise CycleError(
+            _(
+                "inputs and times stand in one row, not in an array of the shape {shape}; give a "
+                "number per position",
+                code="motion.no_row",
+                shape=str(found.shape),
+            )
+        )
     return found
 
 
@@ -165,7 +188,15 @@ def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
             value, at = float(row[bad[0]]), float(time[bad[0]])
             shown = f"{value:g} {SI_UNITS[kind]}"
             raise CycleError(
-                "motion.law_beyond", name=driver.name, kind=Sentence(f"nouns.a_{kind}"), value=shown, time=at
+                _(
+                    "driver {name!r} gives {kind} of {value} at {time:g} s, which no machine has; change "
+                    "its law or the cycle",
+                    code="motion.law_beyond",
+                    name=driver.name,
+                    kind=Sentence(f"nouns.a_{kind}"),
+                    value=shown,
+                    time=at,
+                )
             )
     return rows
 
@@ -173,7 +204,7 @@ def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
 def off_law(mechanism: Mechanism, positions: Positions) -> str | None:
     """The first driver whose coordinates are not those of its law at the times of the positions; None without one."""
     known = at_times(mechanism, positions.time).coordinates
-    for name, (q, *_) in positions.coordinates.items():
+    for name, (q, *_unused) in positions.coordinates.items():
         lawful = known[name][0]
         if not (np.abs(q - lawful) <= 1e-12 + 1e-9 * np.abs(lawful)).all():
             return name
@@ -198,18 +229,39 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     coordinate is given, since then the time would not be known.
     """
     if not mechanism.drivers:
-        raise CycleError("motion.no_input_to_set", name=mechanism.name)
+        raise CycleError(
+            _(
+                "{name!r} has no driver, so there is no input to set; leave the input out",
+                code="motion.no_input_to_set",
+                name=mechanism.name,
+            )
+        )
     given = dict(at) if isinstance(at, Mapping) else {next(iter(mechanism.drivers)): at}
     if not given:
-        raise CycleError("motion.no_inputs", driver=next(iter(mechanism.drivers)))
+        raise CycleError(
+            _(
+                "no input is given; give the coordinates of a driver, as in at={{{driver!r}: [0.5]}}",
+                code="motion.no_inputs",
+                driver=next(iter(mechanism.drivers)),
+            )
+        )
     rows = {}
     for name, values in given.items():
         driver = _driver(mechanism, name)
         if driver.law.constant_speed is None:
-            raise CycleError("motion.own_law", name=name)
+            raise CycleError(
+                _(
+                    "driver {name!r} follows its own law in time; ask for positions by times instead of "
+                    "inputs",
+                    code="motion.own_law",
+                    name=name,
+                )
+            )
         q = _numbers(values)
         if not np.isfinite(q).all():
-            raise CycleError("motion.bad_input", name=name)
+            raise CycleError(
+                _("an input of driver {name!r} is not a finite number", code="motion.bad_input", name=name)
+            )
         rows[name] = q
     count = max(len(q) for q in rows.values())
     first, q = next(iter(rows.items()))
@@ -229,8 +281,8 @@ def rotary(mechanism: Mechanism) -> dict[str, bool]:
 
 def coordinate_text(name: str, value: float, rotary: bool) -> Message:
     """A driver's coordinate in words: ``crank = 30°``."""
-    own = Sentence("nouns.driver") if name == "driver" else name
-    return Sentence("motion.coordinate", name=own, value=reported(value, "angle" if rotary else "length"))
+    own = _("driver", code="nouns.driver") if name == "driver" else name
+    return _("{name} = {value}", name=own, value=reported(value, "angle" if rotary else "length"))
 
 
 def _driver(mechanism: Mechanism, name: str) -> Driver:

@@ -32,6 +32,7 @@ from linkwright.joints.base import Joint, LackingError
 from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
 from linkwright.kinematics.groups import upstream
 from linkwright.kinematics.motion import Motion
+from linkwright.words import _
 from linkwright.words.sentence import Sentence, in_language
 
 #: ``turn`` of a link, ``slide`` of a guide, ``drive`` of a driver.
@@ -119,13 +120,20 @@ class _Loops:
         groups, joints = upstream(motion.structure, self.mechanism), self.mechanism.joints
         for joint in (joints[each.joint] for group in groups for each in group.joints):
             if not (joint.higher or isinstance(joint, TurningJoint | SlidingJoint | RigidJoint)):
-                raise LinkwrightError("proof.kind", joint=joint.name)
+                raise LinkwrightError(
+                    _(
+                        "nothing can be proved of a motion with the joint {joint!r}: proofs know pins, "
+                        "guides, welds, and pairs of wheels, racks, belts and chains",
+                        code="proof.kind",
+                        joint=joint.name,
+                    )
+                )
         for step in (step for group in groups for step in group.tree):
             self._hang(joints[step.joint], step)
         cuts = [(joints[cut.joint], cut) for group in groups for cut in group.cuts]
         for joint, cut in (each for each in cuts if not each[0].higher):
             self._close(joint, cut)
-        for joint in (each for each, _ in cuts if each.higher):
+        for joint in (each for each, _unused in cuts if each.higher):
             self._add_sum(joint)
         self.unknowns = [key for key in self.unknowns if key not in self.sums.solved]
         self._matrices()
@@ -133,7 +141,7 @@ class _Loops:
     def _hang(self, joint: Joint, step: TreeJoint) -> None:
         """The child of a chain's joint on its parent."""
         place = self.place(step.parent, joint.point_on(step.parent))
-        rotation, offset, *_ = self.bodies[step.parent]
+        rotation, offset, *_unused = self.bodies[step.parent]
         if isinstance(joint, SlidingJoint):
             key = ("slide", joint.name) if step.driver is None else ("drive", step.driver)
             place = self._slid(place, key, joint, step.parent)
@@ -161,7 +169,7 @@ class _Loops:
     def _slid(self, place: Terms, key: Key, joint: SlidingJoint, link: str) -> Terms:
         """A place after a displacement along a guide as one of its links has it, and the offset across it."""
         sign, along = (1.0, joint.direction) if link == joint.guide else (-1.0, joint.block_angle)
-        rotation, offset, *_ = self.bodies[link]
+        rotation, offset, *_unused = self.bodies[link]
         way = sign * cmath.exp(1j * (offset + along))
         self.unknowns += [key] if key[0] == "slide" else []
         self.slides.append((key, rotation))
@@ -173,16 +181,23 @@ class _Loops:
         try:
             turns, slides, rest = joint.sums(self.mechanism)
         except LackingError:
-            raise LinkwrightError("proof.kind", joint=joint.name) from None
+            raise LinkwrightError(
+                _(
+                    "nothing can be proved of a motion with the joint {joint!r}: proofs know pins, "
+                    "guides, welds, and pairs of wheels, racks, belts and chains",
+                    code="proof.kind",
+                    joint=joint.name,
+                )
+            ) from None
         driven = {each.joint: name for name, each in self.mechanism.drivers.items()}
         terms = {("drive", driven[k]) if k in driven else ("slide", k): f for k, f in slides.items()}
         for link, factor in turns.items():
-            rotation, offset, *_ = self.bodies[link]
+            rotation, offset, *_unused = self.bodies[link]
             rest += factor * offset
             for key, share in self.rotations[rotation].items():
                 terms[key] = terms.get(key, 0.0) + factor * share
-        held = {key for loop in self.loops for c, _ in loop for key in self.rotations[c]}
-        held |= {self.slides[j][0] for loop in self.loops for _, j in loop if j >= 0}
+        held = {key for loop in self.loops for c, _unused in loop for key in self.rotations[c]}
+        held |= {self.slides[j][0] for loop in self.loops for _unused, j in loop if j >= 0}
         self.sums.add(terms, rest, lambda key: -np.inf if key[0] == "drive" else float(key not in held))
 
     def place(self, link: str, point: str) -> Terms:
@@ -194,9 +209,13 @@ class _Loops:
     def _matrices(self) -> None:
         keys = [*self.unknowns, *(("drive", name) for name in self.mechanism.drivers)]
         self.n, C, S, K = len(self.unknowns), len(self.rotations), len(self.slides), len(self.loops)
-        self.C, self.K, self.owner = C, K, np.array([rotation for _, rotation in self.slides], dtype=int)
+        self.C, self.K, self.owner = (
+            C,
+            K,
+            np.array([rotation for _unused, rotation in self.slides], dtype=int),
+        )
         rows, rests = np.zeros((C + S, len(keys))), np.zeros(C + S)
-        for k, terms in enumerate([*self.rotations, *({key: 1.0} for key, _ in self.slides)]):
+        for k, terms in enumerate([*self.rotations, *({key: 1.0} for key, _unused in self.slides)]):
             found, rests[k] = self.sums.reduced(terms)
             for key, factor in found.items():
                 rows[k, keys.index(key)] += factor
@@ -209,7 +228,7 @@ class _Loops:
                 if j >= 0:
                     self.b[j, k] += turned
         self.own, size = np.eye(C)[self.owner], self.mechanism.size
-        self.turns = np.array([kind == "turn" for kind, _ in self.unknowns], dtype=bool)
+        self.turns = np.array([kind == "turn" for kind, _unused in self.unknowns], dtype=bool)
         self.scale = np.where(self.turns, 1.0, size)
         self.unit = np.where([each.law.rotary for each in self.mechanism.drivers.values()], 1.0, size)
 
@@ -233,7 +252,7 @@ class _Loops:
     def root(self, y: Floats) -> Floats:
         """The root near y with the same drivers. Raises LinAlgError where Newton's method finds none."""
         y = y.copy()
-        for _ in range(8):
+        for _unused in range(8):
             at = self.turned(y)
             step = np.linalg.solve(self.slopes(at)[:, : self.n], _real(at[0] @ at[1]))
             y[: self.n] -= step
@@ -280,7 +299,7 @@ def _walked(loops: _Loops, begin: Floats, end: Floats) -> float:
     drive, x, y, least = end[loops.n :] - begin[loops.n :], 0.0, begin, 1.0
     pace = max(float(np.abs(drive / loops.unit).max(initial=0.0)), 1e-300)
     h = min(1.0, LONGEST / pace)
-    for _ in range(PATIENCE):
+    for _unused in range(PATIENCE):
         if x >= 1.0:
             gap = (y - end)[: loops.n] / loops.scale
             gap = np.where(loops.turns, 2.0 * np.sin(gap / 2.0), gap)

@@ -21,7 +21,7 @@ from linkwright.kinematics.constraint_equations import (
 )
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.mobility import counts, grubler
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 #: Singular values below this share of the largest one count as zero: at solved positions, and in a drawing.
@@ -115,7 +115,7 @@ def rank_at(system: ConstraintEquations, x: Floats, zero: float) -> tuple[int, t
     independent, found = np.empty((rank, system.freedoms)), 0
     for row, vector in zip(rows, matrix, strict=True):
         left = vector
-        for _ in range(2):
+        for _unused in range(2):
             left = left - (independent[:found] @ left) @ independent[:found]
         length = float(np.linalg.norm(left))
         if length > math.sqrt(zero) * float(np.linalg.norm(vector)) and found < rank:
@@ -158,7 +158,7 @@ def _spare_links(mechanism: Mechanism, x: Floats, zero: float) -> tuple[str, ...
     for name in reversed(list(mechanism.links)):
         if name in keep or not states.size:
             continue
-        _, sizes, directions = np.linalg.svd(forces[name] @ states)
+        _unused, sizes, directions = np.linalg.svd(forces[name] @ states)
         needed = int((sizes > math.sqrt(zero)).sum())
         trial, remaining = [*spare, name], states @ directions[needed:].T
         if needed and _freedoms_without(full, rows, trial) + remaining.shape[1] == mobility:
@@ -205,7 +205,7 @@ def _closed(system: ConstraintEquations, x: Floats, held: str | None = None) -> 
     from scipy.linalg import lstsq
 
     before = math.inf
-    for _ in range(60):
+    for _unused in range(60):
         rows = system.rows(x)
         gap = np.array([row.value for row in rows])
         if held is not None:
@@ -226,7 +226,7 @@ def _assembled(system: ConstraintEquations) -> tuple[Floats | None, int]:
     """
     random, found = np.random.default_rng(0), list[tuple[Floats | None, int]]()
     extent = np.tile([1.0, 1.0, math.pi], len(system.links))
-    for _ in range(STREWN):
+    for _unused in range(STREWN):
         strewn = random.uniform(-1.0, 1.0, system.freedoms) * extent
         here, gap = _closed(system, strewn, held=next(iter(system.mechanism.drivers), None))
         if gap <= CLOSED:
@@ -266,7 +266,18 @@ def report_of(
         return make(Sentence(f"rank.confirmed{where}", count=count))
     wheels = bool(guides) and all(mechanism.joints[name].higher for name in guides)
     if joints:
-        reason = Sentence("rank.joints" if len(joints) > 1 else "rank.joint", joints=_named(joints))
+        reason = (
+            _(
+                "the joints {joints} demand only what others demand already in this special "
+                "geometry; remove them",
+            )
+            if len(joints) > 1
+            else _(
+                "the joint {joints} demands only what others demand already in this special "
+                "geometry; remove it",
+                code="rank.joint",
+            )
+        ).format(joints=_named(joints))
     else:
         reason = _reason(redundant, links, special, guides, wheels)
     return make(Sentence(f"rank.differs{where}", count=count, mobility=mobility, reason=reason))
@@ -280,20 +291,42 @@ def _reason(
     wheels: bool,
 ) -> Message:
     if special:
-        return Sentence("rank.special", redundant=redundant)
-    if links:
-        return Sentence("rank.links" if len(links) > 1 else "rank.link", links=_named(links))
-    if guides and wheels:
-        return Sentence("rank.wheels", pairs=guides, redundant=redundant)
-    if guides:
-        return Sentence(
-            "rank.guides" if len(guides) > 1 else "rank.guide", guides=guides, redundant=redundant
+        return _(
+            "this is a special position, where the joints' equations are dependent "
+            "({redundant}); the additional freedom is lost as soon as the mechanism leaves it",
+            redundant=redundant,
         )
-    return Sentence("rank.passive", redundant=redundant)
+    if links:
+        return (
+            _("the links {links} are redundant in this special geometry; remove them")
+            if len(links) > 1
+            else _("the link {links} is redundant in this special geometry; remove it", code="rank.link")
+        ).format(links=_named(links))
+    if guides and wheels:
+        return _(
+            "the pairs {pairs} demand again what others demand already ({redundant})",
+            pairs=guides,
+            redundant=redundant,
+        )
+    if guides:
+        return (
+            _(
+                "the guides {guides} close a loop in which rotation is already prevented ({redundant})",
+            )
+            if len(guides) > 1
+            else _(
+                "the guide {guides} closes a loop in which rotation is already prevented ({redundant})",
+                code="rank.guide",
+            )
+        ).format(guides=guides, redundant=redundant)
+    return _(
+        "passive constraints ({redundant}) demand what other joints already demand, by the special lengths",
+        redundant=redundant,
+    )
 
 
 def _named(names: Sequence[str]) -> tuple[Message, ...]:
-    return tuple(Sentence("rank.named", name=name) for name in names)
+    return tuple(_("'{name}'", name=name) for name in names)
 
 
 def _said(rows: Sequence[Row]) -> tuple[Message, ...]:
@@ -306,5 +339,11 @@ def _gaping(
     from linkwright.units import number
 
     count = grubler(counts(mechanism))
-    said = Sentence("rank.gaping", count=count, gap=f"{number(gap * system.size, 3)} m")
+    said = _(
+        "Grübler gives {count}; the links do not fit together near the drawing: at best a "
+        "gap of {gap} is left, so no link is redundant there",
+        code="rank.gaping",
+        count=count,
+        gap=f"{number(gap * system.size, 3)} m",
+    )
     return RankReport(rank, system.freedoms, system.freedoms - count, count, _said(implied), (), False, said)

@@ -17,7 +17,7 @@ from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 
 def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
@@ -29,7 +29,13 @@ def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
     position is not solved.
     """
     if not motion.ok[index]:
-        raise LinkwrightError("motion.no_rank", index=index)
+        raise LinkwrightError(
+            _(
+                "position {index} is not solved, so its Jacobian has no rank; choose another one",
+                code="motion.no_rank",
+                index=index,
+            )
+        )
     mechanism = motion.mechanism
     here = coordinates(motion, index)
     redundant: tuple[Row, ...] = ()
@@ -52,7 +58,11 @@ def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
     if len(good):
         return jacobian_rank(motion, int(good[0])).say(language)
     outcome = motion.outcomes[0]
-    return Sentence("rank.singular", outcome=outcome).say(language) if outcome.kind == "singular" else ""
+    return (
+        _("At the start of the cycle {outcome}, whatever the count says", outcome=outcome).say(language)
+        if outcome.kind == "singular"
+        else ""
+    )
 
 
 def coordinates(motion: Motion, index: int) -> Floats:
@@ -79,7 +89,7 @@ def _rank_of_groups(mechanism: Mechanism, built: Structure, x: Floats) -> int | 
     turn = {link: number for number, group in enumerate(built.groups) for link in group.links}
     system = ConstraintEquations(mechanism, order={"frame": -1, **turn})
     rows = [*system.rows(x), *(system.driver_row(name, x) for name in mechanism.drivers)]
-    of_group: list[list[Row]] = [[] for _ in built.groups]
+    of_group: list[list[Row]] = [[] for _unused in built.groups]
     for row in rows:
         of_group[max(turn.get(link, -1) for link in row.parts)].append(row)
     for group, own in zip(built.groups, of_group, strict=True):

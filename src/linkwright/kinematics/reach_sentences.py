@@ -20,7 +20,7 @@ from linkwright.kinematics.positions import Positions, coordinate_text
 from linkwright.kinematics.whole_turns import MOST
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import number
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -61,30 +61,67 @@ def turn_notes(motion: Motion) -> tuple[Message, ...]:
         return (Sentence(key, turns=turns, driver=driver),)
     if (count := together(mechanism)) > FEW:
         return (_apart(mechanism, count),)
-    return (Sentence("cycle.never_back", most=MOST),) if mechanism.higher and not_back(mechanism) else ()
+    return (
+        (
+            _(
+                "the wheels or racks do not come back to where they began within {most} turns, so "
+                "one turn of the driver is taken as an open cycle",
+                most=MOST,
+            ),
+        )
+        if mechanism.higher and not_back(mechanism)
+        else ()
+    )
 
 
 def _apart(mechanism: Mechanism, count: float) -> Message:
     """That drivers of several speeds are back together only after many turns, or not even then."""
     natural, driver = max((d.law.natural_duration() or 0.0, name) for name, d in mechanism.drivers.items())
     if math.isinf(count):
-        return Sentence("cycle.drivers_never_back", most=MOST, driver=driver)
-    return Sentence(
-        "cycle.drivers_apart", turns=int(count), driver=driver, duration=number(count * natural, 9)
+        return _(
+            "the drivers are not back together within {most} turns of {driver!r}, so one of "
+            "these is taken as an open cycle",
+            code="cycle.drivers_never_back",
+            most=MOST,
+            driver=driver,
+        )
+    return _(
+        "all drivers are back only after {turns} turns of {driver!r}, so one of these is "
+        "taken as an open cycle; cycle: {{duration: {duration} s}} takes them all",
+        code="cycle.drivers_apart",
+        turns=int(count),
+        driver=driver,
+        duration=number(count * natural, 9),
     )
 
 
 def branch_notes(motion: Motion) -> tuple[Message, ...]:
     """That groups that are followed do not come back to their start."""
     way = motion.followed
-    return () if way is None or way.returns is not False else (Sentence("cycle.not_back"),)
+    return (
+        ()
+        if way is None or way.returns is not False
+        else (
+            _(
+                "after one cycle the groups without closed form are in another assembly than at its "
+                "start: the motion does not repeat after one cycle",
+                code="cycle.not_back",
+            ),
+        )
+    )
 
 
 def passage_notes(passing: Sequence[Passage], positions: Positions) -> tuple[Message, ...]:
     """What the user should know about change points and gaps between positions."""
     said = [_passage_note(p, positions) for p in passing]
     if positions.closed and not closes(passing):
-        said.append(Sentence("cycle.two_cycles"))
+        said.append(
+            _(
+                "after one cycle the mechanism is in its other assembly mode: the motion repeats "
+                "after two cycles",
+                code="cycle.two_cycles",
+            )
+        )
     return tuple(dict.fromkeys(said))
 
 
@@ -113,12 +150,20 @@ class _Facts:
     def outcome(self, place: int, index: int) -> Outcome:
         code = self.motion.outcome_codes[index]
         if code == 0 or not np.isfinite(code):
-            return Outcome(False, Sentence("outcome.barred"), None, "barred")
+            return Outcome(
+                False,
+                _(
+                    "the way from the first position to this one is barred by a position out of reach",
+                    code="outcome.barred",
+                ),
+                None,
+                "barred",
+            )
         group = self.groups[int(abs(code)) - 1]
         for joint in self.motion.mechanism.joints.values():
             misfit = joint.misfit(self.motion.mechanism) if set(joint.joined) & set(group.links) else None
             if misfit is not None:
-                said = Sentence("outcome.misfit", joint=joint.name, reason=misfit)
+                said = _("the pair {joint!r} does not fit: {reason}", joint=joint.name, reason=misfit)
                 return Outcome(False, said, group.name, "misfit")
         placed = self.motion.solver.motion.placed[group.name]
         if placed.dyad is None:
@@ -169,4 +214,8 @@ def input_at(motion: Motion, index: int) -> str:
         coordinate_text(name, float(q[index]), motion.positions.rotary[name])
         for name, q in motion.inputs.items()
     ]
-    return Sentence("motion.input", parts=tuple(parts)) if parts else Sentence("motion.only_position")
+    return (
+        _("input {parts}", parts=tuple(parts))
+        if parts
+        else _("its only position", code="motion.only_position")
+    )

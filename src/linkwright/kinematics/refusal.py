@@ -8,18 +8,25 @@ from linkwright.kinematics.input_range import range_sentence
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.outcome import Outcome, PositionError
 from linkwright.kinematics.reach_sentences import input_at, way_stopped
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 
 def _not_passed(motion: Motion) -> PositionError:
     """The error for a cycle that is barred between two positions, though all of them are reached from both sides."""
-    barred = Outcome(False, Sentence("outcome.between"), None, "barred")
+    barred = Outcome(False, _("the way is barred between two positions"), None, "barred")
     way, told = motion.followed, (barred, *motion.notes)
     if way is not None and way.stops:
         group = next(each for each in motion.structure.groups if each.name == way.stops[0].group)
         told = (barred, way_stopped(motion, group, way.stops[0]), *motion.notes)
-    said = Sentence(
-        "motion.not_passed", name=motion.mechanism.name, told=told, advice=Sentence("motion.advice")
+    said = _(
+        "{name!r} cannot pass its cycle: {told}; {advice}",
+        code="motion.not_passed",
+        name=motion.mechanism.name,
+        told=told,
+        advice=_(
+            "change the dimensions, the assembly or the range of the input (cycle: {{from: …, "
+            "to: …}}), or ask for marked outcomes",
+        ),
     )
     return PositionError(said, (), barred)
 
@@ -33,15 +40,26 @@ def refusal(motion: Motion) -> PositionError:
     outcome = motion.outcomes[first]
     where = input_at(motion, first)
     if len(failed) > 1:
-        where = Sentence("motion.of_positions", where=where, failed=len(failed), steps=motion.steps)
+        where = _(
+            "{where} ({failed} of {steps} positions fail)",
+            where=where,
+            failed=len(failed),
+            steps=motion.steps,
+        )
     links = next((each.links for each in motion.structure.groups if each.name == outcome.group), ())
     told = list(motion.notes) if outcome.kind == "barred" else range_sentence(motion.mechanism, tuple(links))
-    said = Sentence(
-        "motion.refused_told" if told else "motion.refused",
+    said = (
+        _("{name!r} cannot be solved at {where}: {sentence}; {told}; {advice}", code="motion.refused_told")
+        if told
+        else _("{name!r} cannot be solved at {where}: {sentence}; {advice}", code="motion.refused")
+    ).format(
         name=motion.mechanism.name,
         where=where,
         sentence=outcome,
         told=told,
-        advice=Sentence("motion.advice"),
+        advice=_(
+            "change the dimensions, the assembly or the range of the input (cycle: {{from: …, "
+            "to: …}}), or ask for marked outcomes",
+        ),
     )
     return PositionError(said, tuple(int(i) for i in failed), outcome)

@@ -28,6 +28,7 @@ from linkwright.kinematics.positions import Positions, at_inputs, at_times
 from linkwright.kinematics.reach_sentences import branch_notes, passage_notes, turn_notes
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
 
 #: Positions of the turn along which change points are looked for.
 LOOKS = 360
@@ -75,7 +76,12 @@ def _positions(
     endpoint: bool,
 ) -> Positions:
     if at is not None and times is not None:
-        raise RequestError("motion.at_and_times")
+        raise RequestError(
+            _(
+                "positions are given by inputs (at) and by times; give one of the two",
+                code="motion.at_and_times",
+            )
+        )
     if at is not None:
         positions = at_inputs(mechanism, at)
     elif times is not None:
@@ -83,7 +89,13 @@ def _positions(
     else:
         return over_cycle(mechanism, steps, endpoint)
     if not positions.count:
-        raise RequestError("motion.no_positions")
+        raise RequestError(
+            _(
+                "no positions are given; give an input or a time, or leave at and times out for the "
+                "whole cycle",
+                code="motion.no_positions",
+            )
+        )
     return positions
 
 
@@ -122,7 +134,14 @@ class MotionRun:
     def solve(self, failures: str = "raise", stored: tuple[str, ...] = ()) -> Motion:
         """The motion, with change points passed smoothly; ``stored``: the outputs evaluated at once, all if empty."""
         if failures not in ("raise", "mark"):
-            raise RequestError("motion.no_failures", given=failures)
+            raise RequestError(
+                _(
+                    "failures is {given!r}; give 'raise' to refuse positions that cannot be reached, or "
+                    "'mark' to mark them",
+                    code="motion.no_failures",
+                    given=failures,
+                )
+            )
         followed = self.solver.follow(self.positions, apart=self.single)
         at_once = None if followed or stored or self.single else self._at_once()
         if at_once is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure, StructureError, structure
 from linkwright.structure.mobility import counts, grubler
+from linkwright.words import _
 
 
 def analysed(mechanism: Mechanism) -> Structure:
@@ -24,4 +25,6 @@ def analysed(mechanism: Mechanism) -> Structure:
             report = rank_from_dimensions(mechanism)
         if report is None:
             raise
-        raise StructureError("rank.besides", cause=error, sentence=report) from None
+        raise StructureError(
+            _("{cause}. {sentence}", code="rank.besides", cause=error, sentence=report)
+        ) from None

@@ -10,6 +10,7 @@ from linkwright.core.outputs import POINT, Output, row_names
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.named_output import named_outputs
+from linkwright.words import _
 
 if TYPE_CHECKING:
     import pandas
@@ -71,6 +72,8 @@ def dataframe(named: Mapping[str, Floats], *, index: str | None = None) -> panda
     try:
         import pandas
     except ImportError as error:
-        raise LinkwrightError("motion.needs_pandas") from error
+        raise LinkwrightError(
+            _("pandas is not installed; install it with: pip install pandas", code="motion.needs_pandas")
+        ) from error
     table = pandas.DataFrame(dict(named))
     return table if index is None else table.set_index(index)

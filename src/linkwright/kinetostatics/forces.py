@@ -18,6 +18,7 @@ from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
+from linkwright.words import _
 
 if TYPE_CHECKING:
     import pandas
@@ -152,7 +153,12 @@ class Forces(Plotted):
     def input_torque_from_power(self) -> Floats:
         """The same from the powers of all forces, (n,); for one driver; NaN where it stands still."""
         if len(self.mechanism.drivers) != 1:
-            raise RequestError("forces.one_sum")
+            raise RequestError(
+                _(
+                    "with several drivers the powers give one sum, not the effort of one driver",
+                    code="forces.one_sum",
+                )
+            )
         rate = self.motion.positions.coordinates[self._first_driver()][1]
         with np.errstate(all="ignore"):
             return locked(np.where(rate == 0.0, np.nan, self.power / rate))
@@ -226,10 +232,26 @@ class Forces(Plotted):
         if on is None:
             others = [link for link in links if link != "frame"]
             if len(others) != 1:
-                raise RequestError("forces.say_link", joint=joint, links=tuple(links), first=others[0])
+                raise RequestError(
+                    _(
+                        "joint {joint!r} joins {links}; say on which link: on={first!r}",
+                        code="forces.say_link",
+                        joint=joint,
+                        links=tuple(links),
+                        first=others[0],
+                    )
+                )
             return others[0]
         if on not in links:
-            raise RequestError("forces.not_touching", joint=joint, link=on, links=tuple(links))
+            raise RequestError(
+                _(
+                    "joint {joint!r} does not touch link {link!r}; it joins {links}",
+                    code="forces.not_touching",
+                    joint=joint,
+                    link=on,
+                    links=tuple(links),
+                )
+            )
         return on
 
     def guide_direction(self, joint: str) -> Floats:
@@ -247,7 +269,13 @@ class Forces(Plotted):
     def _first_driver(self) -> str:
         drivers = self.motion.design.base.drivers
         if not drivers:
-            raise RequestError("forces.no_driver", name=self.mechanism.name)
+            raise RequestError(
+                _(
+                    "{name!r} has no driver, so it has no input torque",
+                    code="forces.no_driver",
+                    name=self.mechanism.name,
+                )
+            )
         return next(iter(drivers))
 
     def fetch(self, names: tuple[str, ...]) -> list[Floats]:

@@ -28,6 +28,7 @@ from linkwright.kinetostatics.outputs import ForceOutputs
 from linkwright.kinetostatics.trace import ForceTrace
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
+from linkwright.words import _
 
 #: What jerks are the rates of.
 _ACCELERATIONS = {
@@ -137,7 +138,15 @@ class Named:
         seeds: dict[Value, Scalar] = {}
         for driver in self.mechanism.drivers.values():
             if driver.law.constant_speed is None:
-                raise RequestError("study.no_jerk", name=name, driver=driver.name)
+                raise RequestError(
+                    _(
+                        "{name!r}: a jerk needs drivers of constant speed, but the driver {driver} has "
+                        "another law",
+                        code="study.no_jerk",
+                        name=name,
+                        driver=driver.name,
+                    )
+                )
             given = self.motion.motion.drivers[driver.name]
             if given.turn is None:
                 seeds[trace.position(Input("slide", driver.name).name)] = given.rate
@@ -188,7 +197,7 @@ class Named:
             return self._named(output)[NAMED.index(output.kind) + order]
         if output.kind == "angle" and order == 0:
             return self._continuous(output.owner)
-        for _ in range(order):
+        for _unused in range(order):
             output = output.rate
         found = self._traced(str(output), output)
         return _component(found, output.component) if isinstance(found, Vec) else found
@@ -209,7 +218,7 @@ class Named:
         if turn is None:
             return no_output(self.mechanism, name)
         cosine, sine = turn.x, turn.y
-        for _ in range(int(output.on) - 1):
+        for _unused in range(int(output.on) - 1):
             cosine, sine = cosine * turn.x - sine * turn.y, sine * turn.x + cosine * turn.y
         return cosine if output.kind == "cosine" else sine
 
@@ -225,7 +234,14 @@ class Named:
             quality = placed[group.name].quality
             total = quality if total is None else minimum(total, quality)
         if total is None:
-            raise RequestError("study.no_closed_form", name=name)
+            raise RequestError(
+                _(
+                    "{name!r}: there is no group with a closed form, and only those tell how near they "
+                    "are to a singular position; choose another output",
+                    code="study.no_closed_form",
+                    name=name,
+                )
+            )
         return total
 
     def transmission_angle(self, name: str, output: Output) -> Scalar:
@@ -264,7 +280,7 @@ class Named:
 
     def areal_velocity(self, name: str, output: Output) -> Scalar:
         """Area per time that the line from the frame's origin to a point sweeps over, counter-clockwise positive."""
-        place, velocity, _ = self.motion.outputs.point(output.owner)
+        place, velocity, _unused = self.motion.outputs.point(output.owner)
         return 0.5 * place.cross(velocity)
 
     def distance(self, name: str, output: Output) -> Scalar:
@@ -295,7 +311,16 @@ class Named:
     def _dyad(self, name: str, output: Output) -> Group:
         group = self._group(name, output)
         if len(group.unknowns) != 2 or group not in closable(self.motion.structure):
-            raise RequestError("study.no_dyad", name=name, links=tuple(group.links), group=group.signature)
+            raise RequestError(
+                _(
+                    "{name!r}: a transmission angle is that of a dyad cut at a pin; {group} ({links}) is "
+                    "none; use conditioning",
+                    code="study.no_dyad",
+                    name=name,
+                    links=tuple(group.links),
+                    group=group.signature,
+                )
+            )
         return group
 
     def _group(self, name: str, output: Output) -> Group:
@@ -304,7 +329,15 @@ class Named:
         inner |= {c.joint: g for g in self.motion.structure.groups for c in g.inner_joints}
         if joint not in inner:
             hint = offered(joint, inner, "study.inner_joints")
-            raise RequestError("study.not_inner", name=name, joint=joint, hint=hint)
+            raise RequestError(
+                _(
+                    "{name!r}: {joint!r} is not the inner joint of a group; {hint}",
+                    code="study.not_inner",
+                    name=name,
+                    joint=joint,
+                    hint=hint,
+                )
+            )
         return inner[joint]
 
 

@@ -26,7 +26,7 @@ from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.over_cycle import evaluate
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import format as spelled
-from linkwright.words import Message, has
+from linkwright.words import Message, _, has
 from linkwright.words.sentence import Sentence, together
 
 #: Iterations of the friction, and the change, as share of what the largest reaction causes, at which these end.
@@ -97,7 +97,7 @@ def _contacts_lost(forces: Forces) -> Iterable[Message]:
         runs = np.split(at, np.flatnonzero(np.diff(at) > 1) + 1)
         ends = [motion.input[run[[0, -1]]].tolist() for run in runs]
         places = tuple(
-            Sentence("forces.from_to", first=spelled(first, *unit), last=spelled(last, *unit))
+            _("from {first} to {last} of the input", first=spelled(first, *unit), last=spelled(last, *unit))
             for first, last in ends
         )
         sizes = np.linalg.norm(forces.reaction(name, on=joint.joined[-1]), axis=1)[at]
@@ -116,9 +116,23 @@ def _contacts_lost(forces: Forces) -> Iterable[Message]:
 def _indeterminate(motion: Motion) -> tuple[str, ...]:
     """Says which couples and forces statics cannot tell, because others prevent the same rotation."""
     guides = [c.joint for group in motion.structure.groups for c in group.cuts if c.slides]
-    said = [Sentence("forces.indeterminate", name=name) for name in guides]
+    said = [
+        _(
+            "the couple of guide {name!r} is statically indeterminate, as other guides prevent "
+            "the same rotation: it is taken as zero, and the couples of those guides carry all",
+            code="forces.indeterminate",
+            name=name,
+        )
+        for name in guides
+    ]
     if passive := motion.structure.passive:
-        said.append(Sentence("forces.passive", names=passive))
+        said.append(
+            _(
+                "how the passive pairs {names} and the pairs beside them share the load is "
+                "statically indeterminate: the passive ones are taken as unloaded",
+                names=passive,
+            )
+        )
     return tuple(said)
 
 
@@ -141,7 +155,7 @@ def _with_friction(motion: Motion, solver: ForceSolver, fields: dict[str, Floats
     wanted = (*(caused_name(name) for name in names), *reactions)
     most = max(term.arm for term in terms)
     previous, growing = np.inf, 0
-    for _ in range(FRICTION_STEPS):
+    for _unused in range(FRICTION_STEPS):
         values = solver.evaluate(wanted, motion, fields)
         values[:, ~ok] = np.nan
         sizes = values[: len(names)]
@@ -161,4 +175,12 @@ def _locked(motion: Motion, terms: tuple[FrictionTerm, ...], fields: dict[str, F
     worst = max(terms, key=lambda t: float(np.nanmax(np.abs(fields[t.field]), initial=0.0)))
     place = int(np.nanargmax(np.abs(fields[worst.field])))
     where = input_at(motion, place)
-    return Sentence("forces.self_locking", name=motion.mechanism.name, where=where, joint=worst.joint)
+    return _(
+        "{name!r} is self-locking by friction near {where}: the friction in joint {joint!r} "
+        "grows without bound in the iteration, so no driver effort moves it; reduce the "
+        "friction coefficient or the pin radius, or improve the transmission angle there",
+        code="forces.self_locking",
+        name=motion.mechanism.name,
+        where=where,
+        joint=worst.joint,
+    )

@@ -13,7 +13,7 @@ from linkwright.core.outputs import Output, kind_of
 from linkwright.core.quantity import shown
 from linkwright.errors import SelfCheckError
 from linkwright.kinematics.reach_sentences import input_at
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion, Rows
@@ -105,26 +105,39 @@ class ForceChecks:
         row, place = _worst(left, largest)
         at = Output.of_row(self.forces.checks[row])
         raise SelfCheckError(
-            "forces.unbalanced",
-            name=motion.mechanism.name,
-            where=input_at(motion, place),
-            joint=at.owner,
-            link=at.on,
-            gap=shown(left[row, place], "force", 3),
-            size=shown(largest[place], "force", 3),
-            check_failed=Sentence("forces.check_failed"),
+            _(
+                "the forces of {name!r} do not pass their own check at {where}: link {link!r} is out "
+                "of balance at joint {joint!r} by {gap}, beside forces of up to {size}. "
+                "{check_failed}",
+                code="forces.unbalanced",
+                name=motion.mechanism.name,
+                where=input_at(motion, place),
+                joint=at.owner,
+                link=at.on,
+                gap=shown(left[row, place], "force", 3),
+                size=shown(largest[place], "force", 3),
+                check_failed=_(
+                    "Next to a singular position the numbers may have no digits left: ask for positions "
+                    "away from it. Elsewhere this is an error of the program, and no result may be used: "
+                    "please report it with the model file",
+                ),
+            )
         )
 
 
 def _differ(key: str, unit: str, gaps: Floats, sizes: Floats, motion: Motion) -> NoReturn:
-    _, place = _worst(gaps[None], sizes)
+    _unused, place = _worst(gaps[None], sizes)
     raise SelfCheckError(
         key,
         name=motion.mechanism.name,
         where=input_at(motion, place),
         gap=f"{gaps[place]:.3g} {unit}",
         size=f"{sizes[place]:.3g} {unit}",
-        check_failed=Sentence("forces.check_failed"),
+        check_failed=_(
+            "Next to a singular position the numbers may have no digits left: ask for positions "
+            "away from it. Elsewhere this is an error of the program, and no result may be used: "
+            "please report it with the model file",
+        ),
     )
 
 

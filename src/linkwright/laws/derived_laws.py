@@ -9,6 +9,7 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.laws.base import MotionLaw
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,15 @@ class Portion(MotionLaw):
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.start < self.end <= 1.0 or abs(self._rise) < 1e-9:
-            raise RequestError("laws.portion", start=self.start, end=self.end)
+            raise RequestError(
+                _(
+                    "the portion from u = {start:.6g} to {end:.6g} is no rise; give two places from 0 to "
+                    "1 between which the law moves",
+                    code="laws.portion",
+                    start=self.start,
+                    end=self.end,
+                )
+            )
 
     @property
     def _rise(self) -> float:
@@ -75,7 +84,14 @@ class Shifted(MotionLaw):
         size = max(1.0, float(np.abs(near[1]).max()))
         uneven = max(np.abs(near[0] + far[0] - 1.0).max(), np.abs(near[1] - far[1]).max() / size)
         if not 0.05 <= self.crossover <= 0.95 or uneven > 1e-9:
-            raise RequestError("laws.crossover", crossover=self.crossover)
+            raise RequestError(
+                _(
+                    "the turning point cannot be moved to u = {crossover:.6g}; take a symmetric law and "
+                    "a place from 0.05 to 0.95",
+                    code="laws.crossover",
+                    crossover=self.crossover,
+                )
+            )
 
     @property
     def breaks(self) -> tuple[float, ...]:

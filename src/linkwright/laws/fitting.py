@@ -10,6 +10,7 @@ from linkwright.errors import RequestError, UnknownName
 from linkwright.laws.base import END_KINDS, MOTION_LAWS, Ends, MotionLaw
 from linkwright.laws.derived_laws import Backwards, Portion, Shifted
 from linkwright.registry import no_such
+from linkwright.words import _
 
 
 def motion_law(
@@ -83,7 +84,14 @@ def laws_for(start: str, end: str) -> tuple[FittingLaw, ...]:
     """
     for each in (start, end):
         if each not in END_KINDS:
-            raise RequestError("laws.end_kind", kind=each, known=tuple(END_KINDS))
+            raise RequestError(
+                _(
+                    'there is no kind of end called "{kind}"; give one of {known}',
+                    code="laws.end_kind",
+                    kind=each,
+                    known=tuple(END_KINDS),
+                )
+            )
     own: dict[FittingLaw, None] = {}
     any_ends = []
     for name, kind in MOTION_LAWS.items():

@@ -14,6 +14,7 @@ from linkwright.errors import RequestError
 from linkwright.fields.base import Quantities, Quantity, Word, given
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
 from linkwright.laws.pieces import Pieces
+from linkwright.words import _
 
 AIMS = {"velocity": 1, "acceleration": 2, "jerk": 3, "residual": 0}
 #: Pieces of the spline, places of the residual spectrum, directions in which its size is bounded.
@@ -45,11 +46,28 @@ class OptimizedSpline(MotionLaw):
 
     def __post_init__(self) -> None:
         if self.minimize not in AIMS:
-            raise RequestError("laws.aim", aim=self.minimize, known=tuple(AIMS))
+            raise RequestError(
+                _(
+                    'nothing known to be made least is called "{aim}"; give one of {known}',
+                    code="laws.aim",
+                    aim=self.minimize,
+                    known=tuple(AIMS),
+                )
+            )
         if (self.minimize == "residual") != (self.ratios is not None):
-            raise RequestError("laws.ratios")
+            raise RequestError(
+                _(
+                    "ratios belong to minimize: residual, and need two numbers above zero, such as [1, 3]",
+                    code="laws.ratios",
+                )
+            )
         if self.ratios is not None and not 0 < self.ratios[0] <= self.ratios[1]:
-            raise RequestError("laws.ratios")
+            raise RequestError(
+                _(
+                    "ratios belong to minimize: residual, and need two numbers above zero, such as [1, 3]",
+                    code="laws.ratios",
+                )
+            )
 
     @property
     def limits(self) -> dict[int, float]:
@@ -76,7 +94,13 @@ class OptimizedSpline(MotionLaw):
         found = linprog(cost, A_ub=rows[:, free], b_ub=right, bounds=bounds, method="highs")
         if not found.success:
             said = ", ".join(f"{name} ≤ {self.limits[k]:g}" for name, k in AIMS.items() if k in self.limits)
-            raise RequestError("laws.limits_too_tight", limits=said)
+            raise RequestError(
+                _(
+                    "no rise of 1 keeps these limits: {limits}; give larger ones",
+                    code="laws.limits_too_tight",
+                    limits=said,
+                )
+            )
         held[free[:-1]] = found.x[:-1]
         return space.pieces(held)
 

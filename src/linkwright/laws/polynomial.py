@@ -15,6 +15,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.laws.base import MOTION_LAWS, MeetingLaw, MotionLaw
+from linkwright.words import _
 
 Coefficients = tuple[float, ...]
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -24,7 +25,7 @@ def powers(u: Any, coefficients: Sequence[float]) -> tuple[Any, Any, Any, Any]:
     """Σ c_k u^k and its first three derivatives, by Horner's rule."""
     found = []
     row = np.asarray(coefficients, dtype=float)
-    for _ in range(4):
+    for _unused in range(4):
         value = 0.0 * u
         for each in row[::-1]:
             value = value * u + each
@@ -127,7 +128,9 @@ class PolynomialOf(Polynomial):
 
     def __post_init__(self) -> None:
         if max(len(self.start), len(self.end)) > 8:
-            raise RequestError("laws.too_many_conditions")
+            raise RequestError(
+                _("more than eight conditions at one end; give fewer", code="laws.too_many_conditions")
+            )
 
     @cached_property
     def coefficients(self) -> Coefficients:
@@ -151,7 +154,12 @@ class Polydyne(Polynomial):
 
     def __post_init__(self) -> None:
         if self.ratio <= 0 or not 0 <= self.damping_ratio < 1:
-            raise RequestError("laws.polydyne")
+            raise RequestError(
+                _(
+                    "a polydyne law needs a ratio above zero and a damping ratio from 0 to below 1",
+                    code="laws.polydyne",
+                )
+            )
 
     @cached_property
     def coefficients(self) -> Coefficients:

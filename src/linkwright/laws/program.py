@@ -17,7 +17,7 @@ from linkwright.core.quantity import reported
 from linkwright.curves.curve import Curve, Extreme
 from linkwright.errors import Finding, ModelError
 from linkwright.laws.base import MOTION_LAWS, Ends, MotionLaw
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 #: The law of a rise that names none: it meets whatever its neighbours ask for.
 USUAL_LAW = "polynomial_5"
@@ -157,16 +157,32 @@ class MotionProgram(Program):
         if found:
             return found
         try:
-            _ = self._pieces
+            _unused = self._pieces
         except ModelError as error:
             return list(error.findings)
         return [*self._open_ends(), *self._jumps()]
 
     def _faulty_segments(self) -> list[Finding]:
         if not self.segments:
-            return [_fault("program_empty", "")]
+            return [
+                _fault(
+                    "program_empty",
+                    "",
+                    _("the program is empty"),
+                    _(
+                        "write segments such as {{rise: 10 mm, over: 90 deg, law: cycloidal}} and {{dwell: "
+                        "90 deg}}",
+                    ),
+                )
+            ]
         found = [
-            _fault("segment_over", f".{k}.over", over=each.over)
+            _fault(
+                "segment_over",
+                f".{k}.over",
+                _("a segment over {over}"),
+                _("give every segment an angle or a time above zero"),
+                over=each.over,
+            )
             for k, each in enumerate(self.segments)
             if not each.over > 0 or not math.isfinite(each.over)
         ]
@@ -176,15 +192,47 @@ class MotionProgram(Program):
             unit, factor = ("°", 180 / math.pi) if turn else (" s", 1.0)
             values = {"total": f"{factor * total:.7g}{unit}", "period": f"{factor * self.period:.7g}{unit}"}
             missing = f"{factor * abs(self.period - total):.7g}{unit}"
-            key = "program_short" if total < self.period else "program_long"
-            found.append(_fault(key, "", **values, missing=missing))
+            if total < self.period:
+                found.append(
+                    _fault(
+                        "program_short",
+                        "",
+                        _("the program does not close: it covers {total} of {period}"),
+                        _("add {missing}, such as a dwell"),
+                        **values,
+                        missing=missing,
+                    )
+                )
+            else:
+                found.append(
+                    _fault(
+                        "program_long",
+                        "",
+                        _("the program does not close: it covers {total}, more than {period}"),
+                        _("take away {missing}"),
+                        **values,
+                        missing=missing,
+                    )
+                )
         return found
 
     def _open_ends(self) -> list[Finding]:
         last = self.lift_at_edges[-1]
         if not self.closed or abs(last - self.start) <= _SAME * self._size:
             return []
-        return [_fault("lift_open", f".{len(self.segments) - 1}", first=self.start, last=last)]
+        return [
+            _fault(
+                "lift_open",
+                f".{len(self.segments) - 1}",
+                _(
+                    "the program does not close: it begins at a lift of {first} and ends at {last} (SI "
+                    "units)",
+                ),
+                _("let the falls be as high as the rises, or end with to: {first}"),
+                first=self.start,
+                last=last,
+            )
+        ]
 
     def _jumps(self) -> list[Finding]:
         found = []
@@ -195,6 +243,14 @@ class MotionProgram(Program):
                     _fault(
                         "velocity_jump",
                         f".{k}",
+                        _(
+                            "the velocity jumps at {place} from {before} to {after} (lift per rad or s, SI "
+                            "units): the acceleration would be infinite",
+                        ),
+                        _(
+                            "take a law that ends and begins with the same velocity, such as polynomial_5, or "
+                            "give the velocity at the junction",
+                        ),
                         place=self.said(junction.place),
                         before=junction.before[1] + 0.0,
                         after=junction.after[1] + 0.0,
@@ -365,7 +421,6 @@ def _at(piece: _Piece, u: float, width: float) -> tuple[float, float, float, flo
     return s[0], v[0], a[1], j[1]
 
 
-def _fault(code: str, key: str, **values: object) -> Finding:
+def _fault(code: str, key: str, message: Message, remedy: Message, **values: object) -> Finding:
     said = {name: f"{value:.6g}" if isinstance(value, float) else value for name, value in values.items()}
-    message, remedy = Sentence(f"laws.{code}", **said), Sentence(f"laws.{code}_remedy", **said)
-    return Finding("error", "", f"program{key}", message, remedy, code)
+    return Finding("error", "", f"program{key}", message.format(**said), remedy.format(**said), code)

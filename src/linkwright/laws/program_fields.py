@@ -12,6 +12,7 @@ from linkwright.fields.base import Field, Quantities, Quantity, Schema, Word, ta
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -44,8 +45,8 @@ class LawField(Field):
         kind_node = node.get("kind")
         if kind_node is None:
             known = ", ".join(MOTION_LAWS)
-            remedy = Sentence("laws.no_kind_remedy", known=known)
-            reader.error(node, place.child("kind"), Sentence("laws.no_kind"), remedy, "missing-key")
+            remedy = _("add kind: one of {known}", known=known)
+            reader.error(node, place.child("kind"), _("the law does not say its kind"), remedy, "missing-key")
             return None
         kind = reader.word(kind_node, place.child("kind"), tuple(MOTION_LAWS))
         if kind is None:
@@ -69,8 +70,8 @@ class LawField(Field):
             return None
         needed = [key for key, each in MOTION_LAWS[name].fields.items() if each.required]
         if needed:
-            message = Sentence("laws.needs_values", law=name, names=tuple(needed))
-            remedy = Sentence("laws.needs_values_remedy", law=name, first=needed[0])
+            message = _("the law {law} needs {names}", law=name, names=tuple(needed))
+            remedy = _("write law: {{kind: {law}, {first}: …}}", law=name, first=needed[0])
             reader.error(node, place, message, remedy, "missing-key")
             return None
         return name
@@ -108,7 +109,14 @@ class LawField(Field):
             found, value = {"crossover": value.crossover, **found}, value.law
         fields = MOTION_LAWS[value.key].fields if value.key in MOTION_LAWS else None
         if fields is None or value.meeting(Ends(), 1.0) is not None:
-            raise RequestError("laws.not_written", law=value.key)
+            raise RequestError(
+                _(
+                    "the law {law} is given with values that no file can hold; give its name and the "
+                    "velocities of the segments",
+                    code="laws.not_written",
+                    law=value.key,
+                )
+            )
         own = {key: each.written(getattr(value, key)) for key, each in fields.items()
                if getattr(value, key) not in (None, ())}  # fmt: skip
         return {"kind": value.key, **own, **found} if own or found else value.key
@@ -194,7 +202,13 @@ class ProgramField(Field):
             return None
         ways = [key for key in ("dwell", "rise", "fall", "to") if values.get(key) is not None]
         if len(ways) != 1:
-            reader.error(node, place, Sentence("laws.one_way"), Sentence("laws.one_way_remedy"), "choice")
+            reader.error(
+                node,
+                place,
+                _("a segment is one of dwell, rise, fall and to"),
+                _("write {{rise: 10 mm, over: 90 deg}} or {{dwell: 90 deg}}"),
+                "choice",
+            )
             return None
         way = ways[0]
         if (way == "dwell") == (values.get("over") is not None):

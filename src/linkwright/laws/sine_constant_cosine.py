@@ -14,6 +14,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.fields.base import Quantity, given
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
+from linkwright.words import _
 
 _SHARE = "dimensionless"
 
@@ -57,7 +58,7 @@ class Family(MotionLaw):
         return np.where(late, 1.0 - s, s), v, np.where(late, -a, a), j
 
     def _half(self, x: Any) -> tuple[Any, Any, Any, Any]:
-        b, _, d, _ = self.shares
+        b, _unused, d, _unused2 = self.shares
         v, s, size = self._starts
         last = int(np.flatnonzero(self.shares)[-1])
         zone = np.minimum(np.searchsorted(self._edges[:3], x.real, side="right"), last)
@@ -97,7 +98,14 @@ class SineConstantCosine(Family):
     def __post_init__(self) -> None:
         used = self.sine + self.constant + self.cosine
         if min(self.sine, self.constant, self.cosine) < 0 or not 0 < used <= 1 + 1e-12:
-            raise RequestError("laws.shares", total=used)
+            raise RequestError(
+                _(
+                    "the shares of sine, constant and cosine add up to {total:.6g}; give shares of zero "
+                    "or more with a sum of at most 1",
+                    code="laws.shares",
+                    total=used,
+                )
+            )
 
     @property
     def shares(self) -> tuple[float, float, float, float]:

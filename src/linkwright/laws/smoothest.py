@@ -15,6 +15,7 @@ from linkwright.errors import Finding, ModelError
 from linkwright.laws.pieces import Pieces
 from linkwright.laws.program import TURN, Program
 from linkwright.laws.spline_space import DEGREE, SplineSpace
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 ORDERS = {"velocity": 1, "acceleration": 2, "jerk": 3}
@@ -62,22 +63,55 @@ class FoundProgram(Program):
         found = self._faults()
         if found:
             raise ModelError(found)
-        _ = self._solution
+        _unused = self._solution
 
     def _faults(self) -> list[Finding]:
         found = []
         if self.minimize not in ORDERS:
-            found.append(_fault("aim", ".minimize", aim=self.minimize, known=tuple(ORDERS)))
+            found.append(
+                _fault(
+                    "aim",
+                    ".minimize",
+                    _('nothing known to be made least is called "{aim}"; give one of {known}'),
+                    _("write minimize: acceleration"),
+                    aim=self.minimize,
+                    known=tuple(ORDERS),
+                )
+            )
         if not self.points and not self.windows:
-            found.append(_fault("nothing_asked", ""))
+            found.append(
+                _fault("nothing_asked", "", _("nothing is asked of the motion"), _("give points or windows"))
+            )
         if not 12 <= self.pieces <= 720:
-            found.append(_fault("pieces", ".pieces", pieces=self.pieces))
+            found.append(
+                _fault(
+                    "pieces",
+                    ".pieces",
+                    _("{pieces} pieces of the spline"),
+                    _("give 12 to 720"),
+                    pieces=self.pieces,
+                )
+            )
         for k, each in enumerate(self.windows):
             if not 0 <= each.start < each.end <= self.period + 1e-12 or each.least > each.most:
-                found.append(_fault("window", f".windows.{k}"))
-        for k, (x, _) in enumerate(self.points):
+                found.append(
+                    _fault(
+                        "window",
+                        f".windows.{k}",
+                        _("a window that ends before it begins, or with the larger bound below"),
+                        _("give from and to within the turn, increasing, and least below most"),
+                    )
+                )
+        for k, (x, _unused) in enumerate(self.points):
             if not 0 <= x <= self.period + 1e-12:
-                found.append(_fault("point_outside", f".points.{k}"))
+                found.append(
+                    _fault(
+                        "point_outside",
+                        f".points.{k}",
+                        _("a point outside the turn"),
+                        _("give an angle from 0 to 360 deg"),
+                    )
+                )
         return found
 
     @cached_property
@@ -92,14 +126,14 @@ class FoundProgram(Program):
     @property
     def _size(self) -> float:
         """The largest lift that is spoken of."""
-        named = [abs(lift) for _, lift in self.points]
+        named = [abs(lift) for _unused, lift in self.points]
         named += [abs(b) for each in self.windows for b in (each.least, each.most) if math.isfinite(b)]
         return max(named, default=0.0) or 1.0
 
     @cached_property
     def _solution(self) -> tuple[Pieces, tuple[Binding, ...], float]:
         margins = np.zeros(len(self.windows))
-        for _ in range(_ROUNDS):
+        for _unused in range(_ROUNDS):
             values, binding, peak = self._solved(margins)
             pieces = self.space.pieces(values)
             over = self._outside(pieces)
@@ -137,7 +171,16 @@ class FoundProgram(Program):
             method="highs",
         )
         if not found.success:
-            raise ModelError([_fault("nothing_meets", "")])
+            raise ModelError(
+                [
+                    _fault(
+                        "nothing_meets",
+                        "",
+                        _("no motion meets all points, windows and limits"),
+                        _("widen a window or a limit, or take more pieces"),
+                    )
+                ]
+            )
         binding = self._binding(names, -found.ineqlin.marginals, found.fun)
         if len(equal):
             binding += self._binding(equal_names, np.abs(found.eqlin.marginals), found.fun)
@@ -162,16 +205,16 @@ class FoundProgram(Program):
                 np.concatenate([bound, -bound]),
                 0.0,
                 limit,
-                Sentence("laws.limit_of", what=Sentence(f"laws.{name}")),
+                _("limit of the {what}", what=Sentence(f"laws.{name}")),
             )
         for k, each in enumerate(self.windows):
             if each.least == each.most:
                 continue
             rows = space.at(self._looks(each))
             if math.isfinite(each.most):
-                add(rows, 0.0, each.most - margins[k], Sentence("laws.window_most", number=k + 1))
+                add(rows, 0.0, each.most - margins[k], _("window {number}, upper bound", number=k + 1))
             if math.isfinite(each.least):
-                add(-rows, 0.0, -each.least - margins[k], Sentence("laws.window_least", number=k + 1))
+                add(-rows, 0.0, -each.least - margins[k], _("window {number}, lower bound", number=k + 1))
         return np.concatenate(blocks), np.concatenate(right), names
 
     def _looks(self, window: Window) -> Floats:
@@ -180,9 +223,9 @@ class FoundProgram(Program):
 
     def _equal(self, space: SplineSpace) -> tuple[Floats, Floats, list[str]]:
         """Points, and dwells: all control values that reach into one are its lift."""
-        rows = [space.at(np.array([x]))[0] for x, _ in self.points]
-        right = [lift for _, lift in self.points]
-        names = [Sentence("laws.point", place=number(x, "angle")) for x, _ in self.points]
+        rows = [space.at(np.array([x]))[0] for x, _unused in self.points]
+        right = [lift for _unused, lift in self.points]
+        names = [_("point at {place}°", place=number(x, "angle")) for x, _unused in self.points]
         for k, each in enumerate(self.windows):
             if each.least != each.most:
                 continue
@@ -193,7 +236,7 @@ class FoundProgram(Program):
             for i in touched:
                 rows.append(np.eye(space.size)[i])
                 right.append(each.least)
-                names.append(Sentence("laws.dwell_of", number=k + 1))
+                names.append(_("dwell of window {number}", number=k + 1))
         if not rows:
             return np.zeros((0, space.size + 1)), np.zeros(0), []
         return np.column_stack([np.array(rows), np.zeros(len(rows))]), np.array(right), list(names)
@@ -229,6 +272,5 @@ class FoundProgram(Program):
         return self._solution[0].curves(x - self.period * np.floor(x.real / self.period))
 
 
-def _fault(code: str, key: str, **values: object) -> Finding:
-    message, remedy = Sentence(f"laws.{code}", **values), Sentence(f"laws.{code}_remedy", **values)
-    return Finding("error", "", f"find{key}", message, remedy, code)
+def _fault(code: str, key: str, message: Message, remedy: Message, **values: object) -> Finding:
+    return Finding("error", "", f"find{key}", message.format(**values), remedy.format(**values), code)

@@ -15,6 +15,7 @@ from linkwright.errors import RequestError
 from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.laws.base import MOTION_LAWS, Ends, MotionLaw
 from linkwright.laws.pieces import Pieces
+from linkwright.words import _
 
 #: Share of u that the shortest way between two points may be, and how many points there may be.
 _NEAR, _MOST = 1e-6, 5000
@@ -25,11 +26,25 @@ def _checked(places: tuple[float, ...], values: tuple[float, ...]) -> tuple[Floa
     u = np.array([0.0, *(each for each in places if 0.0 < each < 1.0), 1.0])
     inside = len(u) == len(places) + 2 or (len(places) and (places[0] == 0.0 or places[-1] == 1.0))
     if len(places) != len(values) or not inside or np.diff(u).min() < _NEAR or len(u) > _MOST:
-        raise RequestError("laws.points", places=len(places), values=len(values))
+        raise RequestError(
+            _(
+                "{places} places and {values} values; give as many of both, places increasing from 0 to 1",
+                code="laws.points",
+                places=len(places),
+                values=len(values),
+            )
+        )
     kept = [s for x, s in zip(places, values, strict=True) if 0.0 < x < 1.0]
     ends = [s for x, s in zip(places, values, strict=True) if x in (0.0, 1.0) and s != x]
     if ends:
-        raise RequestError("laws.points_ends", value=ends[0])
+        raise RequestError(
+            _(
+                "a rise goes from 0 at u = 0 to 1 at u = 1, but an end has the value {value:.6g}; "
+                "leave the ends out",
+                code="laws.points_ends",
+                value=ends[0],
+            )
+        )
     return u, np.array([0.0, *kept, 1.0])
 
 
@@ -119,8 +134,16 @@ class SmoothedTable(Through):
 
         low, high = -7.0, 5.0
         if far(fitted(low)) > self.tolerance:
-            raise RequestError("laws.not_smoothed", tolerance=self.tolerance, least=far(fitted(low)))
-        for _ in range(30):
+            raise RequestError(
+                _(
+                    "no smooth rise comes within {tolerance:.3g} of the points, the nearest within "
+                    "{least:.3g}; give a larger tolerance",
+                    code="laws.not_smoothed",
+                    tolerance=self.tolerance,
+                    least=far(fitted(low)),
+                )
+            )
+        for _unused in range(30):
             middle = 0.5 * (low + high)
             low, high = (middle, high) if far(fitted(middle)) <= self.tolerance else (low, middle)
         return space.pieces(fitted(low))

@@ -52,6 +52,7 @@ from linkwright.loads.signals import Signals
 from linkwright.loads.site import Mechanism, Site, Wrench
 from linkwright.loads.sizes import OverCycle, Ramp
 from linkwright.registry import Registry
+from linkwright.words import _
 from linkwright.words.sentence import Sentence, together
 from linkwright.words.synonyms import meaning
 
@@ -161,18 +162,18 @@ class Load:
     @property
     def acts_on(self) -> str | None:
         """The link that it names alone, of several the first."""
-        return next((value for _, each, value in self.given() if isinstance(each, LinkName)), None)
+        return next((value for _unused, each, value in self.given() if isinstance(each, LinkName)), None)
 
     @property
     def pair(self) -> tuple[str, ...]:
         """The two links between which it acts; none where it names no pair."""
-        return next((value for _, each, value in self.given() if isinstance(each, LinkNames)), ())
+        return next((value for _unused, each, value in self.given() if isinstance(each, LinkNames)), ())
 
     @property
     def named_points(self) -> tuple[LinkPoint, ...]:
         """The points that it names."""
         found: list[LinkPoint] = []
-        for _, each, value in self.given():
+        for _unused, each, value in self.given():
             if isinstance(each, PointName) and value is not None:
                 found.append(LinkPoint(getattr(self, each.of), value))
             elif isinstance(each, PointReference | PointReferences) and value is not None:
@@ -224,7 +225,7 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
     said = node.get("kind") if isinstance(node, MappingNode) else None
     text = said.text if isinstance(said, ScalarNode) and said.text not in LOADS else ""
     for concept in meaning(text) & ELSEWHERE.keys() if text else ():
-        problem = Sentence("model.unknown_word", text=text)
+        problem = _('"{text}" is not known here', code="model.unknown_word", text=text)
         reader.error(said, place.child("kind"), problem, Sentence(ELSEWHERE[concept]), "unknown-word")
         return None
     read = reader.of_kind(node, place, LOADS, "loads.no_kind", "loads.write_kind")
@@ -239,7 +240,11 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
 
     if reader.error_count == before:
         if isinstance(found.get("ramp"), Ramp) and found.get("phase") is None:
-            report("ramp", Sentence("loads.ramp_without_phase"), Sentence("loads.add_phase"))
+            report(
+                "ramp",
+                _("a ramp runs over a phase, and none is given", code="loads.ramp_without_phase"),
+                _("add phase: {{input: [from, to]}} or another"),
+            )
         cls.check(found, report)
     return cls.of(name, found) if reader.error_count == before else None
 
@@ -248,11 +253,14 @@ def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], gi
     for group in cls.exactly_one:
         chosen = [name for name in group if name in given]
         if not chosen:
-            problem, remedy = Sentence("loads.none_given", words=group), Sentence("loads.give_one")
+            problem, remedy = (
+                _("none of {words} is given", code="loads.none_given", words=group),
+                _("give exactly one of them"),
+            )
             reader.error(node, place, problem, remedy, "choice")
         elif len(chosen) > 1:
-            problem = Sentence("loads.both_given", given=together(chosen))
-            reader.error(node, place, problem, Sentence("loads.keep_one_of", words=group), "choice")
+            problem = _("{given} are both given", code="loads.both_given", given=together(chosen))
+            reader.error(node, place, problem, _("keep one of {words}", words=group), "choice")
 
 
 def _declares(kind: type[Field]) -> Callable[..., Any]:
@@ -298,5 +306,9 @@ def check_between(values: Mapping[str, Any], report: Callable[[str, str, str], N
     """For ``Load.check``: the two points of ``between`` are on different links."""
     ends = values.get("between")
     if ends is not None and ends[0].link == ends[1].link:
-        problem = Sentence("loads.same_link", link=ends[0].link)
-        report("between", problem, Sentence("loads.name_two_links"))
+        problem = _(
+            'both points are on the link "{link}", so the load does nothing',
+            code="loads.same_link",
+            link=ends[0].link,
+        )
+        report("between", problem, _("name points of two links"))

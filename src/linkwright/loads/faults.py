@@ -14,7 +14,7 @@ from linkwright.formula.late_import import numpy as np
 from linkwright.loads.signals import Signals, column, input_dimension, named_column, place_named
 from linkwright.loads.strokes import NEAR, TURN, StrokePart
 from linkwright.units import LARGEST
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence, together
 
 if TYPE_CHECKING:
@@ -40,15 +40,25 @@ def formula_fault(expression: Expression, signals: Signals, where: Flags, found:
 def _not_finite(
     expression: Expression, columns: Mapping[str, Floats], signals: Signals, index: int
 ) -> Message:
-    where = Sentence("loads.only_position")
+    where = _("in the only position")
     if signals.mechanism.drivers:
         place = reported(float(signals.input[index]), input_dimension(signals))
-        where = Sentence("loads.at_input", input=place)
+        where = _("at input = {input}", input=place)
     try:
         expression.evaluate({name: float(values[index]) for name, values in columns.items()})
     except QuantityError as error:
-        return Sentence("loads.formula_fails", message=error.message, where=where)
-    return Sentence("loads.formula_not_finite", text=expression.text, where=where)
+        return _(
+            "{message} {where}; change the expression, or leave that position out by a phase",
+            code="loads.formula_fails",
+            message=error.message,
+            where=where,
+        )
+    return _(
+        '"{text}" is not finite {where}; change the expression',
+        code="loads.formula_not_finite",
+        text=expression.text,
+        where=where,
+    )
 
 
 def _pole_between(
@@ -72,7 +82,13 @@ def _pole_between(
                 place = reported(
                     float(q[index] + share * (q[index + 1] - q[index])), input_dimension(signals)
                 )
-                return Sentence("loads.formula_divides", text=expression.text, place=place)
+                return _(
+                    '"{text}" divides by zero near input = {place}; change the expression, or leave that '
+                    "position out by a phase",
+                    code="loads.formula_divides",
+                    text=expression.text,
+                    place=place,
+                )
     return None
 
 
@@ -98,7 +114,7 @@ def _zero(divisor: Node, columns: Mapping[str, Floats], index: int) -> float | N
             return float("nan")
 
     low, high, sign, size = 0.0, 1.0, value(0.0), min(abs(value(0.0)), abs(value(1.0)))
-    for _ in range(_HALVINGS):
+    for _unused in range(_HALVINGS):
         middle = 0.5 * (low + high)
         if value(middle) * sign > 0:
             low = middle
@@ -123,8 +139,10 @@ def interval_fault(start: float, end: float, signals: Signals) -> Message | None
 
 def part_fault(output: Output, part: StrokePart, stroke: float) -> Message:
     """How far a stroke (m or rad) is too short for a part of it."""
-    return Sentence(
-        "loads.part_too_long",
+    return _(
+        "too much of the stroke is named ({part}: {amounts}): the output '{output}' moves "
+        "through {stroke}; give less",
+        code="loads.part_too_long",
         part=Sentence(f"loads.part_{part.word}"),
         amounts=" + ".join(reported(each.way(stroke), output.dimension) for each in part.amounts),
         output=output,
@@ -142,7 +160,11 @@ def table_fault(
     missing = [(low, first)] if low < first else []
     missing += [(last, high)] if high > last else []
     ranges = [
-        Sentence("loads.stretch", low=reported(a, dimension), high=reported(b, dimension)) for a, b in missing
+        _("{low} to {high}", low=reported(a, dimension), high=reported(b, dimension)) for a, b in missing
     ]
     covered = {"first": reported(first, dimension), "last": reported(last, dimension)}
-    return Sentence("loads.table_too_short", over=over, ranges=together(ranges), **covered)
+    return _(
+        "its table over {over} goes from {first} to {last} and does not cover what the cycle "
+        "needs: {ranges} is missing; add rows, or limit the load by a phase",
+        code="loads.table_too_short",
+    ).format(over=over, ranges=together(ranges), **covered)

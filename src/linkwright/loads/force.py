@@ -10,6 +10,7 @@ from linkwright.formula.vector import Vec
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load, Magnitude, Output
 from linkwright.loads.site import Mechanism, Site, Wrench
+from linkwright.words import _
 
 
 @LOADS.register("force")
@@ -71,7 +72,17 @@ class Force(Load):
         p, q = self.normal_to or self.along or (self.at, self.at)
         points = site.motion.mechanism.link(self.on).points
         if points[p] == points[q]:
-            raise LinkwrightError("loads.no_ray", name=self.name, p=p, q=q, on=self.on)
+            raise LinkwrightError(
+                _(
+                    "loads.{name}: the points {p} and {q} of {on} coincide, so the ray {p}→{q} has no "
+                    "direction; name two points that are apart",
+                    code="loads.no_ray",
+                    name=self.name,
+                    p=p,
+                    q=q,
+                    on=self.on,
+                )
+            )
         ray = site.place(self.on, q) - site.place(self.on, p)
         unit = ray * (1.0 / site.distance(self.on, p, q))
         return unit.perp if self.normal_to else unit

@@ -28,7 +28,7 @@ from linkwright.fields.references import OutputName
 from linkwright.loads.phases import InputPhase, MovingPhase, Phase, SwingPhase
 from linkwright.loads.sizes import Constant, Formula, Ramp, Table
 from linkwright.loads.strokes import Amount, PartWord, StrokePart
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: Keys of a phase that name a part of the stroke.
 PARTS: Mapping[PartWord, str] = {
@@ -105,7 +105,7 @@ class TableField(_Part):
         across = "angle"
         if isinstance(node, MappingNode):
             over, across = reader.over(node, place)
-        with reader.plain_numbers(Sentence("model.plain_table")):
+        with reader.plain_numbers(_("a table")):
             values = reader.table(node, place, self._fields(across))
         if values is None or over is None or values.get("x") is None or values.get("y") is None:
             return None
@@ -114,7 +114,16 @@ class TableField(_Part):
         table = Table(over, values["x"], values["y"], across, values.get("interpolation") or "linear")
         fault = _fault_of_period(table)
         if fault is not None:
-            reader.finding(node, place, fault, "table", Sentence("model.periodic_or_cubic"))
+            reader.finding(
+                node,
+                place,
+                fault,
+                "table",
+                _(
+                    "close it (whole turns, the last value as the first), or write interpolation: cubic",
+                    code="model.periodic_or_cubic",
+                ),
+            )
             return None
         return table
 
@@ -167,8 +176,11 @@ class PhaseField(_Part):
             reader.error(
                 node,
                 place,
-                Sentence("model.several_forms" if chosen else "model.no_form"),
-                Sentence("model.write_phase"),
+                (_("several forms of a phase") if chosen else _("no form of a phase")),
+                _(
+                    "write one of {{input: [a, b]}}, {{moving: OUTPUT, direction: increasing}}, {{of: "
+                    "OUTPUT, from: max, to: min}}",
+                ),
                 "choice",
             )
             return None
@@ -246,7 +258,7 @@ class StrokePartField(Field):
         nodes = [node]
         if self.word == "free" and isinstance(node, Sequence):
             nodes = reader.items(node, place, 2, "[0.05, 0.1]") or []
-        with reader.plain_numbers(Sentence("model.plain_stroke_part")):
+        with reader.plain_numbers(_("a part of a stroke")):
             found = [self._amount(reader, each, place, output.dimension) for each in nodes]
         amounts = tuple(amount for amount in found if amount is not None)
         return StrokePart(self.word, amounts) if amounts and len(amounts) == len(found) else None

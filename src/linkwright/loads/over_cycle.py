@@ -14,7 +14,7 @@ from linkwright.loads.phases import Always
 from linkwright.loads.signals import BetweenLimits, Signals, column, named_column
 from linkwright.loads.sizes import OverCycle
 from linkwright.loads.strokes import ALIKE, TURN, Stretch, strokes
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,9 @@ def evaluate(load: Load, signals: Signals) -> Floats:
     try:
         return magnitudes(load, signals)
     except LinkwrightError as error:
-        raise LinkwrightError("loads.of_load", name=load.name, cause=error) from None
+        raise LinkwrightError(
+            _("loads.{name}: {cause}", code="loads.of_load", name=load.name, cause=error)
+        ) from None
 
 
 def magnitudes(load: Load, signals: Signals) -> Floats:
@@ -46,7 +48,12 @@ def magnitudes(load: Load, signals: Signals) -> Floats:
     if isinstance(given.size, OverCycle):
         return given.size.values(signals)
     if given.size.ramp and isinstance(given.phase, Always):
-        raise LinkwrightError(with_remedy(Sentence("loads.ramp_without_phase"), Sentence("loads.add_phase")))
+        raise LinkwrightError(
+            with_remedy(
+                _("a ramp runs over a phase, and none is given", code="loads.ramp_without_phase"),
+                _("add phase: {{input: [from, to]}} or another"),
+            )
+        )
     course = CycleCourse(load, signals)
     active, count = course.activity(), len(signals.time)
     where = active.where & signals.ok
@@ -146,7 +153,14 @@ class CycleCourse:
         where, share = np.zeros(count, dtype=bool), np.zeros(count)
         for each in strokes(phase, self.signals):
             if ramp and abs(each.rise) < ALIKE * (1.0 + abs(each.end.input)):
-                raise LinkwrightError("loads.ramp_without_length", output=phase.output)
+                raise LinkwrightError(
+                    _(
+                        "the input is the same at both limit positions of '{output}', so a ramp over the "
+                        "input has no length; give a table over {output} instead",
+                        code="loads.ramp_without_length",
+                        output=phase.output,
+                    )
+                )
             inside, passed = each.place(self.signals)
             where, share = where | inside, np.where(inside, passed, share)
             if phase.in_part:

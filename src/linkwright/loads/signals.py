@@ -13,6 +13,7 @@ from linkwright.formula.late_import import numpy as np
 from linkwright.formula.trace import Mask, Scalar
 from linkwright.loads.site import Mechanism
 from linkwright.registry import offered
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
@@ -156,7 +157,14 @@ def named_column(name: str, signals: Signals) -> Any:
     found = place_named(name, mechanism)
     if found is None:
         known = ["t", "input", *mechanism.parameters, *mechanism.links, *mechanism.joints]
-        raise LinkwrightError("loads.unknown_in_magnitude", name=name, hint=offered(name, known))
+        raise LinkwrightError(
+            _(
+                'unknown name "{name}" in its magnitude; {hint}',
+                code="loads.unknown_in_magnitude",
+                name=name,
+                hint=offered(name, known),
+            )
+        )
     return signals.output(found)[0]
 
 

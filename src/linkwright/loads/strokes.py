@@ -14,6 +14,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.formula.late_import import numpy as np
 from linkwright.formula.trace import Mask, Scalar, floor, maximum, minimum, select
 from linkwright.loads.signals import BetweenLimits, Limit, Signals, Whole, input_dimension
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -76,18 +77,36 @@ def strokes(phase: BetweenLimits, signals: Signals) -> list[Stretch]:
     """The ways of a phase within the cycle. Raises LinkwrightError where it has none."""
     limits = signals.limits(phase.output)
     if not limits:
-        raise LinkwrightError("loads.never_reverses", output=phase.output)
+        raise LinkwrightError(
+            _(
+                "the output '{output}' never reverses within the cycle, so it has no limit "
+                "positions; choose an output that swings, or give the phase by the input: {{input: "
+                "[a, b]}}",
+                code="loads.never_reverses",
+                output=phase.output,
+            )
+        )
     extreme = outermost(limits) if phase.outermost else limits
     found = stretches(extreme, phase.start, phase.end, signals.whole)
     if found or not phase.outermost:
         return found
     dimension = input_dimension(signals)
     places = tuple(
-        Sentence("loads.limit_at", kind=Sentence(f"loads.{each.kind}"), input=reported(each.input, dimension))
+        _(
+            "{kind} at input {input}",
+            kind=Sentence(f"loads.{each.kind}"),
+            input=reported(each.input, dimension),
+        )
         for each in extreme
     )
     ends = {name: Sentence(f"loads.{kind}") for name, kind in (("start", phase.start), ("end", phase.end))}
-    raise LinkwrightError("loads.no_such_swing", output=phase.output, places=places, **ends)
+    raise LinkwrightError(
+        _(
+            "the output '{output}' does not go from its {start} to its {end} within the cycle "
+            "(it has its {places}); let the cycle hold both, or exchange from and to",
+            code="loads.no_such_swing",
+        ).format(output=phase.output, places=places, **ends)
+    )
 
 
 def outermost(limits: Sequence[Limit]) -> list[Limit]:

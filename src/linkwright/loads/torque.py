@@ -11,7 +11,7 @@ from linkwright.formula.trace import select
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load, Magnitude, Output
 from linkwright.loads.site import Mechanism, Site, Wrench
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 
 @LOADS.register("torque")
@@ -40,8 +40,12 @@ class Torque(Load):
         if values.get("on") is not None and values.get("on") == values.get("against"):
             report(
                 "against",
-                Sentence("loads.same_links", link=values["on"]),
-                Sentence("loads.name_other_link"),
+                _(
+                    'the torque acts on and against the same link "{link}"',
+                    code="loads.same_links",
+                    link=values["on"],
+                ),
+                _("name another link"),
             )
 
     def wrenches(self, site: Site) -> list[Wrench]:

@@ -21,6 +21,7 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
+from linkwright.words import _
 
 Radius = Mapping[str, float] | float
 
@@ -127,7 +128,13 @@ def balance(mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: 
     """
     require(mechanism, Mechanism)
     if not 0.0 <= real("share", share) <= 1.0:
-        raise RequestError("forces.share", share=share)
+        raise RequestError(
+            _(
+                "share is {share:g}; give a number from 0 (nothing) to 1 (everything)",
+                code="forces.share",
+                share=share,
+            )
+        )
     moments = _moments(mechanism, radius, share)
     links = dict(mechanism.links)
     weights = []
@@ -156,10 +163,24 @@ def with_counterweight(link: Link, weight: Counterweight) -> Link:
 
 def _radius(radius: Radius, link: str) -> float:
     if isinstance(radius, Mapping) and link not in radius:
-        raise RequestError("forces.weight_no_radius", link=link)
+        raise RequestError(
+            _(
+                "no radius is given for the counterweight on {link!r}; add it to the radii, or give "
+                "one for all",
+                code="forces.weight_no_radius",
+                link=link,
+            )
+        )
     distance = radius[link] if isinstance(radius, Mapping) else radius
     if not real("radius", distance, finite=False) > 0.0:
-        raise RequestError("forces.weight_radius", link=link, distance=distance)
+        raise RequestError(
+            _(
+                "the radius of the counterweight on {link!r} is {distance:g} m; give a positive one",
+                code="forces.weight_radius",
+                link=link,
+                distance=distance,
+            )
+        )
     return distance
 
 
@@ -175,7 +196,15 @@ def _moments(mechanism: Mechanism, radius: Radius, share: float) -> list[tuple[s
     floating = [name for name in moving if name not in grounded]
     sliders = [name for name, joint in grounded.items() if joint.coordinate == "slide"]
     if len(moving) != 3 or len(floating) != 1 or len(grounded) != 2 or len(sliders) > 1:
-        raise LinkwrightError("forces.not_balanced", name=mechanism.name)
+        raise LinkwrightError(
+            _(
+                "{name!r} is neither a four-bar nor a slider-crank; counterweights by formula are "
+                "for these two, other mechanisms are balanced by varying masses and mass centres in "
+                "a study",
+                code="forces.not_balanced",
+                name=mechanism.name,
+            )
+        )
     coupler = mechanism.links[floating[0]]
     pins = {name: _shared_pin(mechanism, name, coupler.name) for name in grounded}
     if sliders:
@@ -220,7 +249,15 @@ def _shared_pin(mechanism: Mechanism, a: str, b: str) -> str:
     for joint in mechanism.joints.values():
         if a in joint.joined and b in joint.joined and joint.coordinate != "slide":
             return joint.name
-    raise LinkwrightError("forces.no_pin_shared", a=a, b=b, name=mechanism.name)
+    raise LinkwrightError(
+        _(
+            "links {a!r} and {b!r} share no pin, so {name!r} is no four-bar or slider-crank",
+            code="forces.no_pin_shared",
+            a=a,
+            b=b,
+            name=mechanism.name,
+        )
+    )
 
 
 def _at(link: Link, point: str) -> complex:

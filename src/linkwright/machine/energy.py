@@ -14,6 +14,7 @@ from linkwright.core.search import first_largest
 from linkwright.curves.curve import Curve, increasing
 from linkwright.errors import LinkwrightError
 from linkwright.machine.torque_curve import TorqueCurve
+from linkwright.words import _
 
 #: Driver and load must do equal work over a cycle to this share of the work done.
 BALANCE = 1e-9
@@ -69,10 +70,21 @@ def energy_fluctuation(driver: TorqueCurve, load: TorqueCurve | None = None) -> 
     done = max(abs(driver.mean), abs(load.mean)) * excess.period
     if abs(work.total) > BALANCE * max(done, float(np.abs(work(work.edges)).max())):
         raise LinkwrightError(
-            "running.speeds_up" if work.total > 0 else "running.slows_down",
-            total=work.total,
-            mean=driver.mean,
-            load=load.mean,
+            (
+                _(
+                    "driver and load do not balance: over a cycle {total:.6g} J are left, so the speed "
+                    "would rise from cycle to cycle; make their mean torques equal ({mean:.6g} N·m and "
+                    "{load:.6g} N·m)",
+                    code="running.speeds_up",
+                )
+                if work.total > 0
+                else _(
+                    "driver and load do not balance: over a cycle {total:.6g} J are left, so the speed "
+                    "would fall from cycle to cycle; make their mean torques equal ({mean:.6g} N·m and "
+                    "{load:.6g} N·m)",
+                    code="running.slows_down",
+                )
+            ).format(total=work.total, mean=driver.mean, load=load.mean)
         )
     return of_energy(work, balance=work.total)
 
@@ -104,12 +116,29 @@ def fluctuation_from_areas(
     """
     given = np.asarray(areas, dtype=float)
     if given.ndim != 1 or not given.size or not np.isfinite(given).all():
-        raise LinkwrightError("running.areas_list")
+        raise LinkwrightError(
+            _(
+                "give the areas as a list of numbers in mm², in the order of the diagram",
+                code="running.areas_list",
+            )
+        )
     if not (torque_scale > 0 and angle_scale > 0):
-        raise LinkwrightError("running.scales")
+        raise LinkwrightError(
+            _(
+                "the scales of the torque diagram must be above zero: N·m per mm, rad per mm",
+                code="running.scales",
+            )
+        )
     energy = np.concatenate([[0.0], np.cumsum(given)]) * torque_scale * angle_scale
     if abs(given.sum()) > BALANCE * np.abs(given).sum():
-        raise LinkwrightError("running.areas_sum", total=given.sum())
+        raise LinkwrightError(
+            _(
+                "the areas add up to {total:g} mm², not to zero: the mean line is misplaced or an "
+                "area is missing",
+                code="running.areas_sum",
+                total=given.sum(),
+            )
+        )
     low, high = first_largest(-energy), first_largest(energy)
     value = float(energy[high] - energy[low])
     diagram = partial(_areas, energy)

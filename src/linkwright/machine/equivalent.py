@@ -21,8 +21,7 @@ from linkwright.machine.energy import EnergyFluctuation, of_energy
 from linkwright.machine.torque_curve import TURN, TorqueCurve
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 
 def equivalent_inertia(motion: Motion) -> Floats:
@@ -166,7 +165,15 @@ def equivalent(forces: Forces) -> Equivalent:
     period = abs(rate) * (motion.positions.period or 0.0)
     cycle = Analysis.of(forces).cycle
     if cycle is None:
-        raise LinkwrightError("running.not_between", name=motion.mechanism.name)
+        raise LinkwrightError(
+            _(
+                "the positions of {name!r} pass a change point or follow no law in time, so the "
+                "machine cannot be evaluated between them; solve its cycle without change points "
+                "first",
+                code="running.not_between",
+                name=motion.mechanism.name,
+            )
+        )
 
     def reduced(solved: Forces) -> Floats:
         inertia, slope = _inertia_and_slope(solved.motion)
@@ -190,25 +197,55 @@ def steady_rate(motion: Motion) -> float:
     """The input's constant speed, rad/s; raises as :func:`equivalent`."""
     name = motion.mechanism.name
     if len(motion.mechanism.drivers) != 1 or not next(iter(motion.positions.rotary.values())):
-        raise LinkwrightError("running.one_driver", name=name)
+        raise LinkwrightError(
+            _(
+                "a flywheel and the speed over the cycle need one turning driver; {name!r} has "
+                "another kind or number",
+                code="running.one_driver",
+                name=name,
+            )
+        )
     rate = _rates(motion)[0]
     if rate[0] == 0 or np.ptp(rate) > 1e-9 * abs(rate[0]):
-        raise LinkwrightError("running.not_constant", name=name)
+        raise LinkwrightError(
+            _(
+                "the driver of {name!r} does not turn at constant speed; give it speed: … instead of a law",
+                code="running.not_constant",
+                name=name,
+            )
+        )
     turned = abs(rate[0]) * (motion.positions.period or 0.0)
     if not motion.positions.closed or not turned or abs(turned / TURN - round(turned / TURN)) > 1e-9:
         raise LinkwrightError(_not_whole_turns(motion.mechanism))
     if not motion.whole:
-        raise LinkwrightError("running.not_all_reached", name=name)
+        raise LinkwrightError(
+            _(
+                "{name!r} does not reach all positions of its cycle, so it cannot run steadily",
+                code="running.not_all_reached",
+                name=name,
+            )
+        )
     return float(rate[0])
 
 
 def _not_whole_turns(mechanism: Mechanism) -> Message:
     if mechanism.higher and not_back(mechanism):
-        return Sentence("running.never_back", name=mechanism.name, most=MOST)
-    return Sentence("running.not_whole_turns", name=mechanism.name)
+        return _(
+            "the wheels or racks of {name!r} do not come back to where they began within {most} "
+            "turns, so no cycle of it repeats; give teeth or radii in a ratio of smaller whole "
+            "numbers",
+            code="running.never_back",
+            name=mechanism.name,
+            most=MOST,
+        )
+    return _(
+        "the cycle of {name!r} is not whole turns of its driver; leave cycle out, or give turns",
+        code="running.not_whole_turns",
+        name=mechanism.name,
+    )
 
 
 def _rates(motion: Motion) -> tuple[Floats, Floats]:
     """Rate and second derivative of the first driver's coordinate, (n,) each."""
-    _, rate, second = next(iter(motion.positions.coordinates.values()))
+    _unused, rate, second = next(iter(motion.positions.coordinates.values()))
     return rate, second

@@ -8,6 +8,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.units import SMALLEST
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 #: Coefficient of speed fluctuation δ for which flywheels are laid out where none is asked for.
@@ -35,7 +36,13 @@ def flywheel_inertia(energy: float, speed: float, fluctuation: float, *, present
 def speed_fluctuation(energy: float, speed: float, inertia: float) -> float:
     """Coefficient of speed fluctuation δ = ΔE/(J ω²) that an inertia gives, by the same formula."""
     if not inertia > 0:
-        raise RequestError("running.bad_inertia", inertia=inertia)
+        raise RequestError(
+            _(
+                "the moment of inertia is {inertia:g} kg·m²; give a value above zero",
+                code="running.bad_inertia",
+                inertia=inertia,
+            )
+        )
     _require(1.0, speed)
     return energy / (inertia * speed * speed)
 
@@ -46,7 +53,12 @@ def on_faster_shaft(inertia: float, ratio: float) -> float:
     Raises LinkwrightError for a ratio of zero, and for one so small that nothing but rounding is left of it.
     """
     if not abs(ratio) > SMALLEST:
-        raise RequestError("running.bad_ratio")
+        raise RequestError(
+            _(
+                "the speed ratio of the flywheel's shaft to the crank is zero or nearly so; give another one",
+                code="running.bad_ratio",
+            )
+        )
     return inertia / (ratio * ratio)
 
 
@@ -90,9 +102,22 @@ def rim(
     given = (inertia, density, width_ratio, thickness_ratio)
     for name, value in zip(("inertia", "density", "width", "thickness"), given, strict=True):
         if not value > 0:
-            raise RequestError("running.bad_size", name=Sentence(f"running.{name}"), value=value)
+            raise RequestError(
+                _(
+                    "the {name} of the flywheel is {value:g}; give a value above zero",
+                    code="running.bad_size",
+                    name=Sentence(f"running.{name}"),
+                    value=value,
+                )
+            )
     if thickness_ratio > 0.5:
-        raise RequestError("running.bad_rim", thickness_ratio=thickness_ratio)
+        raise RequestError(
+            _(
+                "a rim cannot be {thickness_ratio:g} of its diameter thick; give 0.5 (a disk) or less",
+                code="running.bad_rim",
+                thickness_ratio=thickness_ratio,
+            )
+        )
     hole = 1.0 - 2.0 * thickness_ratio
     diameter = (32 * inertia / (density * pi * width_ratio * (1 - hole**4))) ** 0.2
     width = width_ratio * diameter
@@ -102,6 +127,18 @@ def rim(
 
 def _require(fluctuation: float, speed: float) -> None:
     if not real("fluctuation", fluctuation, finite=False) > 0:
-        raise RequestError("running.bad_coefficient", fluctuation=fluctuation)
+        raise RequestError(
+            _(
+                "the coefficient of speed fluctuation is {fluctuation:g}; give a value above zero, "
+                "such as 0.02",
+                code="running.bad_coefficient",
+                fluctuation=fluctuation,
+            )
+        )
     if not abs(speed) > 0:
-        raise LinkwrightError("running.still_shaft")
+        raise LinkwrightError(
+            _(
+                "the mean speed of the flywheel's shaft is zero; a flywheel needs a turning shaft",
+                code="running.still_shaft",
+            )
+        )

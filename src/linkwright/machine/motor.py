@@ -5,6 +5,7 @@ from __future__ import annotations
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.errors import RequestError
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,19 @@ def motor(mean_torque: float, speed: float, *, efficiency: float = 1.0, margin: 
     Raises LinkwrightError for values out of range.
     """
     if not 0 < real("efficiency", efficiency) <= 1:
-        raise RequestError("running.bad_efficiency", efficiency=efficiency)
+        raise RequestError(
+            _(
+                "the efficiency is {efficiency:g}; give a value above 0 and up to 1",
+                code="running.bad_efficiency",
+                efficiency=efficiency,
+            )
+        )
     if not real("margin", margin) >= 1:
-        raise RequestError("running.bad_margin", margin=margin)
+        raise RequestError(
+            _(
+                "the margin on the motor's power is {margin:g}; give 1 or more",
+                code="running.bad_margin",
+                margin=margin,
+            )
+        )
     return Motor(mean_torque, mean_torque * speed, efficiency, margin)

@@ -24,8 +24,7 @@ from linkwright.machine.speed import SpeedCurve
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.singularity import Singularity
 from linkwright.metrics.true_speed import steady_cycle
-from linkwright.words import Message, Say
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, Say, _
 
 
 def placed(key: str, value: float, dimension: str, at: float, label: str = "") -> Row:
@@ -41,7 +40,9 @@ def share(key: str, value: float, label: str = "") -> Row:
 def speeds(curve: SpeedCurve, at: Callable[[float], float], say: Say, before: str = "") -> list[Row]:
     """How even a speed is, and its extremes; ``before`` their keys."""
     slow, fast = curve.slowest, curve.fastest
-    reached = share(f"{before}reached_fluctuation", curve.fluctuation, say("machine.reached_fluctuation"))
+    reached = share(
+        f"{before}reached_fluctuation", curve.fluctuation, say(_("  coefficient really reached with it"))
+    )
     ends = (("slowest", slow), ("fastest", fast))
     return [reached, *(placed(f"{before}{key}", value, "angular_velocity", at(place), say(f"machine.{key}"))
                        for key, (place, value) in ends)]  # fmt: skip
@@ -139,7 +140,16 @@ class SteadyRunning(Plotted):
     def driven(self) -> Message | None:
         """That the loads drive the machine, as an engine's gas does, and a constant torque resists them."""
         name = self.equivalent.forces.mechanism.name
-        return Sentence("running.driven", name=name) if self.mean_torque < 0.0 else None
+        return (
+            _(
+                "the loads drive {name!r}, as the gas does an engine: a constant torque against them "
+                "takes up their work; of a machine that should need a drive, check the direction of "
+                "the loads",
+                name=name,
+            )
+            if self.mean_torque < 0.0
+            else None
+        )
 
     @property
     def remarks(self) -> list[Message]:
@@ -154,9 +164,22 @@ class SteadyRunning(Plotted):
         powers = (self.motor.power, self.power_without_flywheel)
         most, peak = (shown(each, "power") for each in powers)
         if not self.exact_flywheel:
-            return Sentence("running.evened_by_itself", power=most, peak=peak)
+            return _(
+                "The motor of {power} is sized by the mean power: the machine's own inertia carries "
+                "the peaks. To hold the speed constant it must have {peak}.",
+                code="running.evened_by_itself",
+                power=most,
+                peak=peak,
+            )
         inertia = shown(self.exact_flywheel, "inertia")
-        return Sentence("running.needs_flywheel", power=most, peak=peak, inertia=inertia)
+        return _(
+            "The motor of {power} is sized by the mean power: it suffices only with the flywheel "
+            "of {inertia}. Without a flywheel, at constant speed, it must have {peak}.",
+            code="running.needs_flywheel",
+            power=most,
+            peak=peak,
+            inertia=inertia,
+        )
 
     @property
     def power_without_flywheel(self) -> float:
@@ -225,4 +248,12 @@ def require_steady(forces: Forces) -> None:
 def _require_load(mean: float, forces: Forces) -> None:
     largest = float(np.abs(forces.input_torque).max())
     if abs(mean) <= NOTHING * largest or largest == 0:
-        raise LinkwrightError("running.no_work", name=forces.mechanism.name)
+        raise LinkwrightError(
+            _(
+                "the mean torque of {name!r} over its cycle is zero: no work is done, so there is no "
+                "motor to choose and no flywheel to lay out; give the machine a load that does work "
+                "over a cycle (loads: …)",
+                code="running.no_work",
+                name=forces.mechanism.name,
+            )
+        )

@@ -15,6 +15,7 @@ from linkwright.curves.polynomials import WEIGHTS
 from linkwright.errors import LinkwrightError
 from linkwright.machine.speeds import Speeds, SteadyCycles
 from linkwright.machine.torque_curve import TorqueCurve
+from linkwright.words import _
 
 #: A machine whose kinetic energy falls below this share of that at its mean speed stops, and one whose inertia falls
 #: below this share of the largest has none.
@@ -85,7 +86,13 @@ def true_speed(
     from linkwright.machine.energy import energy_fluctuation
 
     if not speed > 0:
-        raise LinkwrightError("running.bad_speed", speed=speed)
+        raise LinkwrightError(
+            _(
+                "the mean speed is {speed:g} rad/s; give a value above zero",
+                code="running.bad_speed",
+                speed=speed,
+            )
+        )
     given = TorqueCurve.constant(load.mean, period=load.period) if driver is None else driver
     if driver is not None:
         energy_fluctuation(driver, load)
@@ -129,10 +136,17 @@ class SteadyCycle:
         ``first``: one to begin with. Raises as ``curve``, and where none is found.
         """
         edges, cycles = self.work.edges, self._first
-        for _ in range(ROUNDS):
+        for _unused in range(ROUNDS):
             size = float(cycles.flywheel(fluctuation, np.array([first]))[0])
             if np.isnan(size):
-                raise LinkwrightError("running.no_flywheel", fluctuation=fluctuation)
+                raise LinkwrightError(
+                    _(
+                        "no flywheel was found with which the speed fluctuates by just {fluctuation:g}; ask "
+                        "for another coefficient",
+                        code="running.no_flywheel",
+                        fluctuation=fluctuation,
+                    )
+                )
             finer = self._solved(size).edges
             if len(finer) == len(edges):
                 break
@@ -146,12 +160,18 @@ class SteadyCycle:
 
     def _found(self, flywheel: float) -> _Solved:
         edges, cycles, graded = self.work.edges, self._first, False
-        for _ in range(ROUNDS):
+        for _unused in range(ROUNDS):
             found = cycles.at(np.array([flywheel]))
             energy = self._energy(found, flywheel)
             if self._stops(energy, found):
                 if graded:
-                    raise LinkwrightError("running.would_stop")
+                    raise LinkwrightError(
+                        _(
+                            "the kinetic energy does not suffice to carry the machine over its cycle at this "
+                            "mean speed: it would stop; add a flywheel or raise the speed",
+                            code="running.would_stop",
+                        )
+                    )
                 edges, graded = self._graded(edges), True
                 cycles = self._at_edges(edges)
                 continue
@@ -170,7 +190,12 @@ class SteadyCycle:
         """The energy at the period's begin, J."""
         most, unit = float(found.inertia.max()), 0.5 * self.speed * self.speed
         if not min(float(found.inertia.min()), flywheel + self._lightest) > NO_INERTIA * most:
-            raise LinkwrightError("running.no_inertia")
+            raise LinkwrightError(
+                _(
+                    "the total moment of inertia is zero somewhere in the cycle; give masses or a flywheel",
+                    code="running.no_inertia",
+                )
+            )
         return unit * float(found.energy[0])
 
     def _stops(self, energy: float, found: Speeds) -> bool:
@@ -209,7 +234,13 @@ class _Solved:
 
 def _constant(inertia: float) -> Function:
     if not inertia > 0:
-        raise LinkwrightError("running.bad_inertia", inertia=inertia)
+        raise LinkwrightError(
+            _(
+                "the moment of inertia is {inertia:g} kg·m²; give a value above zero",
+                code="running.bad_inertia",
+                inertia=inertia,
+            )
+        )
     return partial(_same, float(inertia))
 
 

@@ -15,6 +15,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
 from linkwright.curves.curve import Curve, Integral
 from linkwright.errors import LinkwrightError
+from linkwright.words import _
 
 TURN = 2 * np.pi
 
@@ -49,7 +50,13 @@ class TorqueCurve(Plotted):
         Raises LinkwrightError for a text that is no expression of theta, or a period that is not above zero.
         """
         if not period > 0:
-            raise LinkwrightError("running.bad_period", period=period)
+            raise LinkwrightError(
+                _(
+                    "the period of a torque curve is {period:g} rad; give an angle above zero",
+                    code="running.bad_period",
+                    period=period,
+                )
+            )
         if isinstance(torque, str):
             return cls(partial(_expressed, parse(torque, ("theta",))), period)
         if callable(torque):
@@ -65,11 +72,23 @@ class TorqueCurve(Plotted):
         """
         x, y = np.atleast_1d(np.asarray(angle, dtype=float)), np.atleast_1d(np.asarray(torque, dtype=float))
         if x.shape != y.shape or x.ndim != 1 or len(x) < 2:
-            raise LinkwrightError("running.bad_table")
+            raise LinkwrightError(
+                _(
+                    "a torque table needs as many torques as angles, two or more of each",
+                    code="running.bad_table",
+                )
+            )
         if not (np.isfinite(x).all() and np.isfinite(y).all()):
-            raise LinkwrightError("running.table_not_finite")
+            raise LinkwrightError(
+                _("a torque table holds a number that is not finite", code="running.table_not_finite")
+            )
         if (np.diff(x) < 0).any() or x[-1] - x[0] > period * (1 + 1e-12):
-            raise LinkwrightError("running.table_order")
+            raise LinkwrightError(
+                _(
+                    "the angles of a torque table must increase and lie within one period",
+                    code="running.table_order",
+                )
+            )
         if x[-1] - x[0] < period * (1 - 1e-12):
             x, y = np.append(x, x[0] + period), np.append(y, y[0])
         return cls(partial(_linear, x, y), period, float(x[0]), tuple(x.tolist()))
@@ -109,7 +128,13 @@ class TorqueCurve(Plotted):
         long, short = max(self.period, other.period), min(self.period, other.period)
         if abs(long / short - round(long / short)) > 1e-9:
             raise LinkwrightError(
-                "running.no_common_period", period=np.degrees(self.period), period2=np.degrees(other.period)
+                _(
+                    "torque curves with periods of {period:g}° and {period2:g}° have no common cycle; "
+                    "give both over the same angle",
+                    code="running.no_common_period",
+                    period=np.degrees(self.period),
+                    period2=np.degrees(other.period),
+                )
             )
         knots = sorted({k for curve in (self, other) for k in _repeated(curve, self.start, long)})
         return TorqueCurve(partial(_difference, self, other), long, self.start, tuple(knots))

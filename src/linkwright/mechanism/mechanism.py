@@ -23,8 +23,8 @@ from linkwright.mechanism.link import Link, Vec
 from linkwright.mechanism.named_output import NamedOutput
 from linkwright.registry import nearest, no_such
 from linkwright.units import LARGEST_OF_ALL, SI_UNITS, Dimension
-from linkwright.words import LANGUAGES
-from linkwright.words.sentence import Sentence, Worded, in_language
+from linkwright.words import LANGUAGES, _
+from linkwright.words.sentence import Worded, in_language
 
 if TYPE_CHECKING:
     from linkwright.core.expressions import Expression
@@ -314,8 +314,15 @@ class Mechanism(Frozen):
 
     def _unknown(self, address: str) -> LinkwrightError:
         offer = nearest(str(address), self._dimensions)
-        hint = Sentence("names.did_you_mean", offer=offer) if offer else Sentence("model.see_addresses")
-        return LinkwrightError("model.no_dimension", address=address, hint=hint)
+        hint = _('did you mean "{offer}"?', offer=offer) if offer else _("see the addresses in dimensions()")
+        return LinkwrightError(
+            _(
+                'the mechanism has no dimension "{address}"; {hint}',
+                code="model.no_dimension",
+                address=address,
+                hint=hint,
+            )
+        )
 
     def _checked(self, address: str, value: float) -> float:
         if address not in self._dimensions:
@@ -323,11 +330,32 @@ class Mechanism(Frozen):
         try:
             value = float(value)
         except (TypeError, ValueError):
-            raise RequestError("model.set_no_number", address=address, given=repr(value)[:60]) from None
+            raise RequestError(
+                _(
+                    "{address}: {given} is no number; give its SI value, such as 0.05 for 50 mm",
+                    code="model.set_no_number",
+                    address=address,
+                    given=repr(value)[:60],
+                )
+            ) from None
         if not math.isfinite(value):
-            raise RequestError("model.set_not_finite", address=address, value=value)
+            raise RequestError(
+                _(
+                    "{address} is set to {value}; give a finite number",
+                    code="model.set_not_finite",
+                    address=address,
+                    value=value,
+                )
+            )
         if abs(value) > LARGEST_OF_ALL:
-            raise RequestError("model.set_beyond", address=address, value=value)
+            raise RequestError(
+                _(
+                    "{address} is set to {value:g}, which is more than any machine has; check the number",
+                    code="model.set_beyond",
+                    address=address,
+                    value=value,
+                )
+            )
         sort, name = self._owners.get(address, ("", ""))
         if sort == "joint":
             limit = self.joints[name].limit(address, value)
@@ -336,7 +364,15 @@ class Mechanism(Frozen):
         if limit is not None:
             unit = SI_UNITS.get(getattr(self.declared(address), "dimension", ""), "")
             told = f"{value:g} {unit}".rstrip()
-            raise RequestError("model.set_outside", address=address, value=told, limit=limit)
+            raise RequestError(
+                _(
+                    "{address} is set to {value}; give {limit}",
+                    code="model.set_outside",
+                    address=address,
+                    value=told,
+                    limit=limit,
+                )
+            )
         return value
 
     def __repr__(self) -> str:

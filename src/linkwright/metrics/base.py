@@ -20,7 +20,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Result
 from linkwright.registry import Registry
 from linkwright.units import si_unit
-from linkwright.words import has, say
+from linkwright.words import _, has, say
 from linkwright.words.sentence import in_words
 
 Better = Literal["higher", "lower"]
@@ -81,7 +81,7 @@ class MetricValue:
 
     def sentence_in(self, language: str) -> str:
         """All remarks in a language."""
-        return say("finding.semicolon", language).join(remark.text(language) for remark in self.remarks)
+        return _("; ").translate(language).join(remark.text(language) for remark in self.remarks)
 
     def cells(self, language: str = "en") -> tuple[str, ...]:
         """What tables write of it, in the order of ``CELLS``; the last is the recommended limit."""

@@ -22,6 +22,7 @@ from linkwright.metrics.base import METRICS, Metric, MetricValue, Number
 from linkwright.metrics.of_output import OWN, Asked, own_metric
 from linkwright.metrics.outputs import turns_fully
 from linkwright.registry import offered
+from linkwright.words import _
 
 
 def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
@@ -35,7 +36,9 @@ def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
         for summary in _read(each):
             found[summary] = None
     if not found:
-        raise RequestError("study.no_outputs")
+        raise RequestError(
+            _('no outputs are asked for; name some, such as "driver.effort rms"', code="study.no_outputs")
+        )
     return tuple(found)
 
 
@@ -55,18 +58,32 @@ def _read(each: str | tuple[str, str]) -> list[Summary]:
     if isinstance(each, str):
         if is_metric(each):
             return [Summary(each, "")]
-        output, _, kind = each.rpartition(" ")
+        output, _unused, kind = each.rpartition(" ")
         if not output or kind not in KINDS:
             output, dot, kind = each.rpartition(".")
             if not dot or kind not in KINDS:
                 return [Summary(each, "min"), Summary(each, "max")]
         return [Summary(output, kind)]
     if not isinstance(each, tuple | list) or len(each) != 2:
-        raise RequestError("study.no_output_name", given=repr(each)[:60])
+        raise RequestError(
+            _(
+                'an output is asked for by a text such as "driver.effort rms", not by {given}',
+                code="study.no_output_name",
+                given=repr(each)[:60],
+            )
+        )
     output, kind = each
     if kind not in KINDS:
         hint = offered(kind, KINDS, "names.one_of")
-        raise RequestError("study.no_summary", output=output, kind=kind, hint=hint)
+        raise RequestError(
+            _(
+                "{output!r}: there is no summary {kind!r}; {hint}",
+                code="study.no_summary",
+                output=output,
+                kind=kind,
+                hint=hint,
+            )
+        )
     return [Summary(output, kind)]
 
 
@@ -74,7 +91,7 @@ def governing_number(numbers: Sequence[Number], better: str | None) -> Number:
     """Of several numbers the worst where a direction is better, else the first, as one number without a subject."""
     if better is None or len(numbers) == 1:
         return numbers[0]
-    parts, (first, *_) = tuple(each for number in numbers for each in number.summaries), numbers
+    parts, (first, *_unused) = tuple(each for number in numbers for each in number.summaries), numbers
     worst, at = partial(_worst, tuple(numbers), better), partial(_place_of_worst, tuple(numbers), better)
     return Number("", parts, worst, first.dimension, at, first.passed_over)
 
@@ -103,7 +120,7 @@ def _larger(a: Scalar, b: Scalar) -> Scalar:
 
 def metric_of(name: str) -> tuple[type[Metric], str] | None:
     """The registered metric that a name begins with, and the subject behind it."""
-    metric, _, subject = name.partition(" ")
+    metric, _unused, subject = name.partition(" ")
     return (METRICS[metric], subject) if metric in METRICS else None
 
 
@@ -144,7 +161,14 @@ def _of_summary(name: str, analysis: Analysis) -> Number:
     (summary,) = wanted([name])
     meant = analysis.meant(summary.output)
     if turns_fully(analysis.motion, meant):
-        raise RequestError("study.turns_through", link=meant.owner)
+        raise RequestError(
+            _(
+                "{link!r} turns through, so its angle has no smallest and largest value; ask for "
+                "{link}.angular_velocity instead",
+                code="study.turns_through",
+                link=meant.owner,
+            )
+        )
     place = summary.kind in ("argmin", "argmax")
     return Number("", (summary,), dimension=analysis.input_dimension if place else meant.dimension)
 
@@ -200,7 +224,7 @@ def _first_worst(values: Sequence[float], better: str) -> int:
 def _no_subject(
     error: type[LinkwrightError], name: str, subject: str, known: Iterable[str]
 ) -> LinkwrightError:
-    metric, _, _ = name.partition(" ")
+    metric, _unused, _unused2 = name.partition(" ")
     return error("metrics.no_value", name=metric, subject=subject, hint=offered(subject, known))
 
 

@@ -23,6 +23,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.outputs import coupler_points
+from linkwright.words import _
 
 #: A path stops in a cusp where its speed falls below this share of its mean speed.
 STANDING = 1e-6
@@ -74,7 +75,14 @@ def coupler_curve(result: Motion | Forces | Analysis, point: str) -> CouplerCurv
 
 def _curve(analysis: Analysis, point: str) -> CouplerCurve:
     if not analysis.whole:
-        raise LinkwrightError("metrics.path_open", point=point, name=analysis.motion.mechanism.name)
+        raise LinkwrightError(
+            _(
+                "the path of {point} is not closed: solve a whole cycle of {name!r}",
+                code="metrics.path_open",
+                point=point,
+                name=analysis.motion.mechanism.name,
+            )
+        )
     lap = _lap(analysis, point)
     motion = _once(analysis, lap)
     path = motion.point(point).position
@@ -103,7 +111,7 @@ def _once(analysis: Analysis, lap: float) -> Motion:
 
 def _among(spot: Spot, cusps: tuple[tuple[Spot, float], ...], near: float) -> bool:
     """Whether a place is one of the cusps, from which a curve may run back on itself."""
-    return any(np.hypot(spot[0] - x, spot[1] - y) <= near for (x, y), _ in cusps)
+    return any(np.hypot(spot[0] - x, spot[1] - y) <= near for (x, y), _unused in cusps)
 
 
 def _length(point: str, lap: float) -> Number:
@@ -159,7 +167,7 @@ def _doubles(
         return
     begin, step, period = float(analysis.motion.time[0]), lap / len(path), abs(lap)
     times = begin + places * step
-    for _ in range(NEWTON):
+    for _unused in range(NEWTON):
         position, velocity = _pairs(analysis, point, times)
         gap, turn = position[:, 1] - position[:, 0], cross(velocity[:, 0], velocity[:, 1])
         with np.errstate(all="ignore"):
@@ -268,7 +276,7 @@ class DoublePoint(CurveMetric):
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for curve in self.curves(analysis):
-            remarks = tuple(_remark("double_point.at", spot) for spot, _ in curve.double_points)
+            remarks = tuple(_remark("double_point.at", spot) for spot, _unused in curve.double_points)
             place = curve.double_points[0][0] if curve.double_points else None
             yield self.value(analysis, curve.point, len(curve.double_points), remarks=remarks, place=place)
 
@@ -281,7 +289,7 @@ class Cusp(CurveMetric):
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for curve in self.curves(analysis):
-            remarks = tuple(_remark("cusp.at", spot) for spot, _ in curve.cusps)
+            remarks = tuple(_remark("cusp.at", spot) for spot, _unused in curve.cusps)
             place, at = curve.cusps[0] if curve.cusps else (None, None)
             yield self.value(analysis, curve.point, len(curve.cusps), remarks=remarks, place=place, at=at)
 

@@ -18,7 +18,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Result
 from linkwright.metrics.base import METRICS, Metric, MetricValue
 from linkwright.metrics.table import MetricsTable
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 
@@ -76,14 +76,29 @@ def _countable(motion: Motion) -> None:
     given = motion.positions.cycle and motion.mechanism.cycle is not None
     if given and motion.positions.turns > MOST * (1.0 + NEAR):
         turns = f"{motion.positions.turns:.6g}"
-        raise RequestError("metrics.too_many_turns", name=motion.mechanism.name, turns=turns, most=MOST)
+        raise RequestError(
+            _(
+                "the cycle of {name!r} has {turns} turns, and design numbers are found over at most "
+                "{most}; leave turns or duration out (the cycle then lasts until all is back), or "
+                "give fewer: cycle: {{turns: {most}}}",
+                code="metrics.too_many_turns",
+                name=motion.mechanism.name,
+                turns=turns,
+                most=MOST,
+            )
+        )
 
 
 def _notes(analysis: Analysis, ok: Flags) -> tuple[Message, ...]:
     """What is to be said where not all positions are reached; ``ok``: which of those that were asked for are."""
     name = analysis.motion.mechanism.name
     if not ok.any():
-        return (Sentence("metrics.none_reached", name=name),)
+        return (
+            _(
+                "{name!r} reaches none of the positions, so only numbers of its dimensions are known",
+                name=name,
+            ),
+        )
     if not analysis.partial:
         return ()
     said = "metrics.part_reached" if analysis.closed else "metrics.part_of_way_reached"
@@ -133,14 +148,31 @@ def unloaded(mechanism: Mechanism, names: Iterable[str]) -> Message | None:
     idle = tuple(name for name, metric in metrics.items() if metric is not None and metric.needs_forces)
     if mechanism.has_loads or not idle:
         return None
-    return Sentence("metrics.unloaded", names=idle, title=mechanism.name)
+    return _(
+        "{names} cannot be found: the links of {title!r} have no mass and there are no "
+        "loads; give masses (mass: 5 kg) or loads (loads: …)",
+        code="metrics.unloaded",
+        names=idle,
+        title=mechanism.name,
+    )
 
 
 def _refusal(name: str, analysis: Analysis) -> str:
     title = analysis.motion.mechanism.name
     if METRICS[name].needs_forces and analysis.forces is None:
-        return Sentence("metrics.needs_forces", name=name, title=title)
+        return _(
+            '"{name}" needs the joint forces of {title!r}; give it the result of solve_forces',
+            code="metrics.needs_forces",
+            name=name,
+            title=title,
+        )
     obstacle = METRICS[name]().obstacle(analysis)
     if obstacle is not None:
-        return Sentence("cli.about", name=name, cause=obstacle)
-    return Sentence("metrics.does_not_apply", name=name, title=title, meaning=METRICS[name]().meaning_in)
+        return _("{name}: {cause}", code="cli.about", name=name, cause=obstacle)
+    return _(
+        '"{name}" does not apply to {title!r}: {meaning}',
+        code="metrics.does_not_apply",
+        name=name,
+        title=title,
+        meaning=METRICS[name]().meaning_in,
+    )

@@ -34,6 +34,7 @@ from linkwright.metrics.base import Number
 from linkwright.metrics.by_name import metric_named, number_named
 from linkwright.metrics.of_output import Asked
 from linkwright.metrics.true_speed import EFFORT, INERTIA, TrueSpeedSummary
+from linkwright.words import _
 
 #: Designs of one block: what is found of them stays in a core's cache.
 BLOCK = 512
@@ -253,7 +254,7 @@ class NumbersOfDesigns(MetricsOfDesigns):
     def _sum(self, weights: tuple[tuple[str, float], ...]) -> tuple[Program, list[str]]:
         """A weighted sum of numbers with its derivatives by the summaries that it takes."""
         if weights not in self._slopes:
-            found = inlined(self._formulas.only([name for name, _ in weights]), t := Trace(), {})
+            found = inlined(self._formulas.only([name for name, _unused in weights]), t := Trace(), {})
             total: Scalar = 0.0
             for name, weight in weights:
                 total = total + weight * found[name]
@@ -277,7 +278,15 @@ def refuse_obstacles(numbers: NumbersOfDesigns) -> None:
     for name in numbers.kinds:
         found = metric_named(name)
         if found is not None and (why := found[0].obstacle(numbers.analysis)) is not None:
-            raise RequestError("cli.about", name=name, cause=why)
+            raise RequestError(_("{name}: {cause}", code="cli.about", name=name, cause=why))
     start = {name: np.array([machine.mechanism.dimension(name)]) for name in machine.varied}
     if numbers.running and not numbers.evaluate(start)[1].all():
-        raise RequestError("study.objective_speed", name=machine.mechanism.name)
+        raise RequestError(
+            _(
+                "the true speed of {name!r}, or the torque that it follows from, changes too "
+                "suddenly for a gradient, as where it almost stands still; find its numbers without "
+                "one, by sweep or study",
+                code="study.objective_speed",
+                name=machine.mechanism.name,
+            )
+        )

@@ -11,7 +11,7 @@ from linkwright.core.table import Table
 from linkwright.errors import RequestError
 from linkwright.metrics.base import CELLS, METRICS, MetricValue
 from linkwright.registry import offered
-from linkwright.words import say
+from linkwright.words import _, say
 from linkwright.words.sentence import in_language, in_words, together
 
 if TYPE_CHECKING:
@@ -31,10 +31,10 @@ def told(rows: Sequence[MetricValue], language: str) -> Iterator[tuple[tuple[str
         few = len(same) if len(same) == REPEATED + 1 else REPEATED
         yield from ((row.cells(language), row) for row in same[:few])
         if rest := same[few:]:
-            label, subject, _, unit, *_ = rest[0].cells(language)
+            label, subject, _unused, unit, *_unused2 = rest[0].cells(language)
             value = _between([row.value for row in rest], rest[0].dimension)
             at = _between([row.at for row in rest if row.at is not None], rest[0].at_dimension)
-            more = say("metrics.more", language, subject=subject, count=len(rest))
+            more = _("{subject}, {count} more", subject=subject, count=len(rest)).translate(language)
             yield (label, more, value, unit, at and at + shown_unit(rest[0].at_dimension), ""), None
 
 
@@ -81,7 +81,7 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
                 said.setdefault(remark.text(language), []).append(in_words(row.subject, language))
         about = {cause: together(tuple(dict.fromkeys(subjects))) for cause, subjects in said.items()}
         told = (
-            say("cli.about", language, name=in_language(names, language), cause=cause)
+            _("{name}: {cause}", name=in_language(names, language), cause=cause).translate(language)
             for cause, names in about.items()
         )
         return (*notes, *told)
@@ -115,7 +115,13 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
         if found:
             return found
         METRICS[name]
-        raise RequestError("metrics.not_in_table", name=name)
+        raise RequestError(
+            _(
+                '"{name}" is not in the table: it does not apply here or was not asked for',
+                code="metrics.not_in_table",
+                name=name,
+            )
+        )
 
     def _one(self, name: str, subject: str) -> MetricValue:
         rows = self._of(name)
@@ -124,7 +130,15 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
                 return row
         subjects = [row.subject for row in rows]
         hint = offered(subject, subjects)
-        raise RequestError("metrics.no_value", name=name, subject=subject, hint=hint)
+        raise RequestError(
+            _(
+                '"{name}" has no value for "{subject}"; {hint}',
+                code="metrics.no_value",
+                name=name,
+                subject=subject,
+                hint=hint,
+            )
+        )
 
     def text(self, language: str = "en") -> str:
         """The table with aligned columns: name, subject, value, unit, where; then the sentences."""
@@ -134,7 +148,7 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
     def table(self, language: str = "en") -> Table:
         """The rows without their limits, and the warnings."""
         head = [say(f"metrics.column.{name}", language) for name in CELLS[:-1]]
-        rows = [cells[:-1] for cells, _ in told(self.rows, language)]
+        rows = [cells[:-1] for cells, _unused in told(self.rows, language)]
         notes = [f"! {warning}" for warning in self.warnings_in(language)]
         return Table(head, rows, "<<><>", self.title, notes)
 
@@ -152,7 +166,12 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
         try:
             import pandas
         except ImportError:
-            raise RequestError("metrics.needs_pandas") from None
+            raise RequestError(
+                _(
+                    "tables need pandas; install it: pip install linkwright[notebook]",
+                    code="metrics.needs_pandas",
+                )
+            ) from None
         return pandas.DataFrame(self.data()["metrics"])
 
     def _repr_html_(self) -> str:

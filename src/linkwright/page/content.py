@@ -36,7 +36,7 @@ from linkwright.page.programs import SIZES, PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
 from linkwright.plot.drawing.machine import Machine, fitted
 from linkwright.whole_files import write_whole
-from linkwright.words import LANGUAGES, catalogue, say
+from linkwright.words import LANGUAGES, _, catalogue, say
 from linkwright.words.sentence import in_language
 
 #: What of a position's outcome a page can find itself.
@@ -56,8 +56,10 @@ def solved(machine: Mechanism | Document, steps: int) -> tuple[Motion, str | Non
 def page(models: Sequence[tuple[Motion, str | None]], language: str = "en") -> str:
     """The text of a page with machines side by side, each with its motion and the text of its file."""
     data, text = page_data(models, language)
-    name = ", ".join(dict.fromkeys(in_language(motion.mechanism.name, language) for motion, _ in models))
-    return document(data, text, say("page.title", language, name=name), language)
+    name = ", ".join(
+        dict.fromkeys(in_language(motion.mechanism.name, language) for motion, _unused in models)
+    )
+    return document(data, text, _("{name}: living page", name=name).translate(language), language)
 
 
 def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tuple[Plain, str]:
@@ -68,8 +70,8 @@ def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tup
         | {f"outcome.{key}": say(f"outcome.{key}", each) for key in _OUTCOMES}
         for each in LANGUAGES
     }
-    data = {"language": language, "words": words, "models": [each for each, _ in found]}
-    return data, "\n".join(text for _, text in found)
+    data = {"language": language, "words": words, "models": [each for each, _unused in found]}
+    return data, "\n".join(text for _unused, text in found)
 
 
 def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:

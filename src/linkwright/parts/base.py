@@ -21,8 +21,7 @@ from linkwright.equations.reading import filled, normal, plain
 from linkwright.equations.steps import Equation, Step
 from linkwright.errors import Finding, ModelError, speaker
 from linkwright.fields.base import Field, GivenByFile, given_by_file
-from linkwright.words import Say
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, Say
 
 if TYPE_CHECKING:
     from typing import Self
@@ -30,14 +29,10 @@ if TYPE_CHECKING:
     from linkwright.pictures.drawing import Drawing
 
 
-def fault(code: str, key: str, **values: object) -> Finding:
-    """An error at a key of the problem; ``code`` is the key of its sentence, its remedy is ``CODE_remedy``.
-
-    Numbers among the values are said with six digits.
-    """
+def fault(code: str, key: str, message: Message, remedy: Message, **values: object) -> Finding:
+    """An error at a key of the problem with the values of its texts; numbers among them have six digits."""
     said = {name: f"{value:.6g}" if isinstance(value, float) else value for name, value in values.items()}
-    message, remedy = Sentence(code, **said), Sentence(f"{code}_remedy", **said)
-    return Finding("error", "", key, message, remedy, code.partition(".")[2])
+    return Finding("error", "", key, message.format(**said), remedy.format(**said), code)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -16,6 +16,7 @@ from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import MOST, ByAddress, Either, Flag, Listed, Make, Named, Table, Whole
 from linkwright.registry import nearest
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 __all__ = [
@@ -61,7 +62,7 @@ class Sample(Field):
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Numbers | None:
         unit, factor, kind = "", 1.0, None
         if isinstance(node, MappingNode):
-            node, _ = reader.unknown_keys(node, place, ["unit", "values"])
+            node, _unused = reader.unknown_keys(node, place, ["unit", "values"])
             named, node_values = node.get("unit"), node.get("values")
             if isinstance(named, Scalar):
                 unit = named.text
@@ -71,7 +72,7 @@ class Sample(Field):
                     reader.quantity_error(error, named, place.child("unit"), unit)
                     return None
             if node_values is None:
-                missing = Sentence("part.no_values"), Sentence("part.no_values_remedy")
+                missing = _('the key "values" is missing'), _("add it: values: [20.1, 19.9]")
                 reader.error(node, place.child("values"), *missing, "missing-key")
                 return None
             node, place = node_values, place.child("values")
@@ -84,8 +85,13 @@ class Sample(Field):
         kinds = {each[1] for each in read if each is not None}
         if len(kinds) > 1:
             first, second = (units.name_of(each) for each in sorted(kinds)[:2])
-            message = Sentence("part.kinds_differ", first=first, second=second)
-            reader.error(node, place, message, Sentence("part.kinds_differ_remedy"), "unit")
+            message = _(
+                "the values differ in kind: {first} and {second}",
+                code="part.kinds_differ",
+                first=first,
+                second=second,
+            )
+            reader.error(node, place, message, _("give all of one kind"), "unit")
             return None
         shared = kinds.pop() if kinds else units.NONE
         return Numbers(tuple(each[0] for each in read if each), shared, unit, factor)
@@ -137,9 +143,9 @@ def unknown_name(reader: Reader, node: Node, place: Place, code: str, name: str,
     offer = nearest(name, known)
     listed = tuple(known)
     remedy = (
-        Sentence("part.known", known=listed)
+        _("(known: {known})", known=listed)
         if offer is None
-        else Sentence("part.nearest", offer=offer, known=listed)
+        else _('did you mean "{offer}"? (known: {known})', offer=offer, known=listed)
     )
     reader.error(node, place, Sentence(code, name=name), remedy, "unknown-name")
 

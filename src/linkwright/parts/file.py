@@ -21,6 +21,7 @@ from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
 from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -91,8 +92,8 @@ def solve(problem: Problem, source: str | Path) -> Result:
     try:
         return problem.solve()
     except ModelError as error:
-        text, name, _ = _text(source)
-        root, _ = read_root(text, name)
+        text, name, _unused = _text(source)
+        root, _unused2 = read_root(text, name)
         if not isinstance(root, MappingNode):
             raise
         raise ModelError([_placed(each, root, Reader(name)) for each in error.findings]) from None
@@ -105,21 +106,21 @@ def gallery_names() -> tuple[str, ...]:
 
 def kind_of(source: str | Path) -> str | None:
     """The kind that a file declares, None where it declares none; raises ModelError for no such file."""
-    text, name, _ = _text(source)
+    text, name, _unused = _text(source)
     return declared_kind(read_root(text, name)[0])
 
 
 def sheet_section(source: str | Path) -> Mapping[str, Any]:
     """The section ``sheet`` of a file; empty where it has none."""
-    text, name, _ = _text(source)
-    root, _ = read_root(text, name)
+    text, name, _unused = _text(source)
+    root, _unused2 = read_root(text, name)
     node = root.get("sheet") if isinstance(root, MappingNode) else None
     return cast("Mapping[str, Any]", Reader(name).free(node)) if isinstance(node, MappingNode) else {}
 
 
 def problem_class(kind: str) -> type[Problem]:
     """The class of a kind."""
-    module, _, name = KINDS[kind].rpartition(".")
+    module, _unused, name = KINDS[kind].rpartition(".")
     return cast("type[Problem]", getattr(import_module(module), name))
 
 
@@ -192,7 +193,9 @@ def _kind(reader: Reader, root: MappingNode) -> str | None:
     if node is not None:
         return reader.word(node, "kind", tuple(KINDS))
     if (task := root.get("synthesis")) is not None and root.get("links") is None:
-        reader.finding(task, "synthesis", "task_alone", "kind", Sentence("model.synthesize"))
+        reader.finding(
+            task, "synthesis", "task_alone", "kind", _("linkwright synthesize finds machines for it")
+        )
         return None
     key = "model" if root.get("links") is not None else "no_kind"
     remedy = Sentence(f"part.{key}_remedy", known=tuple(KINDS))

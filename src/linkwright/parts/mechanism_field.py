@@ -12,7 +12,7 @@ from linkwright.files.model_file import load
 from linkwright.files.source import GALLERY
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from typing import Self
@@ -32,7 +32,7 @@ def load_beside(name: str, folder: Path) -> Mechanism:
         if error.findings[0].code not in NO_FILE:
             raise
         missing = error.findings[0]
-        message = Sentence("part.mechanism_file", name=name, message=missing.message)
+        message = _("{name}: {message}", name=name, message=missing.message)
         raise ModelError([Finding("error", "", "mechanism", message, missing.remedy, "reference")]) from None
 
 

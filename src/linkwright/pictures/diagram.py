@@ -18,7 +18,7 @@ from linkwright.pictures.drawing import PIXELS, Drawing
 from linkwright.pictures.svg.fonts import given_fonts, installed_chinese
 from linkwright.pictures.svg.render import MOST_PIXELS, natural_size, pdf, png
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from matplotlib import axes, figure
@@ -37,7 +37,11 @@ CHINESE = (
     "Arial Unicode MS", "Microsoft JhengHei", "AR PL UMing CN", "AR PL UKai CN", "SimSun",
 )  # fmt: skip
 LATIN = "DejaVu Sans"
-REMEDY = Sentence("picture.install_font")
+REMEDY = _(
+    "install one and try again, or name its folder on the command line, --fonts FOLDER "
+    "(Debian, Ubuntu: apt-get install fonts-noto-cjk; Fedora: dnf install "
+    "google-noto-sans-cjk-fonts; Windows and macOS have one)",
+)
 
 
 #: The name under which the chosen face stands in matplotlib's list, so that no other face of its family is taken.
@@ -121,7 +125,13 @@ def families(language: str) -> list[str]:
     chinese = chinese_font()
     if language == "zh":
         if chinese is None:
-            raise LinkwrightError("picture.boxes", remedy=REMEDY)
+            raise LinkwrightError(
+                _(
+                    "no installed font can write Chinese, so the labels would be boxes; {remedy}",
+                    code="picture.boxes",
+                    remedy=REMEDY,
+                )
+            )
         return [chinese, LATIN]
     return [LATIN] if chinese is None else [LATIN, chinese]
 
@@ -166,7 +176,12 @@ def style(language: str) -> Iterator[None]:
     try:
         import matplotlib
     except ImportError:
-        raise LinkwrightError("picture.diagrams_need") from None
+        raise LinkwrightError(
+            _(
+                'diagrams need matplotlib; install it: pip install "linkwright[plot]"',
+                code="picture.diagrams_need",
+            )
+        ) from None
     settings: Any = {**_STYLE, "font.family": families(language)}
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
@@ -196,14 +211,25 @@ class Diagram:
         wide, tall = self._inches
         if ending == ".png" and not 0 < dpi * dpi * wide * tall <= MOST_PIXELS:
             raise RequestError(
-                "picture.bad_dots",
-                wide=wide,
-                tall=tall,
-                dpi=dpi,
-                most=int((MOST_PIXELS / (wide * tall)) ** 0.5),
+                _(
+                    "a diagram of {wide:.3g} × {tall:.3g} inches cannot have {dpi:.12g} dots per inch; "
+                    "give 1 to {most}",
+                    code="picture.bad_dots",
+                    wide=wide,
+                    tall=tall,
+                    dpi=dpi,
+                    most=int((MOST_PIXELS / (wide * tall)) ** 0.5),
+                )
             )
         if ending not in ENDINGS:
-            raise RequestError("picture.no_ending", ending=ending, names=ENDINGS)
+            raise RequestError(
+                _(
+                    'the ending "{ending}" is no kind of picture; use {names}',
+                    code="picture.no_ending",
+                    ending=ending,
+                    names=ENDINGS,
+                )
+            )
         return self._bytes(ending[1:], dpi)
 
     def svg(self) -> str:
@@ -269,7 +295,14 @@ def _no_boxes() -> Iterator[None]:
         try:
             yield
         except UserWarning as problem:
-            raise RequestError("picture.no_glyph", problem=problem, remedy=REMEDY) from None
+            raise RequestError(
+                _(
+                    "a text of the diagram cannot be written with the fonts there are ({problem}); {remedy}",
+                    code="picture.no_glyph",
+                    problem=problem,
+                    remedy=REMEDY,
+                )
+            ) from None
 
 
 @contextmanager

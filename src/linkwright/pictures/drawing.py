@@ -18,6 +18,7 @@ from linkwright.pictures.svg.text import FAMILY_LIST
 from linkwright.pictures.svg.text import width as text_width
 from linkwright.pictures.symbols.base import LINE
 from linkwright.whole_files import refuse_target
+from linkwright.words import _
 
 INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE, TEAL = (
     "#1c2733", "#5b6672", "#1565c0", "#c62828", "#2e7d32", "#d9730d", "#7b1fa2", "#00838f",
@@ -149,7 +150,15 @@ def document(
     """A whole SVG document over a box; ``size`` is its longer side in pixels, ``millimetre`` instead the printed
     width of a unit, mm."""
     if size is not None and not SIZES[0] <= real("size", size) <= SIZES[1]:
-        raise RequestError("picture.bad_size", size=size, least=SIZES[0], most=SIZES[1])
+        raise RequestError(
+            _(
+                "a drawing cannot be {size:.12g} pixels large; give {least} to {most}",
+                code="picture.bad_size",
+                size=size,
+                least=SIZES[0],
+                most=SIZES[1],
+            )
+        )
     left, top = box[0] - MARGIN, box[1] - MARGIN
     width, height = box[2] - left + MARGIN, box[3] - top + MARGIN
     factor = 1.0 if size is None else size / max(width, height)

@@ -43,7 +43,7 @@ from linkwright.plot.drawing.scene import Scene, laid_out, point_labels
 from linkwright.plot.drawing.vectors import Arrows, scale_of
 from linkwright.plot.drawing.video import gif, mp4
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words import say
+from linkwright.words import _
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
@@ -94,9 +94,21 @@ def animate(
     require(source, Motion, Mechanism)
     require_language(language)
     if not 2 <= whole("frames", frames) <= 2000:
-        raise RequestError("picture.bad_frames", frames=frames)
+        raise RequestError(
+            _(
+                "an animation of {frames} frames cannot be made; give 2 to 2000",
+                code="picture.bad_frames",
+                frames=frames,
+            )
+        )
     if seconds is not None and not 0.05 <= real("seconds", seconds) <= 3600:
-        raise RequestError("picture.bad_seconds", seconds=seconds)
+        raise RequestError(
+            _(
+                "a cycle of {seconds} s cannot be shown; give 0.05 to 3600 s",
+                code="picture.bad_seconds",
+                seconds=seconds,
+            )
+        )
     machine = source.mechanism if isinstance(source, Motion) else source
     paths, curves = one_or_more(paths), one_or_more(curves)
     for name in paths:
@@ -228,7 +240,15 @@ class Animation:
         refuse_target(path, force=force)
         suffix = Path(path).suffix.lower()
         if suffix != ".svg" and not WIDTHS[0] <= whole("width", width) <= WIDTHS[1]:
-            raise RequestError("picture.bad_film_width", width=width, least=WIDTHS[0], most=WIDTHS[1])
+            raise RequestError(
+                _(
+                    "a film cannot be {width:.12g} pixels wide; give a width from {least} to {most}",
+                    code="picture.bad_film_width",
+                    width=width,
+                    least=WIDTHS[0],
+                    most=WIDTHS[1],
+                )
+            )
         if suffix == ".svg":
             return write_whole(path, self.svg.encode(), force=force)
         if suffix == ".gif":
@@ -239,7 +259,14 @@ class Animation:
             run = [self.run[k] for k in self._film()]
             film = mp4(self._pictures(run, width, fonts, progress), FILM_RATE)
             return write_whole(path, film, force=force)
-        raise RequestError("picture.no_film_suffix", path=path, suffix=suffix)
+        raise RequestError(
+            _(
+                '{path}: the suffix "{suffix}" is no kind of animation; use .svg, .gif or .mp4',
+                code="picture.no_film_suffix",
+                path=path,
+                suffix=suffix,
+            )
+        )
 
     def _pictures(
         self, run: Sequence[int], width: int, fonts: Sequence[str | Path], progress: Progress | None
@@ -263,11 +290,10 @@ class Animation:
 
     @cached_property
     def _title(self) -> str:
-        return say(
-            "drawing.animation",
-            self.language,
+        return _(
+            "Moving drawing of {name}",
             name=in_language(self.scene.machine.motion.mechanism.name, self.language),
-        )
+        ).translate(self.language)
 
     @cached_property
     def _ink(self) -> list[Floats]:
@@ -336,8 +362,8 @@ class Animation:
         if self._panel is not None:
             box = bounds([np.reshape(box, (2, 2)), self._panel.extent])
         below = Legend(box)
-        below.scales([arrows for arrows, _ in self.arrows], self.run, self.language)
-        if any(arrows.kind == "force" and not arrows.empty(self.run) for arrows, _ in self.arrows):
+        below.scales([arrows for arrows, _unused in self.arrows], self.run, self.language)
+        if any(arrows.kind == "force" and not arrows.empty(self.run) for arrows, _unused in self.arrows):
             below.numbers(self.scene.machine.motion.mechanism, self.language)
         return below
 

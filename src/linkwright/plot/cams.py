@@ -15,7 +15,7 @@ from linkwright.errors import require_language
 from linkwright.pictures.drawing import Drawing, bounds, captioned
 from linkwright.pictures.picture import Circle, Line, SvgNode
 from linkwright.pictures.symbols.base import SYMBOLS, Shape, joined, vec, way
-from linkwright.words import say
+from linkwright.words import _
 
 DIAGONAL = 620.0
 #: Half the length of the walls between which a stem slides, and their distance.
@@ -59,7 +59,7 @@ def draw_cam(design: CamDesign, angle: float = 0.0, language: str = "en") -> Dra
     pins += [vec(paper(place)) for place in follower.get("pivot", ())]
     content += [element for at in pins for element in SYMBOLS["pin"](at=at).elements]
     box = bounds([paper(cloud), *frame.ink])
-    title = say("cams.drawing", language, name=design.title)
+    title = _("{name}", name=design.title).translate(language)
     return Drawing(captioned(content, box, [_line(design, angle, language)], title))
 
 
@@ -158,6 +158,10 @@ def _line(design: CamDesign, angle: float, language: str) -> str:
     cam = design.cam
     degrees = number(angle, "angle")
     if cam.barrel_radius is not None:
-        return say("cams.drawn_barrel", language, radius=number(cam.barrel_radius, "length"), angle=degrees)
+        return _(
+            "unrolled, R = {radius} mm, φ = {angle}°",
+            radius=number(cam.barrel_radius, "length"),
+            angle=degrees,
+        ).translate(language)
     radius = number((cam.base_radius or 0.0), "length")
-    return say("cams.drawn", language, radius=radius, angle=degrees)
+    return _("base circle r = {radius} mm, φ = {angle}°", radius=radius, angle=degrees).translate(language)

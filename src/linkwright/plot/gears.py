@@ -16,7 +16,7 @@ from linkwright.pictures.drawing import Box, Drawing, bounds, captioned
 from linkwright.pictures.picture import Circle, Line, SvgNode
 from linkwright.pictures.svg.element import element, path_data
 from linkwright.pictures.symbols.base import points, ring, vec
-from linkwright.words import Message, say
+from linkwright.words import Message, _
 
 DIAGONAL = 760.0
 #: Thickness of a ring outside its roots, modules.
@@ -38,11 +38,13 @@ def draw_pair(pair: GearPair, pinion_angle: float = 0.0, language: str = "en") -
     gears = ((pair.wheel, outlines[1], centres[1]), (pair.pinion, outlines[0], centres[0]))
     for gear, outline, at in gears:
         content.append(_body(gear, paper(outline), paper(at), scale))
-    for gear, _, at in gears:
+    for gear, _unused, at in gears:
         content += _circles(pair, gear, vec(paper(at)), scale)
     content.append(Line(paper(contact_line(pair)), "lw-input-line"))
     box = bounds([paper(each) for each in extent])
-    title = say("gears.title", language, first=pair.pinion.teeth, second=pair.wheel.teeth)
+    title = _("Gear pair {first} : {second}", first=pair.pinion.teeth, second=pair.wheel.teeth).translate(
+        language
+    )
     return Drawing(captioned(content, box, _lines(pair, language), title), tuple(map(str, pair.findings)))
 
 
@@ -54,17 +56,18 @@ def draw_rack(rack: Rack, language: str = "en") -> Drawing:
     paper = outline * (scale, -scale)
     box = bounds([paper])
     datum = points([(box[0] - 12.0, 0.0), (box[2] + 12.0, 0.0)])
-    line = say(
-        "gears.rack",
-        language,
+    line = _(
+        "z = {teeth}, m = {module} mm, p = {pitch} mm, α = {angle}°",
         teeth=rack.teeth,
         module=number(rack.module, "length"),
         pitch=number(rack.pitch, "length", 7),
         angle=number(rack.pressure_angle, "angle"),
-    )
+    ).translate(language)
     content = [Line(paper, "lw-gear", closed=True), Line(datum, "lw-pitch")]
     wider: Box = (box[0] - 12.0, box[1], box[2] + 12.0, box[3])
-    return Drawing(captioned(content, wider, [line], say("gears.rack_title", language, teeth=rack.teeth)))
+    return Drawing(
+        captioned(content, wider, [line], _("Rack of {teeth} teeth", teeth=rack.teeth).translate(language))
+    )
 
 
 def contact_line(pair: GearPair) -> Floats:
@@ -95,16 +98,16 @@ def _circles(pair: GearPair, gear: Gear, at: tuple[float, float], scale: float) 
 
 
 def _lines(pair: GearPair, language: str) -> list[str]:
-    numbers = say(
-        "gears.pair",
-        language,
+    numbers = _(
+        "z = {first} : {second}, m = {module} mm, a = {distance} mm, working pressure angle "
+        "{angle}°, contact ratio {ratio}",
         first=pair.pinion.teeth,
         second=pair.wheel.teeth,
         module=number(pair.pinion.module, "length"),
         distance=number(pair.centre_distance, "length", 7),
         angle=number(pair.working_pressure_angle, "angle"),
         ratio=f"{pair.contact_ratio:.4g}",
-    )
+    ).translate(language)
     said = [each.say(language) if isinstance(each, Message) else each for each in pair.findings]
     return [numbers, *said]
 

@@ -32,7 +32,8 @@ from linkwright.report.section import Section
 from linkwright.report.sections.references import own_sources
 from linkwright.report.settings import Chapter, Settings
 from linkwright.synthesis.task_file import TaskFile
-from linkwright.words.sentence import Sentence, in_language
+from linkwright.words import _
+from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
 
 #: Characters across a page in a table.
@@ -82,7 +83,7 @@ def _add_calculation(document: Document, part: Part, problem: Problem | TaskFile
         sentence = error.say(document.language)
         document.blocks.append(Heading(literal(name), 1))
         document.blocks.append(
-            Paragraph(document.say("report.left_out", sentence=literal(sentence)), "missing")
+            Paragraph(document.say(_("Left out: {sentence}", sentence=literal(sentence))), "missing")
         )
         _miss(document, name, sentence)
 
@@ -104,10 +105,16 @@ def _add(document: Document, within: Part, part: Section, *, asked: bool) -> Non
         named = asked or part.name in within.own.sections
         if named or not (part.optional and isinstance(error, Missing)):
             sentence = error.say(document.language)
-            found.append(Paragraph(say("report.left_out", sentence=literal(sentence)), "missing"))
+            found.append(Paragraph(say(_("Left out: {sentence}", sentence=literal(sentence))), "missing"))
             _miss(document, prefix + title, sentence)
     except Exception as error:
-        sentence = say("report.unexpected", kind=type(error).__name__, message=" ".join(str(error).split()))
+        sentence = say(
+            _(
+                "an unexpected error ({kind}: {message}); please report it with the model file",
+                kind=type(error).__name__,
+                message=" ".join(str(error).split()),
+            )
+        )
         found.append(Paragraph(literal(sentence), "missing"))
         _miss(document, prefix + title, sentence)
         document.broken = True
@@ -117,7 +124,7 @@ def _add(document: Document, within: Part, part: Section, *, asked: bool) -> Non
 
 def _miss(document: Document, title: str, sentence: str) -> None:
     """Notes what a chapter lacks, once."""
-    told = document.say("cli.about", name=title, cause=sentence)
+    told = document.say(_("{name}: {cause}", name=title, cause=sentence))
     if told not in document.missing:
         document.missing.append(told)
 
@@ -133,7 +140,7 @@ def _parts_of(block: Block, document: Document) -> Iterator[Block]:
         first, *rest = fitted(replace(each, rows=rows), WIDEST)
         yield first
         for part in rest:
-            caption = document.say("report.continued", caption=each.caption) if each.caption else ""
+            caption = document.say(_("{caption} (continued)", caption=each.caption)) if each.caption else ""
             yield replace(part, caption=caption)
 
     yield from changed(block, parted)
@@ -170,7 +177,15 @@ def note_dangling(document: Document) -> None:
     asked += [span.text for span in parts if span.kind == "reference"]
     for label in dict.fromkeys(asked):
         if label not in numbers.labels:
-            document.missing.append(Sentence("report.no_label", label=label).say(document.language))
+            document.missing.append(
+                _('a text refers to "{label}", but nothing in the report has this label', label=label).say(
+                    document.language
+                )
+            )
     listed = any(isinstance(block, Sources) for block in numbers.blocks)
     if any(span.kind == "source" for span in parts) and not listed:
-        document.missing.append(Sentence("report.no_list_of_sources").say(document.language))
+        document.missing.append(
+            _("texts cite sources, but the report has no section references; add it to the sections").say(
+                document.language
+            )
+        )

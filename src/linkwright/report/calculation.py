@@ -14,7 +14,7 @@ from linkwright.report.machine_results import picture
 from linkwright.report.sections.errata import errata_blocks
 from linkwright.report.sections.method import printed
 from linkwright.report.settings import Settings
-from linkwright.words import Say
+from linkwright.words import Say, _
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
 
@@ -48,7 +48,7 @@ def calculation(problem: Problem, own: Settings, say: Say, language: str) -> Ite
         yield Heading(say(f"report.title_{name}"), 2)
         yield OwnText(text)
     if own.errata:
-        yield Heading(say("report.title_errata"), 2)
+        yield Heading(say(_("Mistakes of the source")), 2)
         yield from errata_blocks(own.errata, own.source or problem.source, say)
 
 
@@ -59,14 +59,14 @@ def _chapters(problem: Problem, found: Result, own: Settings, say: Say, language
         in_language(each, language) for each in (own.purpose or problem.purpose, own.source or problem.source)
     )
     if purpose or source:
-        yield Heading(say("report.purpose_of_calculation"), 2)
+        yield Heading(say(_("Purpose")), 2)
         if purpose:
             yield Paragraph(literal(purpose))
         if source:
-            yield Paragraph(say("report.source", source=literal(source)))
+            yield Paragraph(say(_("Source: {source}.", source=literal(source))))
     data = list(given_data(problem, say))
     if data:
-        yield Heading(say("report.given_data"), 2)
+        yield Heading(say(_("Given data")), 2)
         yield from data
     yield from _sketch(problem, say, language)
     yield from numbers_and_way(found, say, language, 2)
@@ -74,11 +74,11 @@ def _chapters(problem: Problem, found: Result, own: Settings, say: Say, language
 
 def numbers_and_way(found: Result, say: Say, language: str, level: int) -> Iterator[Block]:
     """The worked way, the numbers, and diagrams of them, under headings of a level."""
-    yield Heading(say("report.way"), level)
+    yield Heading(say(_("Solution")), level)
     for step in found.tidy_steps(say):
         yield Heading(symbols(step.title), level + 1)
         yield from printed(step)
-    yield Heading(say("report.results"), level)
+    yield Heading(say(_("Results")), level)
     yield from _results(found, say)
     yield from _pictures(found, say, language)
 
@@ -91,7 +91,7 @@ def _results(found: Result, say: Say) -> Iterator[Block]:
         cells = tuple((_label(row[0]), *map(literal, row[1 : 4 if remarked else 3])) for row in rows)
         if cells:
             width = 4 if remarked else 3
-            yield Table(literal(block.title or say("report.results")), head[:width], cells, "<><<"[:width])
+            yield Table(literal(block.title or say(_("Results"))), head[:width], cells, "<><<"[:width])
         for remark in block.remarks:
             yield Paragraph(literal(str(remark)))
 
@@ -122,9 +122,11 @@ def _sketch(problem: Problem, say: Say, language: str) -> Iterator[Block]:
         yield Paragraph(literal(error.say(language)), "missing")
         return
     if drawn is not None:
-        yield Heading(say("report.sketch"), 2)
+        yield Heading(say(_("Sketch")), 2)
         yield Figure(
-            say("report.sketch_of", name=literal(title_said(problem.name, language))),
+            say(
+                _("Supports, loads and dimensions: {name}", name=literal(title_said(problem.name, language)))
+            ),
             ((drawn.svg, WIDE),),
             tallest=TALLEST,
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from linkwright.report.document import Cover, Document
 from linkwright.report.settings import Settings
+from linkwright.words import _
 
 
 def cover(own: Settings, document: Document) -> Cover | None:
@@ -14,7 +15,7 @@ def cover(own: Settings, document: Document) -> Cover | None:
     rows = [(say(f"report.cover_{key}"), value) for key, value in given.rows]
     above = tuple(filter(None, (given.school, own.course)))
     return Cover(
-        given.kind or say("report.cover_kind"),
+        given.kind or say(_("Course design report")),
         document.title,
         above,
         (*rows, *given.fields),

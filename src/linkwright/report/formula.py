@@ -40,6 +40,7 @@ from linkwright.equations.signs import (
     SYMBOLS,
 )
 from linkwright.errors import LinkwrightError
+from linkwright.words import _
 
 _TEXT = r"\\(?:text|textrm|textit|textbf|mbox)\s*\{[^{}]*\}"
 _TOKEN = re.compile(rf"{_TEXT}|\\[A-Za-z]+\*?|\\.|\d+(?:\.\d+)?|[^\s]", re.DOTALL)
@@ -92,7 +93,16 @@ class _Reader:
     def error(self, back: int = 0) -> LinkwrightError:
         self.at -= back
         place = self.tokens[self.at] if self.more else "…"
-        return LinkwrightError("report.no_formula", sign=place, text=self.text)
+        return LinkwrightError(
+            _(
+                'the formula "{text}" has "{sign}", which no form of the report can print; write it '
+                "with letters, fractions, roots, indices, brackets, functions, sums, integrals, "
+                "matrices and cases, as in LaTeX",
+                code="report.no_formula",
+                sign=place,
+                text=self.text,
+            )
+        )
 
     def next(self) -> str:
         if not self.more:
@@ -233,7 +243,7 @@ class _Reader:
         return Fraction(self.argument(digit=True), self.argument(digit=True))
 
     def _binomial(self) -> Node:
-        above, below = (Row((self.argument(digit=True),)) for _ in range(2))
+        above, below = (Row((self.argument(digit=True),)) for _unused in range(2))
         return Matrix(((above,), (below,)), "(", ")")
 
     def _root(self) -> Node:

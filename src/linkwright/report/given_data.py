@@ -10,7 +10,7 @@ from linkwright import units
 from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem
 from linkwright.report.document import Block, Table, literal, noted
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: Symbols of single values, by key, or by kind and key where a kind has another one.
 SYMBOLS: Mapping[str, str] = {
@@ -56,7 +56,7 @@ def given_data(problem: Problem, say: Say) -> Iterator[Block]:
             single += list(_rows(problem.kind, (key,), value, say))
     if single:
         head = tuple(say(f"report.{key}") for key in ("name", "symbol", "value", "unit"))
-        yield Table(say("given_data.scalars"), head, tuple(single), "<^><")
+        yield Table(say(_("Given data")), head, tuple(single), "<^><")
     yield from tables
 
 
@@ -76,7 +76,7 @@ def _by_name(kind: str, key: str, things: Mapping[str, Any], say: Say) -> Table:
     bare = ("force",) if key in ("forces", "loads") else ("value",)
     flat = {name: dict(_flat(each, bare=bare)) for name, each in things.items()}
     columns = list(dict.fromkeys(column for each in flat.values() for column in each))
-    head = [say("report.name")]
+    head = [say(_("name"))]
     for column in columns:
         symbol = _math(_symbol(kind, (key, *column)))
         word = literal(" – ".join(_word(kind, part, say) for part in column))
@@ -85,7 +85,7 @@ def _by_name(kind: str, key: str, things: Mapping[str, Any], say: Say) -> Table:
         (literal(name), *(_cell(each[column], say) if column in each else "–" for column in columns))
         for name, each in flat.items()
     ]
-    caption = say("given_data.table_of", what=_word(kind, key, say))
+    caption = say(_("Given: {what}", what=_word(kind, key, say)))
     return Table(caption, tuple(head), tuple(rows), "<" + "^" * len(columns))
 
 
@@ -135,12 +135,12 @@ def _cell(value: Any, say: Say) -> str:
 def _split(value: Any, say: Say) -> tuple[str, str]:
     """A value as it is printed, and its unit."""
     if isinstance(value, bool):
-        return say("given_data.yes" if value else "given_data.no"), ""
+        return say(_("yes") if value else _("no")), ""
     if isinstance(value, list | tuple):
         parts = [_split(each, say) for each in value]
-        shared = {unit for _, unit in parts if unit}
+        shared = {unit for _unused, unit in parts if unit}
         if len(shared) == 1 and all(unit or text in ("0", "0.0") for text, unit in parts):
-            return f"({', '.join(text for text, _ in parts)})", shared.pop()
+            return f"({', '.join(text for text, _unused in parts)})", shared.pop()
         return f"({', '.join(f'{text} {unit}'.rstrip() for text, unit in parts)})", ""
     text = str(value).strip()
     found = _VALUE.fullmatch(text)

@@ -24,7 +24,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.report.numbers import Heads, without_rounding
 from linkwright.report.settings import Settings, worked_place
 from linkwright.structure.analysis import Structure
-from linkwright.words import Say
+from linkwright.words import Say, _
 from linkwright.words.sentence import in_language, links_said
 
 if TYPE_CHECKING:
@@ -187,7 +187,7 @@ class Case:
 
     def require_position(self) -> None:
         """Raises LinkwrightError where the worked position is not reached, or nothing can be solved."""
-        _ = self.worked_result
+        _unused = self.worked_result
 
     @cached_property
     def worked(self) -> Worked:
@@ -240,13 +240,19 @@ class Case:
         from linkwright.events.limit_positions import limits_of
 
         chosen = self.settings.numbered_from
-        name, _, kind = chosen.partition(" ")
+        name, _unused, kind = chosen.partition(" ")
         try:
             limits = limits_of(self.motion, name or None)
         except LinkwrightError as error:
             if chosen:
                 reason = self.told(error)
-                self.unnumbered = self.say("report.not_numbered_from", text=chosen, reason=reason)
+                self.unnumbered = self.say(
+                    _(
+                        "The positions are numbered from the start of the motion, not from {text}: {reason}.",
+                        text=chosen,
+                        reason=reason,
+                    )
+                )
             return "", None
         wanted = kind or "min"
         found = [each for each in limits if each.kind == wanted] or list(limits)
@@ -267,7 +273,7 @@ class Case:
     @property
     def links_text(self) -> str:
         """The links with the numbers that stand in symbols."""
-        return self.say("worked.links", links=", ".join(links_said(self.heads.numbers, self.language)))
+        return self.say(_("Links: {links}.", links=", ".join(links_said(self.heads.numbers, self.language))))
 
     # pictures -----------------------------------------------------------------------------------
     def diagram(self, kind: str, source: object = None, **options: object) -> str:

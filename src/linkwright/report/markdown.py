@@ -32,6 +32,7 @@ from linkwright.report.document import (
 )
 from linkwright.report.formula import formula
 from linkwright.report.pictures import picture_of
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ def own_text(text: str, level: int = 2, beside: Beside | None = None) -> Iterato
 
     After a first line ``typst`` it is Typst. Raises LinkwrightError where no reader of Markdown is installed.
     """
-    first, _, rest = text.strip().partition("\n")
+    first, _unused, rest = text.strip().partition("\n")
     if first.strip().lower() == "typst":
         yield _typst(rest)
         return
@@ -95,7 +96,7 @@ def _typst(text: str) -> tuple[Block, list[Fault]]:
     from linkwright.report.typst_pages import typst_fault
 
     if fault := typst_fault(text):
-        return Paragraph(literal(text)), [Fault(Sentence("report.bad_typst", message=fault))]
+        return Paragraph(literal(text)), [Fault(_("Typst cannot read this text: {message}", message=fault))]
     return Source(text), []
 
 
@@ -107,7 +108,13 @@ def _parser() -> MarkdownIt:
         from mdit_py_plugins.dollarmath import dollarmath_plugin
         from mdit_py_plugins.footnote import footnote_plugin
     except ImportError:
-        raise LinkwrightError("report.needs_markdown") from None
+        raise LinkwrightError(
+            _(
+                "own texts need markdown-it-py and mdit-py-plugins; install them with: pip install "
+                '"linkwright[report]"',
+                code="report.needs_markdown",
+            )
+        ) from None
     made = MarkdownIt("commonmark", {"html": False}).enable(["table", "strikethrough"])
     made.use(dollarmath_plugin, allow_space=False, double_inline=True)
     made.use(footnote_plugin).use(amsmath_plugin)
@@ -184,7 +191,7 @@ class _Reader:
             case "blockquote":
                 yield Quoted(tuple(self.blocks(node.children)))
             case "fence" | "code_block":
-                language, _, caption = node.info.strip().partition(" ")
+                language, _unused, caption = node.info.strip().partition(" ")
                 words, label = _labelled(caption)
                 yield Code(node.content, language, self.line(_inline(words)) if words else "", label)
             case "table":

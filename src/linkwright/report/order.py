@@ -12,6 +12,7 @@ from linkwright.report.machine_results import Case
 from linkwright.report.section import SECTIONS, Section, section_names
 from linkwright.report.settings import BESIDE_SECTIONS, Chapter, Settings
 from linkwright.synthesis.task_file import TaskFile
+from linkwright.words import _
 from linkwright.words.titles import title_said
 
 REST, CALCULATIONS = BESIDE_SECTIONS
@@ -58,7 +59,14 @@ def chosen(names: Iterable[str], own: Settings) -> list[Entry]:
         known = [*section_names(), *BESIDE_SECTIONS, *titles]
         for name in asked:
             if name not in known:
-                raise RequestError("report.no_section", name=name, hint=listed(str(name), known))
+                raise RequestError(
+                    _(
+                        'there is no section "{name}"; {hint}',
+                        code="report.no_section",
+                        name=name,
+                        hint=listed(str(name), known),
+                    )
+                )
         asked = [titles.get(str(name), name) for name in asked]
     return _with_rest(asked or list(own.sections) or [REST])
 

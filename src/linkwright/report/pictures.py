@@ -12,6 +12,7 @@ from urllib.parse import unquote
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.pictures.svg.render import natural_size, png
+from linkwright.words import _
 
 #: Endings of pictures, and the name of their form; largest file, bytes.
 FORMS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".svg": "svg"}
@@ -32,15 +33,43 @@ def picture_of(name: str, folder: str) -> Picture:
     """The picture of a file that lies beside the model; raises LinkwrightError where it is none."""
     path = Path(folder, unquote(name))
     if path.suffix.lower() not in FORMS:
-        raise LinkwrightError("report.picture_form", name=name, endings=tuple(FORMS))
+        raise LinkwrightError(
+            _(
+                '"{name}" is no picture that a report can hold; use {endings}',
+                code="report.picture_form",
+                name=name,
+                endings=tuple(FORMS),
+            )
+        )
     try:
         about = path.stat()
     except (OSError, ValueError):
-        raise LinkwrightError("report.no_picture", name=name, folder=Path(folder).resolve()) from None
+        raise LinkwrightError(
+            _(
+                'there is no picture "{name}" in {folder}; pictures are looked for beside the model file',
+                code="report.no_picture",
+                name=name,
+                folder=Path(folder).resolve(),
+            )
+        ) from None
     if not path.is_file():
-        raise LinkwrightError("report.no_picture", name=name, folder=Path(folder).resolve())
+        raise LinkwrightError(
+            _(
+                'there is no picture "{name}" in {folder}; pictures are looked for beside the model file',
+                code="report.no_picture",
+                name=name,
+                folder=Path(folder).resolve(),
+            )
+        )
     if about.st_size > LARGEST:
-        raise LinkwrightError("report.large_picture", name=name, most=LARGEST // 1_000_000)
+        raise LinkwrightError(
+            _(
+                'the picture "{name}" is larger than {most} MB; make it smaller',
+                code="report.large_picture",
+                name=name,
+                most=LARGEST // 1_000_000,
+            )
+        )
     return _read(path, name, about.st_mtime_ns, about.st_size)
 
 
@@ -69,7 +98,14 @@ def _drawing(content: bytes, name: str) -> str:
         png(text, width=64)
     except (ValueError, LinkwrightError) as error:
         message = error.sentence if isinstance(error, LinkwrightError) else str(error)
-        raise LinkwrightError("report.bad_picture", name=name, message=message) from None
+        raise LinkwrightError(
+            _(
+                'the picture "{name}" cannot be read: {message}',
+                code="report.bad_picture",
+                name=name,
+                message=message,
+            )
+        ) from None
     return text
 
 
@@ -77,7 +113,9 @@ def _sized(head: str) -> str:
     """The first element of an SVG with width and height in its own units: those of its view box."""
     box = re.search(r'viewBox="\s*[-\d.eE]+[\s,]+[-\d.eE]+[\s,]+([\d.eE]+)[\s,]+([\d.eE]+)\s*"', head)
     if box is None:
-        raise LinkwrightError("report.svg_size")
+        raise LinkwrightError(
+            _("its first element has neither width and height nor a viewBox", code="report.svg_size")
+        )
     bare = re.sub(r'\s(width|height)="[^"]*"', "", head)
     return bare.replace("<svg", f'<svg width="{box[1]}" height="{box[2]}"', 1)
 
@@ -96,7 +134,14 @@ def _photograph(content: bytes, form: str, name: str) -> tuple[str, int]:
                 turned.convert("RGB").save(stream, "JPEG", quality=92)
                 content, form = stream.getvalue(), "jpeg"
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
-        raise LinkwrightError("report.bad_picture", name=name, message=str(error)) from None
+        raise LinkwrightError(
+            _(
+                'the picture "{name}" cannot be read: {message}',
+                code="report.bad_picture",
+                name=name,
+                message=str(error),
+            )
+        ) from None
     data = base64.b64encode(content).decode()
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{high}" viewBox="0 0 {wide} {high}">'

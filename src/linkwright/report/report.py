@@ -24,7 +24,7 @@ from linkwright.report.order import Calculation, chosen, parts
 from linkwright.report.settings import settings, worked_place
 from linkwright.synthesis.task_file import TaskFile, task_file
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 from linkwright.words.titles import title_said
 
 ENDINGS = (".pdf", ".html", ".docx", ".typ")
@@ -57,19 +57,34 @@ class Report:
             made = compiled(self.document, ending[1:])
             lost = without_glyph(self.document) if ending == ".pdf" else ""
             if lost:
-                self._miss(Sentence("report.no_glyph", characters=" ".join(lost)).say(self.document.language))
+                self._miss(
+                    _(
+                        "no font here has {characters}: boxes stand there in the PDF; install a font that "
+                        "has them (small pictures: Noto Color Emoji) or write a word instead",
+                        characters=" ".join(lost),
+                    ).say(self.document.language)
+                )
             return made
         if ending == ".docx":
             from linkwright.report.word_pages import word
 
             if any(isinstance(block, Source) for block in walk(self.document.blocks)):
-                self._miss(Sentence("report.typst_in_word").say(self.document.language))
+                self._miss(
+                    _("Word files show texts in Typst as they are written").say(self.document.language)
+                )
             return word(self.document)
         if ending == ".typ":
             from linkwright.report.typst_pages import pages
 
             return pages(self.document)[0].encode()
-        raise RequestError("report.bad_ending", ending=ending, endings=ENDINGS)
+        raise RequestError(
+            _(
+                'the ending "{ending}" is no form of a report; use {endings}',
+                code="report.bad_ending",
+                ending=ending,
+                endings=ENDINGS,
+            )
+        )
 
     def _miss(self, sentence: str) -> None:
         """Notes what the report lacks, once."""
@@ -161,7 +176,7 @@ def _read(machines: Machine | Sequence[Machine], language: str) -> list[Given]:
 
     given = list(machines) if isinstance(machines, Iterable) and not isinstance(machines, str) else [machines]
     if not given:
-        raise RequestError("report.no_machine")
+        raise RequestError(_("a report needs a machine; name a model file", code="report.no_machine"))
     found: list[Given] = []
     for each in given:
         require(each, Mechanism, Problem, str, PathLike)

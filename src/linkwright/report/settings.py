@@ -20,7 +20,7 @@ from linkwright.kinematics.names import place_meant
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import listed, offered
-from linkwright.words import LANGUAGES
+from linkwright.words import LANGUAGES, _
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -37,12 +37,16 @@ MOST = 10_000
 SAYINGS: Sayings = {
     "unknown_key": Saying(
         "unknown-key",
-        lambda key_, names, **_: Sentence("report.unknown_key", name=key_, hint=offered(key_, names)),
+        lambda key_, names, **_: _(
+            'there is no "{name}" in the settings of a report; {hint}', name=key_, hint=offered(key_, names)
+        ),
     ),
-    "missing_key": Saying("missing-key", lambda key_, **_: Sentence("report.lacks", name=key_)),
-    "where_list": Saying("not-a-list", lambda **_: Sentence("report.not_a_list")),
-    "where_mapping": Saying("not-a-mapping", lambda **_: Sentence("report.not_a_mapping")),
-    "where_text": Saying("not-a-text", lambda **_: Sentence("report.not_a_text")),
+    "missing_key": Saying("missing-key", lambda key_, **_: _("the key {name} is missing", name=key_)),
+    "where_list": Saying("not-a-list", lambda **_: _("give a list: [task, structure]")),
+    "where_mapping": Saying("not-a-mapping", lambda **_: _("give keys with values")),
+    "where_text": Saying(
+        "not-a-text", lambda **_: _("a list or a mapping cannot be read here; write one text")
+    ),
 }
 
 
@@ -104,7 +108,13 @@ class SectionName(Field):
         if name is None or name in self.names:
             return name
         hint = listed(name, self.names)
-        reader.error(node, place, Sentence("report.no_section", name=name, hint=hint), "", "no-section")
+        reader.error(
+            node,
+            place,
+            _('there is no section "{name}"; {hint}', code="report.no_section", name=name, hint=hint),
+            "",
+            "no-section",
+        )
         return None
 
     def shape(self) -> Schema:
@@ -133,7 +143,13 @@ class Position(Line):
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
         if isinstance(node, Scalar):
             return super().read(reader, node, place, given)
-        reader.error(node, place, Sentence("report.not_a_position"), "", "not-a-position")
+        reader.error(
+            node,
+            place,
+            _("the report works out one position; write one value with its unit, such as 60 deg"),
+            "",
+            "not-a-position",
+        )
         return None
 
 
@@ -296,7 +312,7 @@ class _Reading:
         from linkwright.report.markdown import Beside, own_text
 
         try:
-            for _, faults in own_text(text, beside=Beside(self.folder, sources)):
+            for _unused, faults in own_text(text, beside=Beside(self.folder, sources)):
                 for fault in faults:
                     if fault.code:
                         self.note(place, fault.sentence, fault.code)
@@ -340,13 +356,13 @@ class _Reading:
 
     def position(self, text: str, place: str) -> None:
         try:
-            _ = self.mechanism and worked_place(self.mechanism, text)
+            _unused = self.mechanism and worked_place(self.mechanism, text)
         except QuantityError as error:
             self.note(place, error.message, error.code, error.remedy)
 
     def numbered(self, text: str) -> None:
         """An output with the limit at which the numbers begin."""
-        name, _, limit = text.partition(" ")
+        name, _unused, limit = text.partition(" ")
         if limit not in ("", *LIMITS):
             self.wrong("report.numbered_from", "no_limit", text=text, limit=limit, name=name)
         elif name and self.mechanism is not None:

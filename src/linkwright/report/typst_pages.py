@@ -37,6 +37,7 @@ from linkwright.report.document import (
 from linkwright.report.formula_lines import set_lines, width
 from linkwright.report.typst_formula import quoted, typst
 from linkwright.report.typst_style import COVER, HEAD, STYLE
+from linkwright.words import _
 from linkwright.words.characters import cells
 
 LATIN = ("Libertinus Serif", "DejaVu Serif", "DejaVu Sans")
@@ -80,7 +81,12 @@ def compiled(document: Document, form: str) -> bytes:
     try:
         import typst as program
     except ImportError:
-        raise LinkwrightError("report.needs_typst") from None
+        raise LinkwrightError(
+            _(
+                'reports need typst; install it with: pip install "linkwright[report]"',
+                code="report.needs_typst",
+            )
+        ) from None
     text, pictures = pages(document)
     given: Any = form
     try:
@@ -88,10 +94,18 @@ def compiled(document: Document, form: str) -> bytes:
             text.encode(), sys_inputs={**pictures, "form": form}, format=given, font_paths=[*_folders()]
         )
     except program.TypstError as error:
-        raise LinkwrightError("report.typst_says", sentence=str(error)) from None
+        raise LinkwrightError(
+            _("the report cannot be set: {sentence}", code="report.typst_says", sentence=str(error))
+        ) from None
     said = [w.message for w in warnings if not any(each in w.message for each in _EXPECTED)]
     if said:
-        raise LinkwrightError("report.typst_says", sentence="; ".join(dict.fromkeys(said)))
+        raise LinkwrightError(
+            _(
+                "the report cannot be set: {sentence}",
+                code="report.typst_says",
+                sentence="; ".join(dict.fromkeys(said)),
+            )
+        )
     assert isinstance(found, bytes)
     return found if form == "pdf" else _styled(found, document)
 

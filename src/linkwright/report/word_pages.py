@@ -43,6 +43,7 @@ from linkwright.report.word_parts import (
     ruled_table,
     small,
 )
+from linkwright.words import _
 from linkwright.words.characters import cells, printable
 
 #: Dots per inch of pictures.
@@ -66,7 +67,12 @@ def word(document: Document) -> bytes:
     try:
         import docx
     except ImportError:
-        raise LinkwrightError("report.needs_word") from None
+        raise LinkwrightError(
+            _(
+                'Word files need python-docx; install it with: pip install "linkwright[report]"',
+                code="report.needs_word",
+            )
+        ) from None
     writer = _Writer(document, docx.Document())
     return writer.content()
 
@@ -122,7 +128,7 @@ class _Writer:
         from docx.shared import Inches, Pt
 
         head = self.file.add_paragraph()
-        head.add_run(self.document.say("report.contents")).bold = True
+        head.add_run(self.document.say(_("Contents"))).bold = True
         headings = [(i, block) for i, block in enumerate(self.numbers.blocks)
                     if isinstance(block, Heading) and block.level <= LISTED]  # fmt: skip
         line = head

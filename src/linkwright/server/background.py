@@ -9,7 +9,8 @@ from typing import Any
 
 from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError
-from linkwright.words.sentence import Sentence, in_language
+from linkwright.words import _
+from linkwright.words.sentence import in_language
 
 
 class Stopped(Exception):
@@ -97,4 +98,12 @@ def _beginning(number: int, kind: str) -> Plain:
 def unexpected(error: Exception, language: str) -> str:
     """The sentence for a fault of the program; where it arose is written to the terminal."""
     traceback.print_exception(error)
-    return in_language(Sentence("studio.unexpected", kind=type(error).__name__, message=str(error)), language)
+    return in_language(
+        _(
+            "this should not have happened ({kind}: {message}); please report it with the text "
+            "of the model; the terminal of the studio shows where it arose",
+            kind=type(error).__name__,
+            message=str(error),
+        ),
+        language,
+    )

@@ -15,6 +15,7 @@ from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.compose import compose
 from linkwright.files.document import Document, content_end
 from linkwright.files.write import flow, scalar
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -38,13 +39,24 @@ class Draft(Document):
     @property
     def root(self) -> MappingNode:
         """The tree; raises LinkwrightError for a text that has none."""
-        root, _ = compose(self.text)
+        root, _unused = compose(self.text)
         if root is None:
             return MappingNode(0, 0, 0, 0)
         if not isinstance(root, MappingNode):
-            raise LinkwrightError("studio.no_mapping")
+            raise LinkwrightError(
+                _(
+                    "the text is a list or a single value; begin with keys such as frame and links",
+                    code="studio.no_mapping",
+                )
+            )
         if root.flow:
-            raise LinkwrightError("studio.braces")
+            raise LinkwrightError(
+                _(
+                    "this text is one mapping in braces; drawing goes into files that are written line "
+                    "by line, so write this one so, or begin a new one",
+                    code="studio.braces",
+                )
+            )
         return root
 
     def section(self, name: str) -> MappingNode | None:
@@ -57,7 +69,9 @@ class Draft(Document):
         links = self.section("links")
         found = links.get(name) if links is not None else None
         if not isinstance(found, MappingNode):
-            raise LinkwrightError("studio.no_link", name=name)
+            raise LinkwrightError(
+                _("there is no link {name!r} in the text", code="studio.no_link", name=name)
+            )
         return found
 
     def put(self, section: str, key: str, value: Any) -> None:
@@ -70,7 +84,7 @@ class Draft(Document):
 
     def put_new(self, section: str, stem: str, value: Any) -> None:
         """Write an entry of a section under the first of stem1, stem2, … that is free."""
-        self.put(section, fresh(stem, [key for key, _ in self.section(section) or ()]), value)
+        self.put(section, fresh(stem, [key for key, _unused in self.section(section) or ()]), value)
 
     def write_key(self, node: MappingNode, key: str, text: str) -> None:
         """Writes a text as what a key of a mapping has."""
@@ -156,9 +170,11 @@ def picture(text: str) -> Plain:
     links = {}
     for name, link in draft.section("links") or ():
         points = link.get("points") if isinstance(link, MappingNode) else None
-        names = [name for name, _ in points] if isinstance(points, MappingNode) else texts(points)
+        names = [name for name, _unused in points] if isinstance(points, MappingNode) else texts(points)
         also = link.get("also") if isinstance(link, MappingNode) else None
-        links[name] = [*names, *(point for point, _ in also)] if isinstance(also, MappingNode) else names
+        links[name] = (
+            [*names, *(point for point, _unused in also)] if isinstance(also, MappingNode) else names
+        )
     driver = draft.section("driver")
     turned = driver.get("turn") if driver is not None else None
     loads = [(name, load) for name, load in draft.section("loads") or () if isinstance(load, MappingNode)]
@@ -169,7 +185,7 @@ def picture(text: str) -> Plain:
         "driver": turned.text if isinstance(turned, Scalar) else None,
         "guided": [
             each.text
-            for _, joint in draft.section("joints") or ()
+            for _unused, joint in draft.section("joints") or ()
             if isinstance(joint, MappingNode)
             and joint.get("block") is not None
             and isinstance(each := joint.get("at"), Scalar)

@@ -17,6 +17,7 @@ from linkwright.joints.rack import RackPair
 from linkwright.server import request
 from linkwright.server.draft import Draft, word
 from linkwright.units import number
+from linkwright.words import _
 
 #: A roller's radius as share of its centre's distance from the cam's; lengths are written to this, m.
 ROLLER, FINEST = 0.2, 1e-4
@@ -35,10 +36,26 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
     centre = _pin(shown, cam)
     follower = _link_with(shown, at, cam)
     if centre is None or follower is None:
-        raise LinkwrightError("studio.no_cam", cam=cam, at=at)
+        raise LinkwrightError(
+            _(
+                "{cam!r} is no cam for a roller at {at!r}: a cam needs a fixed point, and the roller "
+                "a link of its own that slides or turns on the frame",
+                code="studio.no_cam",
+                cam=cam,
+                at=at,
+            )
+        )
     away = _place(shown, at) - _place(shown, centre)
     if abs(away) < FINEST:
-        raise LinkwrightError("studio.no_cam", cam=cam, at=at)
+        raise LinkwrightError(
+            _(
+                "{cam!r} is no cam for a roller at {at!r}: a cam needs a fixed point, and the roller "
+                "a link of its own that slides or turns on the frame",
+                code="studio.no_cam",
+                cam=cam,
+                at=at,
+            )
+        )
     roller = _nice(ROLLER * abs(away))
     entry: Plain = {
         "kind": CamJoint.kind, "cam": cam, "follower": follower, "at": at, "touch": "roller",
@@ -54,7 +71,15 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
         entry["side"] = "left" if (line.conjugate() * lever).imag > 0 else "right"
         arm = abs(lever)
     else:
-        raise LinkwrightError("studio.no_cam", cam=cam, at=at)
+        raise LinkwrightError(
+            _(
+                "{cam!r} is no cam for a roller at {at!r}: a cam needs a fixed point, and the roller "
+                "a link of its own that slides or turns on the frame",
+                code="studio.no_cam",
+                cam=cam,
+                at=at,
+            )
+        )
     phase = _drawn_angle(shown, cam)
     if phase:
         entry["phase"] = f"{number(phase, 6)} deg"
@@ -73,14 +98,30 @@ def add_rack(draft: Draft, action: Mapping[str, Any]) -> None:
     shown = draft.shown()
     pinion, rack = request.name(action, "pinion"), request.name(action, "rack")
     centre = _pin(shown, pinion)
-    _, guide = _guide_of(draft, rack)
+    _unused, guide = _guide_of(draft, rack)
     through = shown["links"].get(rack, [None])[0]
     way = None if guide is None else _direction(guide)
     if centre is None or way is None or through not in shown["points"]:
-        raise LinkwrightError("studio.no_rack", pinion=pinion, rack=rack)
+        raise LinkwrightError(
+            _(
+                "{pinion!r} and {rack!r} are no pinion and rack: click a link with a fixed point, "
+                "then a link that slides on the frame in a direction given as an angle",
+                code="studio.no_rack",
+                pinion=pinion,
+                rack=rack,
+            )
+        )
     gap = (_place(shown, centre) - _place(shown, through)) * way.conjugate()
     if abs(gap.imag) < FINEST:
-        raise LinkwrightError("studio.rack_through", pinion=pinion, rack=rack)
+        raise LinkwrightError(
+            _(
+                "{rack!r} slides through the middle of {pinion!r}, which leaves no room for a "
+                "pinion; move one of them",
+                code="studio.rack_through",
+                pinion=pinion,
+                rack=rack,
+            )
+        )
     entry = {
         "kind": RackPair.kind, "pinion": pinion, "rack": rack, "through": through,
         "radius": f"{number(1e3 * abs(gap.imag), 10)} mm",
@@ -90,7 +131,9 @@ def add_rack(draft: Draft, action: Mapping[str, Any]) -> None:
 
 def _place(shown: Plain, point: str) -> complex:
     if point not in shown["points"]:
-        raise LinkwrightError("studio.no_point", name=point)
+        raise LinkwrightError(
+            _("there is no place for the point {name!r} on the paper", code="studio.no_point", name=point)
+        )
     return complex(*shown["points"][point])
 
 
@@ -127,7 +170,14 @@ def _lead_away(draft: Draft, name: str, guide: MappingNode, away: complex) -> No
     """Turns a guide round that leads towards the cam: the lift grows along its direction."""
     way, node = _direction(guide), guide.get("direction")
     if way is None or node is None:
-        raise LinkwrightError("studio.no_guide_angle", name=name)
+        raise LinkwrightError(
+            _(
+                "the direction of {name!r} is no plain angle, so that no cam can be placed by it; "
+                "write it in degrees",
+                code="studio.no_guide_angle",
+                name=name,
+            )
+        )
     if (away * way.conjugate()).real < 0:
         angle = math.degrees(cmath.phase(-way))
         draft.write(node, f"{number(round(angle, 3))} deg")
@@ -152,7 +202,15 @@ def _lift(text: str, arm: float) -> str:
     except QuantityError:
         share = amount(text, "length") / (2 * arm)
         if not 0 < share < 1:
-            raise LinkwrightError("studio.long_lift", lift=text, arm=_length(arm)) from None
+            raise LinkwrightError(
+                _(
+                    "the lift {lift!r} is longer than a follower's arm of {arm} can go; write a smaller "
+                    "one, or an angle",
+                    code="studio.long_lift",
+                    lift=text,
+                    arm=_length(arm),
+                )
+            ) from None
         return f"{number(round(math.degrees(2 * math.asin(share)), 1))} deg"
     return text
 

@@ -21,7 +21,7 @@ from linkwright.server.draft import Draft, fresh, picture
 from linkwright.server.drawn_contacts import add_cam, add_rack
 from linkwright.server.removing import remove
 from linkwright.units import number
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: Drawn coordinates are whole multiples of this, m.
 _FINEST = 1e-4
@@ -41,7 +41,9 @@ def edited(text: str, action: Mapping[str, Any]) -> tuple[str, str]:
     draft = Draft(text, request.places(action, "places"))
     act = _ACTIONS.get(str(action.get("do")))
     if act is None:
-        raise LinkwrightError("studio.no_action", name=str(action.get("do")))
+        raise LinkwrightError(
+            _("there is no drawing action {name!r}", code="studio.no_action", name=str(action.get("do")))
+        )
     note = act(draft, action)
     return draft.text, note or ""
 
@@ -90,14 +92,24 @@ def _guide(draft: Draft, action: Mapping[str, Any]) -> None:
     shown = draft.shown()
     link, at = request.name(action, "link"), request.name(action, "at")
     if at not in shown["points"]:
-        raise LinkwrightError("studio.no_point", name=at)
+        raise LinkwrightError(
+            _("there is no place for the point {name!r} on the paper", code="studio.no_point", name=at)
+        )
     through = fresh("G", [*shown["points"], *shown["fixed"]])
     _put_point(draft, through, shown["points"][at], fixed=True)
     angle = f"{number(round(request.number(action, 'angle'), 3))} deg"
-    draft.put_new("joints", "guide", {
-        "kind": PrismaticJoint.kind, "guide": "frame", "through": through, "direction": angle,
-        "block": link, "at": at,
-    })  # fmt: skip
+    draft.put_new(
+        "joints",
+        "guide",
+        {
+            "kind": PrismaticJoint.kind,
+            "guide": "frame",
+            "through": through,
+            "direction": angle,
+            "block": link,
+            "at": at,
+        },
+    )
 
 
 def _slot(draft: Draft, action: Mapping[str, Any]) -> None:
@@ -105,10 +117,22 @@ def _slot(draft: Draft, action: Mapping[str, Any]) -> None:
     shown, along, at = draft.shown(), request.name(action, "along"), request.name(action, "at")
     ends = shown["links"].get(along, [])
     if len(ends) < 2 or not all(point in shown["points"] for point in (*ends, at)):
-        raise LinkwrightError("studio.no_slot", name=along)
+        raise LinkwrightError(
+            _(
+                "{name!r} is no link with two drawn points along which something could slide",
+                code="studio.no_slot",
+                name=along,
+            )
+        )
     (ax, ay), (bx, by), (x, y) = (shown["points"][point] for point in (ends[0], ends[-1], at))
     if not math.dist((ax, ay), (bx, by)):
-        raise LinkwrightError("studio.no_slot", name=along)
+        raise LinkwrightError(
+            _(
+                "{name!r} is no link with two drawn points along which something could slide",
+                code="studio.no_slot",
+                name=along,
+            )
+        )
     across = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / math.dist((ax, ay), (bx, by))
     block = fresh("slider", list(shown["links"]))
     _put_link(draft, block, [at])
@@ -126,7 +150,9 @@ def _gear(draft: Draft, action: Mapping[str, Any]) -> None:
     text = request.text(action, "teeth")
     teeth = _TEETH.fullmatch(text)
     if teeth is None:
-        raise LinkwrightError("studio.no_teeth", text=text)
+        raise LinkwrightError(
+            _("{text!r} are no two numbers of teeth; write them as 20:40", code="studio.no_teeth", text=text)
+        )
     links = request.names(action, "links")
     entry = {"kind": GearPair.kind, "links": links, "teeth": [int(z) for z in teeth.groups()]}
     draft.put_new("joints", "mesh", entry)
@@ -143,7 +169,9 @@ def _mass(draft: Draft, action: Mapping[str, Any]) -> str:
     name, text = request.name(action, "link"), request.text(action, "mass").strip()
     mass = amount(text, "mass")
     if mass < 0:
-        raise LinkwrightError("studio.negative_mass", text=text)
+        raise LinkwrightError(
+            _("a mass cannot be negative: {text!r}", code="studio.negative_mass", text=text)
+        )
     before = draft.link(name)
     old, given = _quantity(before.get("mass"), "mass"), before.get("inertia")
     draft.write_key(before, "mass", flow(text))
@@ -153,10 +181,21 @@ def _mass(draft: Draft, action: Mapping[str, Any]) -> str:
     length = math.dist(*places)
     known = _quantity(given, "inertia")
     if given is not None and (known is None or old is None or not _alike(known, old * length**2 / 12)):
-        return Sentence("studio.inertia_stays", link=name)
+        return _(
+            "{link}: the moment of inertia that the text has stays; check whether it fits the new mass.",
+            code="studio.inertia_stays",
+            link=name,
+        )
     inertia = f"{number(mass * length**2 / 12, 4)} kg·m²" if mass else "0 kg·m²"
     draft.write_key(draft.link(name), "inertia", inertia)
-    return Sentence("studio.bar_inertia", link=name, length=_coordinates([length])[0], inertia=inertia)
+    return _(
+        "{link}: moment of inertia {inertia}, as of an even bar {length} long about its "
+        "middle (m·l²/12); change it in the text where the link is of another shape.",
+        code="studio.bar_inertia",
+        link=name,
+        length=_coordinates([length])[0],
+        inertia=inertia,
+    )
 
 
 def _alike(a: float, b: float) -> bool:
@@ -176,12 +215,21 @@ def _load(draft: Draft, action: Mapping[str, Any]) -> str:
     text = request.text(action, "force").strip()
     amount(text, "force")
     if at not in draft.shown()["links"].get(link, []):
-        raise LinkwrightError("studio.no_point_on", name=at, link=link)
+        raise LinkwrightError(
+            _("{link!r} has no point {name!r}", code="studio.no_point_on", name=at, link=link)
+        )
     angle = f"{number(round(request.number(action, 'angle'), 3))} deg"
     draft.put_new("loads", "load", {
         "kind": Force.kind, "on": link, "at": at, "direction": angle, "magnitude": text,
     })  # fmt: skip
-    return Sentence("studio.load_put", force=text, link=link, at=at, angle=angle)
+    return _(
+        "{force} acts on {link} at {at}, in the direction {angle}.",
+        code="studio.load_put",
+        force=text,
+        link=link,
+        at=at,
+        angle=angle,
+    )
 
 
 _ACTIONS: dict[str, Callable[[Draft, Mapping[str, Any]], str | None]] = {

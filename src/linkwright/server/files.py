@@ -15,6 +15,7 @@ from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.files.source import decode
 from linkwright.whole_files import alone, make_folder, write_whole
+from linkwright.words import _
 from linkwright.words.characters import UNFIT, printable
 from linkwright.words.sentence import reason_of
 
@@ -44,7 +45,13 @@ class Files:
         inner = path.relative_to(self.folder).parts if path.is_relative_to(self.folder) else (".",)
         hidden = any(part.startswith(".") for part in inner)
         if hidden or path.suffix.lower() not in _ENDINGS or UNFIT.search(name) or "\n" in name:
-            raise LinkwrightError("studio.outside", name=printable(name))
+            raise LinkwrightError(
+                _(
+                    "{name} is no model file below the folder in which the studio was started",
+                    code="studio.outside",
+                    name=printable(name),
+                )
+            )
         return path
 
     def name(self, name: str) -> str:
@@ -56,14 +63,20 @@ class Files:
         path = self.path(name)
         try:
             if path.is_dir():
-                raise LinkwrightError("file.is_folder", path=name)
+                raise LinkwrightError(
+                    _('"{path}" is a folder; name a file', code="file.is_folder", path=name)
+                )
             if not path.is_file():
                 return {"text": "", "version": ""}
             if path.stat().st_size > LARGEST:
-                raise LinkwrightError("studio.large", most=LARGEST)
+                raise LinkwrightError(
+                    _("the text is larger than {most} bytes", code="studio.large", most=LARGEST)
+                )
             text = decode(path.read_bytes(), name)
         except OSError as problem:
-            raise LinkwrightError("model.unreadable", reason=reason_of(problem)) from None
+            raise LinkwrightError(
+                _("the file cannot be read ({reason})", code="model.unreadable", reason=reason_of(problem))
+            ) from None
         return {"text": text, "version": _digest(text)}
 
     def names(self) -> list[str]:
@@ -105,7 +118,7 @@ class Files:
                 draft = self._draft(str(json.loads(path.read_bytes())["name"]))
                 if draft is not None and not self.path(draft["name"]).exists():
                     found.append((draft["serial"], draft["name"]))
-        return [name for _, name in sorted(found, reverse=True)]
+        return [name for _unused, name in sorted(found, reverse=True)]
 
     def keep(self, name: str, text: str, window: str, serial: int) -> Plain:
         """Stores a draft; where another window has stored one since ``serial``, its text instead (``other``)."""
@@ -202,4 +215,4 @@ def _digest(text: str) -> str:
 
 def _small(text: str) -> None:
     if len(text.encode()) > LARGEST:
-        raise LinkwrightError("studio.large", most=LARGEST)
+        raise LinkwrightError(_("the text is larger than {most} bytes", code="studio.large", most=LARGEST))

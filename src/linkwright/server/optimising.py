@@ -20,6 +20,7 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.metrics import METRICS, metrics
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.server.background import Job
+from linkwright.words import _
 
 #: Designs of a front that are shown.
 SHOWN = 8
@@ -30,7 +31,12 @@ def optimised(text: str) -> Callable[[Job], None]:
     document = Document(text, "model", read_text)
     mechanism = document.mechanism
     if not mechanism.optimize:
-        raise RequestError("studio.no_optimize")
+        raise RequestError(
+            _(
+                "the text has no section optimize; choose what varies and what is made least first",
+                code="studio.no_optimize",
+            )
+        )
     problem(mechanism, mechanism.optimize, document.name)
     return partial(_optimise, document)
 

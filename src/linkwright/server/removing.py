@@ -13,7 +13,7 @@ from linkwright.joints.base import JOINTS
 from linkwright.loads.base import LOADS
 from linkwright.server import request
 from linkwright.server.draft import Draft, fresh, picture, texts, word
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: Keys of joints and loads whose words are no links.
 _NO_LINKS = ("kind", "at", "through")
@@ -28,9 +28,9 @@ def remove(draft: Draft, action: Mapping[str, Any]) -> str:
 def _load(draft: Draft, name: str) -> str:
     loads = draft.section("loads")
     if loads is None or loads.get(name) is None:
-        raise LinkwrightError("studio.no_load", name=name)
+        raise LinkwrightError(_("there is no load {name!r} in the text", code="studio.no_load", name=name))
     draft.take_out("loads", name)
-    return Sentence("studio.load_gone", name=name)
+    return _("Load {name} removed.", code="studio.load_gone", name=name)
 
 
 def _link(draft: Draft, name: str) -> str:
@@ -39,7 +39,7 @@ def _link(draft: Draft, name: str) -> str:
     draft.take_out("links", name)
     _remove_what_names(draft, {name})
     _remove_unused(draft)
-    return Sentence("studio.link_gone", name=name)
+    return _("{name} removed, with the joints, loads and drives on it.", name=name)
 
 
 def _joint(draft: Draft, point: str) -> str:
@@ -57,10 +57,25 @@ def _joint(draft: Draft, point: str) -> str:
             draft.take_out(section, point)
     driven = _remove_drives(draft, point)
     named = {link: _renamed(draft, link, point) for link in joined[1:]}
-    apart = tuple(Sentence("studio.now_named", link=link, point=new) for link, new in named.items())
-    named_links = tuple(Sentence("nouns.frame") if link == "frame" else link for link in joined)
-    gone = Sentence("studio.pin_gone", point=point, links=named_links, apart=apart)
-    return Sentence("studio.both", first=gone, second=Sentence("studio.drive_gone")) if driven else gone
+    apart = tuple(_("point {point} of {link}", link=link, point=new) for link, new in named.items())
+    named_links = tuple(_("frame", code="nouns.frame") if link == "frame" else link for link in joined)
+    gone = _(
+        "Pin {point} removed: {links} are no longer joined there ({apart}); drag them apart with Move.",
+        code="studio.pin_gone",
+        point=point,
+        links=named_links,
+        apart=apart,
+    )
+    return (
+        _(
+            "{first} {second}",
+            code="studio.both",
+            first=gone,
+            second=_("The drive about it is gone as well.", code="studio.drive_gone"),
+        )
+        if driven
+        else gone
+    )
 
 
 def _remove_drives(draft: Draft, point: str) -> bool:
@@ -80,11 +95,18 @@ def _point(draft: Draft, point: str, links: list[str]) -> str:
     for link in links:
         _take_off(draft, point, link)
     if not links:
-        for _, name, _ in _references(draft, "frame", point):
-            raise LinkwrightError("studio.point_of", point=point, name=name)
+        for _unused, name, _unused2 in _references(draft, "frame", point):
+            raise LinkwrightError(
+                _(
+                    "{name} needs the fixed point {point}; remove {name} first",
+                    code="studio.point_of",
+                    point=point,
+                    name=name,
+                )
+            )
         _take_fixed(draft, point)
     _remove_unused(draft)
-    return Sentence("studio.point_gone", point=point)
+    return _("Point {point} removed.", point=point)
 
 
 def _take_off(draft: Draft, point: str, link: str) -> None:
@@ -100,8 +122,15 @@ def _take_off(draft: Draft, point: str, link: str) -> None:
     elif isinstance(points, Sequence) and len(points.items) > 2 and _drawn(entry):
         draft.write(points, flow([each for each in texts(points) if each != point]))
     else:
-        raise LinkwrightError("studio.end_of_link", point=point, link=link)
-    gone = dict.fromkeys((section, name) for section, name, _ in _references(draft, link, point))
+        raise LinkwrightError(
+            _(
+                "{point} is an end that gives {link} its length; click the link itself to remove it",
+                code="studio.end_of_link",
+                point=point,
+                link=link,
+            )
+        )
+    gone = dict.fromkeys((section, name) for section, name, _unused in _references(draft, link, point))
     for section, name in gone:
         draft.take_out(section, name)
     _remove_what_names(draft, {name for section, name in gone if section == "joints"})
@@ -113,7 +142,7 @@ def _renamed(draft: Draft, link: str, point: str) -> str:
     new = fresh(
         "P", {*shown["points"], *shown["fixed"], *(each for ends in shown["links"].values() for each in ends)}
     )
-    nodes = [each for _, _, each in _references(draft, link, point)]
+    nodes = [each for _unused, _unused2, each in _references(draft, link, point)]
     nodes += [each for each in _points_of(draft.link(link)) if each.text == point]
     for node in sorted(nodes, key=lambda each: each.start, reverse=True):
         draft.write(node, flow(node.text.removesuffix(point) + new))
@@ -179,7 +208,7 @@ def _remove_what_names(draft: Draft, gone: set[str]) -> None:
     names = {"frame", *shown["links"]}
     joints = [key for key, node in draft.section("joints") or () if names & set(_named(node))]
     for section in ("assembly", "joints"):
-        for key, _ in list(draft.section(section) or ()):
+        for key, _unused in list(draft.section(section) or ()):
             if ends.count(key) < 2 and key not in joints:
                 draft.take_out(section, key)
     for point in guided:
@@ -190,7 +219,7 @@ def _remove_what_names(draft: Draft, gone: set[str]) -> None:
 def _remove_unused(draft: Draft) -> None:
     """Drawn points that no link has."""
     used = {point for points in picture(draft.text)["links"].values() for point in points}
-    for point, _ in list(draft.section("drawing") or ()):
+    for point, _unused in list(draft.section("drawing") or ()):
         if point not in used:
             draft.take_out("drawing", point)
 
@@ -220,7 +249,7 @@ def _scalars(node: Node) -> Iterator[Scalar]:
         yield node
     for each in node.items if isinstance(node, Sequence) else ():
         yield from _scalars(each)
-    for _, value in node if isinstance(node, MappingNode) else ():
+    for _unused, value in node if isinstance(node, MappingNode) else ():
         yield from _scalars(value)
 
 

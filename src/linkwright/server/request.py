@@ -9,6 +9,7 @@ from typing import Any, NoReturn, TypeVar
 
 from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError
+from linkwright.words import _
 from linkwright.words.characters import one_line
 from linkwright.words.sentence import Sentence
 
@@ -27,9 +28,19 @@ def parsed(body: bytes) -> Plain:
         asked = json.loads(body.decode(), parse_constant=_not_finite, parse_float=_finite)
         json.dumps(asked, ensure_ascii=False).encode()
     except (ValueError, RecursionError):
-        raise BadRequest("studio.bad_body") from None
+        raise BadRequest(
+            _(
+                "the request is not a mapping in JSON with finite numbers; reload the page",
+                code="studio.bad_body",
+            )
+        ) from None
     if not isinstance(asked, dict):
-        raise BadRequest("studio.bad_body")
+        raise BadRequest(
+            _(
+                "the request is not a mapping in JSON with finite numbers; reload the page",
+                code="studio.bad_body",
+            )
+        )
     return asked
 
 
@@ -78,7 +89,14 @@ def mapping(asked: Mapping[str, Any], key: str) -> dict[str, Any]:
 
 def refuse(key: str, form: str) -> NoReturn:
     """Raise BadRequest for a value that has not the form."""
-    raise BadRequest("studio.bad_value", name=key, form=Sentence(f"studio.form_{form}"))
+    raise BadRequest(
+        _(
+            "{name} is missing or of the wrong form; expected {form}",
+            code="studio.bad_value",
+            name=key,
+            form=Sentence(f"studio.form_{form}"),
+        )
+    )
 
 
 def _name(value: Any, key: str) -> str:

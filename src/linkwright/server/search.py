@@ -14,6 +14,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.files.write import dump
 from linkwright.server.background import Job
 from linkwright.synthesis.result import Candidate, Synthesis
+from linkwright.words import _
 
 #: Times of the searches that follow on each other, s; points of a curve that is sent, and of one that is sought.
 SECONDS, SENT, CORNERS = (1.0, 6.0), 180, 48
@@ -27,11 +28,17 @@ def linkages(points: Any, closed: bool) -> Callable[[Job], None]:
     try:
         curve = np.array(points, dtype=float)
     except (ValueError, TypeError, OverflowError):
-        raise LinkwrightError("studio.no_curve") from None
+        raise LinkwrightError(
+            _("that is no curve to search for: draw one with at least three points", code="studio.no_curve")
+        ) from None
     if curve.ndim != 2 or curve.shape[1] != 2 or not _FEWEST <= len(curve) <= _MOST:
-        raise LinkwrightError("studio.no_curve")
+        raise LinkwrightError(
+            _("that is no curve to search for: draw one with at least three points", code="studio.no_curve")
+        )
     if not np.isfinite(curve).all() or not np.ptp(curve, axis=0).max() > 0:
-        raise LinkwrightError("studio.no_curve")
+        raise LinkwrightError(
+            _("that is no curve to search for: draw one with at least three points", code="studio.no_curve")
+        )
     return partial(_search, _even(curve, closed), closed)
 
 
@@ -96,4 +103,4 @@ def _shown(candidate: Candidate, target: np.ndarray) -> Plain:
 def _distinct(ordered: list[Plain], most: int = 6) -> list[Plain]:
     """The first ones that are not the same again."""
     keys = itertools.groupby(ordered, key=lambda each: (each["links"], round(float(each["error"]), 7)))
-    return [next(group) for _, group in keys][:most]
+    return [next(group) for _unused, group in keys][:most]

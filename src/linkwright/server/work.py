@@ -22,7 +22,7 @@ from linkwright.server.edits import edited
 from linkwright.server.files import Files
 from linkwright.server.request import mapping, number, numbers, text
 from linkwright.server.search import linkages
-from linkwright.words import LANGUAGES, say
+from linkwright.words import LANGUAGES, _
 from linkwright.words.sentence import in_language
 
 #: What the studio hands out, by the ending of the file.
@@ -128,7 +128,9 @@ class Work:
         """A report, or an export, of a text: its bytes in base64."""
         model, ending, language = text(asked, "text"), text(asked, "ending"), language_of(asked)
         if ending not in TAKEN:
-            raise LinkwrightError("studio.no_ending", ending=ending)
+            raise LinkwrightError(
+                _("the studio hands out no file {ending!r}", code="studio.no_ending", ending=ending)
+            )
         document = Document(model, "model", read_text)
         with TemporaryDirectory() as folder:
             path = Path(folder) / f"machine{ending.removeprefix('.report')}"
@@ -147,7 +149,7 @@ class Work:
 
 def new_text(language: str = "en") -> str:
     """The text of a new file."""
-    return NEW.format(name=say("studio.new_name", language))
+    return NEW.format(name=_("New mechanism").translate(language))
 
 
 def _changed(text: str, values: Mapping[str, float]) -> str:
@@ -180,7 +182,7 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
             found["optimize"] = dict(mechanism.optimize)
             motion = solve_motion(mechanism, steps=360)
             found["picture"] = completed(found["picture"], motion)
-            data, _ = page_data([(motion, text)], language)
+            data, _unused = page_data([(motion, text)], language)
             found["model"] = data["models"][0]
     except LinkwrightError as error:
         found["sentence"] = error.say(language)

@@ -16,7 +16,7 @@ from linkwright.parts.base import Problem
 from linkwright.registry import Registry
 from linkwright.sheets.panel import Panel
 from linkwright.sheets.settings import Settings
-from linkwright.words import Say
+from linkwright.words import Message, Say
 from linkwright.words.sentence import Sentence
 
 
@@ -40,7 +40,7 @@ class Subject:
 
     def words(self, key: str, **values: object) -> str:
         """A text of the area ``sheet``."""
-        return self.say(f"sheet.{key}", **values)
+        return self.say(key if isinstance(key, Message) else f"sheet.{key}", **values)
 
 
 @dataclass(frozen=True)

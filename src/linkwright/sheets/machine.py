@@ -20,6 +20,7 @@ from linkwright.plot.drawing.scene import Scene, laid_out, link_labels, point_la
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.sheets.positions import Positions
 from linkwright.sheets.scene import draw_elements, draw_machine, outline_machine
+from linkwright.words import _, pgettext
 
 #: Room for symbols and names about the points of a machine, mm; smallest crank circle whose positions are numbered.
 AROUND, NUMBERED_RADIUS = 8.0, 9.0
@@ -75,11 +76,11 @@ class MachinePanel(Panel):
         words, shown = self.positions.subject.words, self.positions.shown
         places = [(each.number, self.positions.place(each)) for each in shown]
         if not places or not places[0][1]:
-            return words("caption_machine")
-        told = words("between").join(
-            words("position", number=number, place=place) for number, place in places
+            return words(_("Mechanism"))
+        told = words(pgettext("sheet", ", ")).join(
+            words(_("{number}: {place}", number=number, place=place)) for number, place in places
         )
-        return words("caption_positions", positions=told)
+        return words(_("Mechanism, position {positions}", positions=told))
 
 
 class _Machine:
@@ -180,7 +181,7 @@ class _Machine:
         good = [(number, place) for number, place in enumerate(places, 1) if np.isfinite(place).all()]
         if not good:
             return []
-        every = np.array([place for _, place in good])
+        every = np.array([place for _unused, place in good])
         middle = 0.5 * (every.min(axis=0) + every.max(axis=0))
         if float(np.ptp(every, axis=0).max()) < 2 * NUMBERED_RADIUS:
             return []

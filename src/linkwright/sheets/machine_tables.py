@@ -14,22 +14,23 @@ from linkwright.pictures.picture import Runs, Words, as_runs, indexed, joined
 from linkwright.pictures.svg.text import split_index
 from linkwright.sheets.panel import TablePanel
 from linkwright.sheets.positions import Positions
+from linkwright.words import _
 
 
 def data_table(positions: Positions) -> TablePanel:
     """The links with their numbers, distances of their points in mm, masses and inertias."""
     mechanism, words = positions.mechanism, positions.subject.words
     heavy = any(link.mass or link.inertia for link in mechanism.links.values())
-    head: list[Words] = [words("head_number"), words("head_link"), words("head_lengths")]
+    head: list[Words] = [words(_("No.")), words(_("Link")), words(_("Distances/mm"))]
     head += [joined(_italic("m"), "/kg"), joined(_italic("J"), "/(kg·m²)")] if heavy else []
     rows: list[list[Words]] = []
     for name, number in link_numbers(mechanism).items():
         link = mechanism.link(name)
         mass = [_number(link.mass), _number(link.inertia)] if heavy and name != "frame" else ["–", "–"]
         for k, text in enumerate(_lengths(link.points)):
-            first = [str(number), name if name != "frame" else words("frame")] if k == 0 else ["", ""]
+            first = [str(number), name if name != "frame" else words(_("frame"))] if k == 0 else ["", ""]
             rows.append([*first, text, *((mass if k == 0 else ["", ""]) if heavy else [])])
-    return TablePanel("table_data", 2.5, head, rows, words("caption_data"))
+    return TablePanel("table_data", 2.5, head, rows, words(_("Data of the links")))
 
 
 def _italic(letter: str) -> Runs:
@@ -85,7 +86,9 @@ def motion_table(positions: Positions) -> Iterator[TablePanel]:
             rows.append(_row(indexed("ω", str(number)), "rad/s", state.angular_velocity, positions))
             rows.append(_row(indexed("α", str(number)), "rad/s²", state.angular_acceleration, positions))
     if rows:
-        yield TablePanel("table_motion", 7.0, _head(positions), rows, words("caption_motion"))
+        yield TablePanel(
+            "table_motion", 7.0, _head(positions), rows, words(_("Velocities and accelerations"))
+        )
 
 
 def force_table(positions: Positions) -> Iterator[TablePanel]:
@@ -111,7 +114,9 @@ def force_table(positions: Positions) -> Iterator[TablePanel]:
         letter = indexed("M" if turning else "F", "b" if len(mechanism.drivers) == 1 else f"b,{name}")
         rows.append(_row(letter, "N·m" if turning else "N", forces.driver_effort(name), positions))
     if rows:
-        yield TablePanel("table_forces", 7.5, _head(positions), rows, words("caption_forces"))
+        yield TablePanel(
+            "table_forces", 7.5, _head(positions), rows, words(_("Joint forces (size ∠ direction) and drive"))
+        )
 
 
 def _direction(force: Floats) -> float:
@@ -125,7 +130,7 @@ def _head(positions: Positions) -> list[Words]:
         joined(each.number, f" ({positions.place(each)})") if positions.place(each) else each.number
         for each in positions.shown
     ]
-    return [words("head_quantity"), words("head_unit"), *places]
+    return [words(_("Quantity")), words(_("Unit")), *places]
 
 
 def _row(symbol: Runs, unit: str, values: Floats, positions: Positions) -> list[Words]:

@@ -10,7 +10,7 @@ from typing import Literal
 
 from linkwright.core.dataclass import dataclass
 from linkwright.pictures.picture import LEAST, TEXT, Box, Picture
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 Standard = Literal["gb", "iso"]
 #: Short and long side of the basic sizes.
@@ -130,5 +130,5 @@ def control_bar(say: Say) -> Picture:
     for number in (0, 50, 100):
         anchor = {0: "start", 50: "middle", 100: "end"}[number]
         picture.text((number, 10.5), str(number), LEAST, anchor)  # type: ignore[arg-type]
-    picture.text((0.0, 1.2), say("sheet.print_full_size"), TEXT)
+    picture.text((0.0, 1.2), say(_("Print at 100 %: this bar is 100 mm long.")), TEXT)
     return picture

@@ -30,6 +30,7 @@ from linkwright.plot.diagrams.names import LOW
 from linkwright.plot.free_bodies.actions import Action
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.sheets.positions import Positions, Shown
+from linkwright.words import _
 
 #: Letters at the ends of parts of an acceleration.
 ENDS = {"normal": "n", "coriolis": "k"}
@@ -79,7 +80,12 @@ class MotionPolygonPanel(ScaledPanel):
         images = np.array([np.zeros(2), *self.polygon.images.values(), *(s.end for s in self.polygon.steps)])
         self.longest = float(np.ptp(images, axis=0).max())
         if not self.longest > 0.0:
-            raise LinkwrightError("picture.nothing_moves")
+            raise LinkwrightError(
+                _(
+                    "nothing moves at this position, so there is no polygon; choose another input: at=…",
+                    code="picture.nothing_moves",
+                )
+            )
 
     @abstractmethod
     def made(self) -> MotionPolygon:
@@ -176,8 +182,10 @@ class ForcePanel(ScaledPanel):
     def caption(self) -> str:
         words, number = self.positions.subject.words, link_numbers(self.positions.mechanism)[self.link]
         if len(self.positions.shown) < 2:
-            return words("caption_force", link=number)
-        return words("caption_force_at", link=number, number=self.shown.number)
+            return words(_("Force polygon of link {link}", link=number))
+        return words(
+            _("Force polygon of link {link}, position {number}", link=number, number=self.shown.number)
+        )
 
     def picture(self, scale: float) -> Picture:
         found = Picture()

@@ -24,6 +24,7 @@ from linkwright.sheets.settings import Placed, Settings, settings
 from linkwright.sheets.title_block import TitleBlock, gb_block, iso_block, school_block
 from linkwright.sheets.written import svg
 from linkwright.whole_files import refuse_target, write_whole
+from linkwright.words import _
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
 
@@ -69,7 +70,14 @@ class Sheet:
             from linkwright.sheets.written import dxf
 
             return dxf(self.picture.items, self.paper)
-        raise RequestError("sheet.bad_ending", ending=ending, endings=ENDINGS)
+        raise RequestError(
+            _(
+                'a sheet cannot be written as "{ending}"; use {endings}',
+                code="sheet.bad_ending",
+                ending=ending,
+                endings=ENDINGS,
+            )
+        )
 
     def save(self, path: str | Path, *, force: bool = False, fonts: Sequence[str | Path] = ()) -> Path:
         """Write it, whole or not at all; the ending of ``path`` says which form.
@@ -116,7 +124,14 @@ def sheet(
     """
     require_language(language)
     if size is not None and size not in SIZES:
-        raise RequestError("sheet.bad_size", size=size, sizes=tuple(SIZES))
+        raise RequestError(
+            _(
+                'paper size "{size}" does not exist; use {sizes}',
+                code="sheet.bad_size",
+                size=size,
+                sizes=tuple(SIZES),
+            )
+        )
     drawn, own = _given(machine)
     if section is not None:
         own = section
@@ -125,7 +140,14 @@ def sheet(
     name = title_said(in_language(drawn.name, language), language)
     wanted = settings(own, language, size=size or "", report=report, name=name, usual=USUAL.get(chosen, "A1"))
     if chosen not in SHEETS:
-        raise RequestError("sheet.no_kind", kind=chosen, kinds=tuple(SHEETS))
+        raise RequestError(
+            _(
+                'there is no sheet for "{kind}"; sheets exist for {kinds}',
+                code="sheet.no_kind",
+                kind=chosen,
+                kinds=tuple(SHEETS),
+            )
+        )
     subject = Subject(drawn, wanted, language, speaker(language), of)
     content = SHEETS[chosen](subject)
     return _composed(subject, content, chosen, name)
@@ -218,7 +240,14 @@ def _chosen(panels: Sequence[Panel], wanted: Settings) -> dict[str, Panel]:
     known = {panel.name: panel for panel in panels}
     for name in (*wanted.only, *wanted.leave_out, *wanted.panels):
         if name not in known:
-            raise RequestError("sheet.no_panel", name=name, hint=listed(name, known))
+            raise RequestError(
+                _(
+                    'the sheet has no panel "{name}"; {hint}',
+                    code="sheet.no_panel",
+                    name=name,
+                    hint=listed(name, known),
+                )
+            )
     names = wanted.only or tuple(known)
     return {name: known[name] for name in names if name not in wanted.leave_out}
 
@@ -227,14 +256,30 @@ def _refuse_meeting(fixed: Mapping[str, Box]) -> None:
     """Raises LinkwrightError for a panel that the file places over another one or over the title block."""
     for one, other in combinations(fixed, 2):
         if fixed[one].meets(fixed[other]):
-            raise RequestError("sheet.meets", name=other, other=one)
+            raise RequestError(
+                _(
+                    "sheet.panels.{name}: the panel stands over {other}; change `at` of one of them",
+                    code="sheet.meets",
+                    name=other,
+                    other=one,
+                )
+            )
 
 
 def _refuse_outside(fixed: Mapping[str, Box], inner: Box) -> None:
     """Raises LinkwrightError for a panel that the file places across the frame."""
     for name, box in fixed.items():
         if not inner.holds(box):
-            raise LinkwrightError(
-                "sheet.outside", name=name, width=round(box.width), height=round(box.height),
-                left=round(inner.left), bottom=round(inner.bottom), right=round(inner.right), top=round(inner.top),
-            )  # fmt: skip
+            raise LinkwrightError(_(
+"sheet.panels.{name}: the panel, {width} mm × {height} mm with its caption, crosses "
+"the frame, which reaches from ({left}; {bottom}) to ({right}; {top}) mm; change "
+"`at`, or make it smaller with `size`",
+code="sheet.outside",
+name=name,
+width=round(box.width),
+height=round(box.height),
+left=round(inner.left),
+bottom=round(inner.bottom),
+right=round(inner.right),
+top=round(inner.top),
+))  # fmt: skip

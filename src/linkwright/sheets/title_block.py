@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from linkwright.core.dataclass import dataclass
 from linkwright.pictures.picture import LEAST, TEXT, Box, Picture, as_runs, runs_width
 from linkwright.pictures.svg.fonts import needs_chinese
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: Least width of letters as a share of their own.
 NARROWEST = 0.62
@@ -156,14 +156,16 @@ def _gb_signatures(given: Fields, say: Say) -> Iterator[Cell]:
 
 def _gb_rest(given: Fields, say: Say) -> Iterator[Cell]:
     yield Cell(80, 0, 50, 28, given.title, 5.0, thick=True)
-    yield Cell(80, 28, 26, 7, say("sheet.block.stage"), 3.5)
-    yield Cell(106, 28, 12, 7, say("sheet.block.mass"), 3.5)
-    yield Cell(118, 28, 12, 7, say("sheet.block.scale"), 3.5)
+    yield Cell(80, 28, 26, 7, say(_("Stage")), 3.5)
+    yield Cell(106, 28, 12, 7, say(_("Mass")), 3.5)
+    yield Cell(118, 28, 12, 7, say(_("Scale")), 3.5)
     for k in range(4):
         yield Cell(80 + 6.5 * k, 35, 6.5, 12)
     yield Cell(106, 35, 12, 12)
     yield Cell(118, 35, 12, 12, given.scale, 3.5)
-    yield Cell(80, 47, 50, 9, say("sheet.block.sheet_of", sheet=given.sheet, sheets=given.sheets), 3.5)
+    yield Cell(
+        80, 47, 50, 9, say(_("Sheet {sheet} of {sheets}", sheet=given.sheet, sheets=given.sheets)), 3.5
+    )
     yield Cell(80, 28, 50, 28, thick=True)
     yield Cell(130, 0, 50, 18, _joined(given.school, given.faculty), 5.0, thick=True)
     yield Cell(130, 18, 50, 20, given.drawing, 7.0, thick=True)
@@ -199,7 +201,7 @@ def school_block(given: Fields, say: Say) -> TitleBlock:
     cells += [
         Cell(60, 16, 80, 8, given.title, 5.0),
         Cell(60, 24, 80, 8, _joined(given.school, given.faculty), 5.0),
-        Cell(60, 32, 80, 8, say("sheet.block.sheet_of", sheet=given.sheet, sheets=given.sheets)),
+        Cell(60, 32, 80, 8, say(_("Sheet {sheet} of {sheets}", sheet=given.sheet, sheets=given.sheets))),
     ]
     return TitleBlock(140.0, 40.0, tuple(cells))
 

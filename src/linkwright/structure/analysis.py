@@ -11,7 +11,7 @@ from linkwright.errors import speaker
 from linkwright.joints.base import JOINTS
 from linkwright.structure.mobility import lower_pairs
 from linkwright.structure.trains import GearTrain, written
-from linkwright.words import Say, has, language_of
+from linkwright.words import Say, _, has, language_of
 from linkwright.words.characters import cells, padded
 from linkwright.words.sentence import link_said
 
@@ -71,18 +71,26 @@ def describe(structure: Structure, language: str = "en") -> str:
     lines = [
         *_mobility(structure, say),
         "",
-        say("structure_text.groups"),
+        say(_("Assur groups in solving order:")),
         *_table(structure, say),
         *turned_against(structure, say),
         "",
-        say("structure_text.chain", chain=structure.chain),
-        say("structure_text.class", level=level),
+        say(_("Mechanism = frame + {chain}", chain=structure.chain)),
+        say(_("It is a class {level} mechanism.", level=level)),
     ]
     if len(structure.parts) > 1:
-        parts = say("structure_text.and").join("{" + ", ".join(part) + "}" for part in structure.parts)
-        lines.append(say("structure_text.parts", count=len(structure.parts), parts=parts))
+        parts = say(_(" and ")).join("{" + ", ".join(part) + "}" for part in structure.parts)
+        lines.append(
+            say(
+                _(
+                    "These are {count} mechanisms that share nothing but the frame: {parts}.",
+                    count=len(structure.parts),
+                    parts=parts,
+                )
+            )
+        )
     if structure.drivers:
-        lines.append(say("structure_text.other_driver"))
+        lines.append(say(_("Another choice of driver leads to other groups, and may change the class.")))
     for train in structure.trains:
         lines += ["", *_train(train, say)]
     return "\n".join(lines)
@@ -91,7 +99,15 @@ def describe(structure: Structure, language: str = "en") -> str:
 def turned_against(structure: Structure, say: Say) -> list[str]:
     """The drivers that turn a link against another one than the frame, a sentence each."""
     return [
-        say("structure_text.turned_against", driver=name, link=link, pin=pin, other=other)
+        say(
+            _(
+                "{driver}: turns {link} about {pin} against {other}, not against the frame.",
+                driver=name,
+                link=link,
+                pin=pin,
+                other=other,
+            )
+        )
         for name, (link, pin, other) in structure.turned.items()
         if other != "frame"
     ]
@@ -99,7 +115,7 @@ def turned_against(structure: Structure, say: Say) -> list[str]:
 
 def numeral(number: int, say: Say) -> str:
     """A class as it is written in the books."""
-    numerals = say("structure_text.numerals").split()
+    numerals = say(_("I II III IV V VI VII VIII IX X")).split()
     return numerals[number - 1] if number <= len(numerals) else str(number)
 
 
@@ -114,20 +130,42 @@ def _mobility(structure: Structure, say: Say) -> list[str]:
     first = say(f"structure_text.{counts}", links=n, pairs=r + p, revolute=r, prismatic=p, welds=w)
     if h:
         kinds = ", ".join(f"{count} {_kind(kind, say)}" for kind, count in higher.items())
-        first += say("structure_text.counts_higher", higher=h, kinds=kinds)
+        first += say(_("; higher pairs p_H = {higher}: {kinds}", higher=h, kinds=kinds))
     values = {"links": n, "pairs": r + p, "welds": w, "higher": h, "mobility": structure.grubler}
     lines = [first, say(f"structure_text.{formula}", **values)]
     guides = ", ".join(name for name in structure.redundant if name not in structure.passive)
     if guides:
-        lines.append(say("structure_text.redundant", guides=guides, mobility=structure.mobility))
+        lines.append(
+            say(
+                _(
+                    "The guides {guides} close a loop in which rotation is already prevented: each such "
+                    "demand is redundant, so the mobility is {mobility}.",
+                    guides=guides,
+                    mobility=structure.mobility,
+                )
+            )
+        )
     if structure.passive:
         pairs = ", ".join(structure.passive)
-        lines.append(say("structure_text.redundant_pairs", pairs=pairs, mobility=structure.mobility))
+        lines.append(
+            say(
+                _(
+                    "The pairs {pairs} demand what other pairs demand already: they are passive "
+                    "constraints, so the mobility is {mobility}.",
+                    pairs=pairs,
+                    mobility=structure.mobility,
+                )
+            )
+        )
     drivers = len(structure.drivers)
     if structure.mobility == 0 and not drivers:
-        lines.append(say("structure_text.at_rest"))
+        lines.append(say(_("Mobility 0 and no driver: a structure at rest, which carries loads.")))
     elif structure.mobility == drivers:
-        lines.append(say("structure_text.determined", count=drivers))
+        lines.append(
+            say(
+                _("Mobility equals the number of drivers ({count}): the motion is determined.", count=drivers)
+            )
+        )
     return lines
 
 
@@ -140,27 +178,37 @@ def _train(train: GearTrain, say: Say) -> list[str]:
     """The ratios of a train by the method of the stopped carrier."""
     wheels = list(train.ratios)
     carrier, frame = (link_said(name, language_of(say)) for name in (train.carrier, "frame"))
-    stopped = say("structure_text.stopped", carrier=carrier)
+    stopped = say(_("{carrier} stopped", carrier=carrier))
     rows = [["", *wheels], [stopped, *map(written, train.ratios.values())]]
     if train.planetary:
         rows[0].append(train.carrier)
         rows[1].append("0")
-        rows.append([say("structure_text.as_one"), *["1"] * (len(wheels) + 1)])
+        rows.append([say(_("all as one")), *["1"] * (len(wheels) + 1)])
         if speeds := train.speeds:
-            rows.append([say("structure_text.stopped", carrier=frame), *map(written, speeds.values())])
+            rows.append([say(_("{carrier} stopped", carrier=frame)), *map(written, speeds.values())])
     widths = [max(cells(row[i]) for row in rows) for i in range(len(rows[0]))]
-    lines = [say("structure_text.train", pairs=", ".join(train.pairs), carrier=carrier)]
+    lines = [
+        say(
+            _(
+                "Ratios of the train {pairs} by the method of the stopped carrier ({carrier}):",
+                pairs=", ".join(train.pairs),
+                carrier=carrier,
+            )
+        )
+    ]
     for row in rows:
         first, *rest = (padded(cell, w) for cell, w in zip(row, widths, strict=True))
         lines.append("  " + "  ".join([first, *rest]).rstrip())
     if train.planetary:
         lines += [
             say(
-                "structure_text.willis",
-                carrier=train.carrier,
-                first=train.first,
-                wheel=wheel,
-                ratio=written(ratio),
+                _(
+                    "  (n_{wheel} - n_{carrier}) / (n_{first} - n_{carrier}) = {ratio}",
+                    carrier=train.carrier,
+                    first=train.first,
+                    wheel=wheel,
+                    ratio=written(ratio),
+                )
             )
             for wheel, ratio in list(train.ratios.items())[1:]
         ]

@@ -9,7 +9,7 @@ from linkwright.joints.base import JOINTS
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.constraints import DRIVER, FRAME, ConstraintGraph
 from linkwright.structure.trains import GearTrain, blocking_pairs, gear_trains
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence, together
 
 
@@ -96,18 +96,34 @@ def explain_excess(
     drivers = len(mechanism.drivers)
     why: Message = _has(mechanism, mobility)
     if mobility <= 0 and drivers:
-        why = Sentence(
-            "mobility.cannot_be_driven" if drivers == 1 else "mobility.cannot_be_driven_by_several",
-            name=mechanism.name,
-            mobility=grubler(counts(mechanism)),
-            drivers=_drivers("drivers", drivers),
+        why = (
+            _(
+                "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, but "
+                "{drivers} is given",
+                code="mobility.cannot_be_driven",
+            )
+            if drivers == 1
+            else _(
+                "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, but "
+                "{drivers} are given",
+            )
+        ).format(
+            name=mechanism.name, mobility=grubler(counts(mechanism)), drivers=_drivers("drivers", drivers)
         )
     blocked = [train for train in gear_trains(mechanism) if train.blocked]
     if blocked:
         train = blocked[0]
         loop = tuple(map(repr, _loop_of(mechanism, train)))
         return StructureError(
-            "mobility.blocked", why=why, pairs=loop, carrier=train.carrier, pair=train.blocked[0]
+            _(
+                "{why}; the wheels of {pairs} block each other: round this loop on {carrier!r} the "
+                "ratio is not 1, so none of them can turn; take {pair!r} away, or change the sizes",
+                code="mobility.blocked",
+                why=why,
+                pairs=loop,
+                carrier=train.carrier,
+                pair=train.blocked[0],
+            )
         )
     pairs = blocking_pairs(mechanism)
     if pairs:
@@ -116,7 +132,16 @@ def explain_excess(
         pair = next((each for each in reversed(pairs) if each not in uneven), pairs[-1])
         return StructureError(key, why=why, pairs=named, pair=pair, cams=tuple(map(repr, uneven)))
     links, extra = tuple(map(repr, bodies)), tuple(_source(mechanism, each) for each in sources)
-    return StructureError("mobility.excess", why=why, links=links, extra=extra)
+    return StructureError(
+        _(
+            "{why}; the links {links} are determined more than once (by {extra} among others); "
+            "remove a driver, a redundant link or a redundant guide",
+            code="mobility.excess",
+            why=why,
+            links=links,
+            extra=extra,
+        )
+    )
 
 
 def _source(mechanism: Mechanism, source: str) -> Message | str:
@@ -124,7 +149,7 @@ def _source(mechanism: Mechanism, source: str) -> Message | str:
     if source in mechanism.joints:
         return repr(source)
     name = source.removeprefix(DRIVER)
-    return Sentence("mobility.the_driver" if name == "driver" else "mobility.driver", name=name)
+    return (_("the driver") if name == "driver" else _("driver {name!r}")).format(name=name)
 
 
 def _loop_of(mechanism: Mechanism, train: GearTrain) -> list[str]:
@@ -143,7 +168,12 @@ def _loop_of(mechanism: Mechanism, train: GearTrain) -> list[str]:
 
 def _has(mechanism: Mechanism, mobility: int) -> Message:
     drivers = _drivers("drivers", len(mechanism.drivers))
-    return Sentence("mobility.has", name=mechanism.name, mobility=mobility, drivers=drivers)
+    return _(
+        "{name!r} has mobility {mobility} and {drivers}",
+        name=mechanism.name,
+        mobility=mobility,
+        drivers=drivers,
+    )
 
 
 def _drivers(key: str, count: int) -> Message:

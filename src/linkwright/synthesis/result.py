@@ -24,7 +24,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.merit import merit
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words import Message, Say, has
+from linkwright.words import Message, Say, _, has, pgettext
 from linkwright.words.sentence import Sentence, in_language
 
 #: Share of the longest length, or of a radian, below which a deviation is rounding.
@@ -245,7 +245,7 @@ def _report(found: Synthesis, language: str, width: int | None) -> list[str]:
     tell = speaker(language)
     head = [tell(f"synthesize.column.{name}") for name in COLUMNS]
     rows = [_row(number, each, found.extent, tell) for number, each in enumerate(found.candidates, 1)]
-    between = tell("finding.comma")
+    between = tell(_(", "))
     lines = [
         title_said(found, tell),
         tell(f"synthesize.error.{found.error_name}"),
@@ -257,12 +257,12 @@ def _report(found: Synthesis, language: str, width: int | None) -> list[str]:
         lengths = between.join(
             f"{name_said(name, tell)} {_length(value)}" for name, value in each.linkage.lengths().items()
         )
-        lines.append(tell("synthesize.lengths", number=number, lengths=lengths))
+        lines.append(tell(_("Candidate {number}: {lengths}", number=number, lengths=lengths)))
         if each.values:
             values = between.join(
                 f"{name_said(name, tell)} = {value:.7g}" for name, value in each.values.items()
             )
-            lines.append(tell("synthesize.values", values=values))
+            lines.append(tell(_("  {values}", values=values)))
     if found.counts:
         lines += ["", counts_said(found, tell)]
     return lines + [in_language(sentence, language) for sentence in found.notes]
@@ -271,30 +271,32 @@ def _report(found: Synthesis, language: str, width: int | None) -> list[str]:
 def counts_said(found: Synthesis, tell: Say) -> str:
     """How many solutions of which sort were found."""
     counts = (f"{name_said(name, tell)} {value}" for name, value in found.counts.items())
-    return tell("synthesize.counts", counts=tell("finding.comma").join(counts))
+    return tell(_("Found: {counts}", counts=tell(_(", ")).join(counts)))
 
 
 def _purpose(found: Synthesis, each: Candidate, language: str) -> str:
     """What a candidate is, for its model file."""
     tell = speaker(language)
     defects = (
-        tell("synthesize.purpose_defects", defects=defects_text(each, tell))
+        tell(_("defects: {defects}", defects=defects_text(each, tell)))
         if each.defects
-        else tell("synthesize.purpose_sound")
+        else tell(_("no defects"))
     )
     return tell(
-        "synthesize.purpose",
-        task=name_said(found.task, tell).replace("_", " "),
-        error=error_texts(each)[0],
-        transmission=f"{degrees(each.transmission_angle):.4g} deg",
-        defects=defects,
+        _(
+            "synthesis of {task}; error {error}, smallest transmission angle {transmission}, {defects}",
+            task=name_said(found.task, tell).replace("_", " "),
+            error=error_texts(each)[0],
+            transmission=f"{degrees(each.transmission_angle):.4g} deg",
+            defects=defects,
+        )
     )
 
 
 def defects_text(each: Candidate, tell: Say) -> str:
     """The defects of a candidate, or that there are none."""
     words = [tell(f"synthesize.defect.{name}") for name in each.defects]
-    return tell("finding.comma").join(words) or tell("synthesize.no_defect")
+    return tell(_(", ")).join(words) or tell(_("none"))
 
 
 def _row(number: int, each: Candidate, extent: float, tell: Say) -> list[str]:
@@ -303,7 +305,7 @@ def _row(number: int, each: Candidate, extent: float, tell: Say) -> list[str]:
         tell(f"synthesize.type.{each.grashof_type}"),
         *error_texts(each),
         defects_text(each, tell),
-        tell("synthesize.turns" if each.turns else "synthesize.swings"),
+        tell(pgettext("synthesize", "turns") if each.turns else _("swings")),
         f"{degrees(each.transmission_angle):.2f}°",
         f"{each.link_ratio:.3g}",
         _longest(each.linkage.longest(), extent),
@@ -325,10 +327,10 @@ def error_texts(each: Candidate) -> tuple[str, str]:
 
 def name_said(name: str, tell: Say) -> str:
     """The word for a task, a link, a value with its unit or a count; other names as they are."""
-    stem, _, unit = name.partition(" ")
+    stem, _unused, unit = name.partition(" ")
     numbered = stem.removeprefix("link")
     if numbered.isdecimal():
-        return tell("synthesis_names.numbered_link", number=numbered)
+        return tell(_("link{number}", number=numbered))
     word = tell(f"synthesis_names.{stem}") if has(f"synthesis_names.{stem}") else stem
     return f"{word} {unit}".rstrip()
 

@@ -12,7 +12,7 @@ from linkwright.errors import LinkwrightError, speaker
 from linkwright.units import unit
 from linkwright.validation.probes import PROBES
 from linkwright.validation.published import Published, Reference, published
-from linkwright.words import say
+from linkwright.words import _
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
 
@@ -71,7 +71,7 @@ class Validation:
         say = speaker(language)
         head = [say(f"validate.{key}") for key in ("case", "numbers", "from_source", "agree", "worst")]
         rows: list[list[Cell]] = []
-        for (case, _), checks in self.cases().items():
+        for (case, _unused), checks in self.cases().items():
             worst = max(checks, key=lambda each: abs(each.digits))
             agree = sum(each.ok for each in checks)
             counts = len(checks), _printed(checks), agree
@@ -80,12 +80,16 @@ class Validation:
         shown = self.checks if every else [each for each in self.checks if not each.ok or each.erratum]
         lines += ["", *(line(each, language) for each in shown)] if shown else []
         count = say(
-            "validate.count",
-            agree=sum(each.ok for each in self.checks),
-            all=len(self.checks),
-            cases=len(self.cases()),
-            printed=_printed(self.checks),
-            errata=sum(each.erratum for each in self.checks),
+            _(
+                "{agree} of {all} numbers of {cases} cases agree to the digits given. {printed} are "
+                "printed by their sources, and {errata} of these are printed wrongly; the others are "
+                "derived from what the sources give.",
+                agree=sum(each.ok for each in self.checks),
+                all=len(self.checks),
+                cases=len(self.cases()),
+                printed=_printed(self.checks),
+                errata=sum(each.erratum for each in self.checks),
+            )
         )
         return "\n".join([*lines, "", count])
 
@@ -111,7 +115,13 @@ class Validation:
 
     def markdown(self, language: str = "en") -> str:
         """The table of the documentation."""
-        lines = [say("validate.columns", language), "|---|---|--:|--:|--:|--:|"]
+        lines = [
+            _(
+                "| case | source | numbers | printed by the source | agree | largest difference, "
+                "last digits |",
+            ).translate(language),
+            "|---|---|--:|--:|--:|--:|",
+        ]
         for (case, source), checks in self.cases().items():
             agree, worst = sum(each.ok for each in checks), max(abs(each.digits) for each in checks)
             counts = len(checks), _printed(checks), agree
@@ -132,21 +142,29 @@ def line(each: Checked, language: str) -> str:
     words = {
         "case": f"{title_said(each.case.case, language)} {each.case.place}".rstrip(),
         "what": each.reference.what,
-        "given": say("validate.printed" if each.reference.printed else "validate.derived", number=number),
+        "given": say(
+            (_("printed {number}") if each.reference.printed else _("derived {number}")).format(number=number)
+        ),
     }
     if each.trouble:
-        return say("validate.trouble", sentence=in_language(each.trouble, language), **words)
+        return say(
+            _("{case}: {what}: not found: {sentence}").format(
+                sentence=in_language(each.trouble, language), **words
+            )
+        )
     ours = f"{each.value:.10g} {number.partition(' ')[2]}".strip()
     if each.erratum:
         return say(
-            "validate.erratum",
-            ours=ours,
-            right=each.reference.right,
-            why=in_language(each.reference.why, language),
-            **words,
+            _("{case}: {what}: {given} is wrong, right is {right} (ours {ours}): {why}").format(
+                ours=ours, right=each.reference.right, why=in_language(each.reference.why, language), **words
+            )
         )
     return say(
-        "validate.agrees" if each.ok else "validate.differs", ours=ours, digits=f"{each.digits:.2g}", **words
+        (
+            _("{case}: {what}: {given}, ours {ours} ({digits} last digits)")
+            if each.ok
+            else _("{case}: {what}: DIFFERS: {given}, ours {ours} ({digits} last digits)")
+        ).format(ours=ours, digits=f"{each.digits:.2g}", **words)
     )
 
 
@@ -181,7 +199,7 @@ def check(case: Published) -> list[Checked]:
 
 
 def _checked(case: Published, reference: Reference, find: Callable[[str], float]) -> Checked:
-    number, _, name = (reference.right or reference.text).partition(" ")
+    number, _unused, name = (reference.right or reference.text).partition(" ")
     factor = unit(name)[0] if name else 1.0
     expected = float(number)
     try:
@@ -198,5 +216,5 @@ def _checked(case: Published, reference: Reference, find: Callable[[str], float]
 
 def last_digit(number: str) -> float:
     """One unit of the last digit: 0.01 of ``3.14``, 1e-9 of ``7.41e-7``."""
-    mantissa, _, power = number.lower().partition("e")
+    mantissa, _unused, power = number.lower().partition("e")
     return float(10.0 ** (int(power or 0) - len(mantissa.partition(".")[2])))

@@ -10,6 +10,7 @@ from linkwright.equations.steps import Step
 from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, cosine, sine, symbol
 from linkwright.kinetostatics.applied_wrenches import AppliedWrench, applied_wrenches
 from linkwright.kinetostatics.forces import Forces
+from linkwright.words import _
 from linkwright.worked.load_formulas import LoadFormulas, turns_with, worked_couple, worked_force
 from linkwright.worked.symbols import Book, Spot
 
@@ -42,12 +43,23 @@ class KnownForces:
     def steps(self, number: int) -> list[Step]:
         """The steps that find them."""
         say = self.book.say
-        head = Step(str(number), say("worked.forces"))
-        head.say(say("worked.force_names"))
-        inertia = Step(f"{number}.1", say("worked.weights" if self.forces.static else "worked.inertia"))
+        head = Step(str(number), say(_("Forces")))
+        head.say(
+            say(
+                _(
+                    "F_A,2: force that joint A exerts on link 2 (F_A,1→2: that link 1 exerts on link 2 "
+                    "at A); K, M_J: weight and inertia force at the mass centre, inertia couple. The "
+                    "other link of a joint feels the reverse. Groups in reverse order.",
+                )
+            )
+        )
+        inertia = Step(
+            f"{number}.1",
+            say(_("Weights") if self.forces.static else _("Weight and inertia: K = m (g - a_G), M_J = -J α")),
+        )
         for link in self.book.mechanism.links:
             self._own(inertia, link)
-        loads = Step(f"{number}.2", say("worked.loads"))
+        loads = Step(f"{number}.2", say(_("Loads")))
         self._loads(loads)
         return [head, inertia, loads]
 
@@ -104,9 +116,20 @@ class KnownForces:
     def _announce(self, step: Step, name: str, link: str, *, idle: bool = False) -> None:
         joint = self._rubbing(name)
         if joint:
-            text = self.book.say("worked.friction_acts", joint=joint, link=link)
+            text = self.book.say(
+                _(
+                    "friction in {joint}, on link {link} (coefficient times the joint's force, found by "
+                    "iteration):",
+                    joint=joint,
+                    link=link,
+                )
+            )
         else:
-            text = self.book.say("worked.load_idle" if idle else "worked.load_acts", name=name, link=link)
+            text = self.book.say(
+                (
+                    _("{name}: does not act in this position.") if idle else _("{name}, on link {link}:")
+                ).format(name=name, link=link)
+            )
         if not (idle and joint):
             step.say(text)
 

@@ -31,6 +31,7 @@ from linkwright.equations.terms import (
     sine,
 )
 from linkwright.joints.cam import CamJoint
+from linkwright.words import _
 from linkwright.worked.lifts import Lift, LiftWriter
 from linkwright.worked.places import Places
 from linkwright.worked.symbols import Book
@@ -99,7 +100,15 @@ class CamPair(ABC):
 
     def rate(self, step: Step, *, second: bool) -> None:
         if not self._lifted(second=second).is_zero:
-            step.say(self.book.say("worked.cam_rates", joint=self.joint.name))
+            step.say(
+                self.book.say(
+                    _(
+                        "The lift of {joint} differentiated, with the angular velocity and acceleration of "
+                        "the cam against its carrier:",
+                        joint=self.joint.name,
+                    )
+                )
+            )
         name, formula, output = self._rate(second=second)
         if not name.is_zero:
             step.find(name, formula, output)
@@ -126,26 +135,26 @@ class CamPair(ABC):
 
     @property
     def title(self) -> str:
-        return self.book.say("worked.cam_shape", joint=self.joint.name)
+        return self.book.say(_("Cam {joint}: pressure angle and profile", joint=self.joint.name))
 
     def _profile(self, step: Step, place: Pair, normal: Pair) -> None:
         """Pitch curve and profile in the cam's axes, from the point and the normal that leads away from the cam."""
         if self.roller.is_zero:
             point = place
         else:
-            step.say(self.book.say("worked.cam_pitch"))
+            step.say(self.book.say(_("Pitch curve in the cam's axes:")))
             point = Pair(
                 self._found(step, "x_p", place.x, "m"),
                 self._found(step, "y_p", place.y, "m"),
             )
-        step.say(self.book.say("worked.cam_profile"))
+        step.say(self.book.say(_("Profile in the cam's axes:")))
         point = point - normal.times(self.roller)
         self._found(step, "x_n", point.x, "m")
         self._found(step, "y_n", point.y, "m")
 
     def _radius(self, step: Step, square: Term, turn: Term) -> None:
         """Radius of curvature of pitch curve and profile, from |p'|² and p' × p''."""
-        step.say(self.book.say("worked.cam_radius"))
+        step.say(self.book.say(_("Radius of curvature (positive: convex):")))
         q = self._found(step, "q", square, "m²")
         k = self._found(step, "k", turn, "m²")
         if not k.value:
@@ -186,7 +195,16 @@ class Guided(CamPair):
     def place(self, step: Step, places: Places) -> None:
         book, name = self.book, self.joint.holder
         self.lifts.write(step)
-        step.say(book.say("worked.cam_guided", point=self.joint.at, guide=name))
+        step.say(
+            book.say(
+                _(
+                    "Height of {point} above the cam's centre, along {guide}: d + S. b: where {point} is "
+                    "along it when the displacement is 0.",
+                    point=self.joint.at,
+                    guide=name,
+                )
+            )
+        )
         radius = self._radii(step)
         if not self.offset.is_zero:
             step.give(self.offset, "m")
@@ -205,23 +223,31 @@ class Guided(CamPair):
 
     def effort(self, step: Step, right: Term) -> Term:
         """V, the force along the follower's way."""
-        step.say(self.book.say("worked.cam_push", joint=self.joint.name))
+        step.say(
+            self.book.say(
+                _(
+                    "V: what {joint} exerts along the follower's way; across it V tan α, by the "
+                    "direction of the normal.",
+                    joint=self.joint.name,
+                )
+            )
+        )
         force = self._of("V", right.value)
         return step.give(force, "N") if right.is_zero else step.find(force, right, "N")
 
     def shape(self, step: Step) -> None:
         book, lift, flat = self.book, self.lift, self.joint.touch == "flat"
-        step.say(book.say("worked.cam_heading"))
+        step.say(book.say(_("Direction of the follower's way in the cam's axes:")))
         along = book.turn(self.joint.carrier) + book.degrees(self._geometry[0]) - book.turn(self.joint.cam)
         heading = self._found(step, "ν", along, "°", degrees=True)
         c, s, first = cosine(heading), sine(heading), self.signed(lift.first)
         n, aside = Pair(c, s), Pair(-s, c)
         if flat:
             self._profile(step, n.times(self.height) - aside.times(first), NOWHERE)
-            step.say(book.say("worked.cam_radius"))
+            step.say(book.say(_("Radius of curvature (positive: convex):")))
             self._found(step, "ρ", self.height + lift.second, "m")
             return
-        step.say(book.say("worked.cam_pressure"))
+        step.say(book.say(_("Pressure angle, between the normal and the velocity of the follower:")))
         alpha = self._found(step, "α", direction(first - self.offset, self.height), "°", degrees=True)
         place = n.times(self.height) - aside.times(self.offset)
         self._profile(step, place, Pair(cosine(heading + alpha), sine(heading + alpha)))
@@ -281,7 +307,14 @@ class Swinging(CamPair):
     def place(self, step: Step, places: Places) -> None:
         book = self.book
         self.lifts.write(step)
-        step.say(book.say("worked.cam_swinging", pivot=self.joint.holder))
+        step.say(
+            book.say(
+                _(
+                    "Angle of the arm to the line from {pivot} to the cam's centre: ψ0 + S.",
+                    pivot=self.joint.holder,
+                )
+            )
+        )
         c, length = self.sizes
         radius = self._radii(step)
         step.give(c, "m")
@@ -293,7 +326,7 @@ class Swinging(CamPair):
             k = step.find(self._of("k0", part.value), part, "m²")
             start = direction(root(FOUR * c.squared * length.squared - k.squared), k)
         step.find(self._of("ψ0", start.value, degrees=True), start, "°")
-        line, own, _ = self._angles
+        line, own, _unused = self._angles
         turned = book.turn(self.joint.carrier) + line - own
         psi = self.psi
         places.angle(step, self.joint.follower, turned + psi if self.side > 0 else turned - psi)
@@ -307,14 +340,29 @@ class Swinging(CamPair):
 
     def effort(self, step: Step, right: Term) -> Term:
         """M, the moment about the pivot, positive where it lifts."""
-        step.say(self.book.say("worked.cam_turn", joint=self.joint.name))
+        step.say(
+            self.book.say(
+                _(
+                    "M: moment of {joint} about the follower's pivot; the contact force follows from the "
+                    "direction of the normal.",
+                    joint=self.joint.name,
+                )
+            )
+        )
         moment = self._of("M", self.side * right.value)
         return step.give(moment, "N·m") if right.is_zero else step.find(moment, self.sided(right), "N·m")
 
     def shape(self, step: Step) -> None:
         book, joint = self.book, self.joint
-        step.say(book.say("worked.cam_arm_heading"))
-        line, own, _ = self._angles
+        step.say(
+            book.say(
+                _(
+                    "Directions of the arm and of the line of axes in the cam's axes, and the angle "
+                    "between them:",
+                )
+            )
+        )
+        line, own, _unused = self._angles
         arm_at = book.turn(joint.follower) + own - book.turn(joint.cam)
         line_at = book.turn(joint.carrier) + line - book.turn(joint.cam)
         arm_at = self._found(step, "ν", arm_at, "°", degrees=True)
@@ -329,10 +377,10 @@ class Swinging(CamPair):
         lift, first = self.lift, self.sided(self.signed(self.lift.first))
         one = length * (ONE - first) - c * cosine(psi)
         two = c * sine(psi)
-        step.say(self.book.say("worked.cam_components"))
+        step.say(self.book.say(_("Normal of the pitch curve along the arm and across it:")))
         one = self._found(step, "m_1", one, "m")
         two = self._found(step, "m_2", two, "m")
-        step.say(self.book.say("worked.cam_pressure"))
+        step.say(self.book.say(_("Pressure angle, between the normal and the velocity of the follower:")))
         alpha = self._found(step, "α", direction(one, two), "°", degrees=True)
         normal = arm.times(sine(alpha)) + arm.perp.times(self.sided(cosine(alpha)))
         self._profile(step, arm.times(length) - axes.times(c), normal)
@@ -345,7 +393,7 @@ class Swinging(CamPair):
         w = self._found(step, "w", ONE - self.sided(self.signed(lift.first)), "")
         reach = self._found(step, "t_f", c * cosine(psi) / w, "m")
         self._profile(step, arm.times(reach) - axes.times(c), NOWHERE)
-        step.say(self.book.say("worked.cam_radius"))
+        step.say(self.book.say(_("Radius of curvature (positive: convex):")))
         bent = c * cosine(psi) * lift.second - c * sine(psi) * lift.first.squared * w
         self._found(step, "ρ", c * sine(psi) + bent / (w * w.squared), "m")
 

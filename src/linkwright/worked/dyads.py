@@ -14,6 +14,7 @@ from linkwright.groups.rpp import RPP
 from linkwright.groups.rpr import RPR
 from linkwright.groups.rrp import RRP
 from linkwright.groups.rrr import RRR
+from linkwright.words import _
 from linkwright.worked.chains import Trail, attach, trail
 from linkwright.worked.placing import Placing
 from linkwright.worked.symbols import Book, Spot
@@ -102,7 +103,11 @@ class DyadWriter:
         way = trail(self.book, steps, steps[0].parent, start, self.tip.key, local=False)
         if way.reach == NOWHERE:
             return base.place, way
-        self.step.say(self.book.say("worked.zero_slide", name=name, b=self.tip.label))
+        self.step.say(
+            self.book.say(
+                _("{name}: where {b} would be with the displacement 0.", name=name, b=self.tip.label)
+            )
+        )
         zero = base.place + way.reach
         return Pair(
             self.step.define(f"x_{name}", zero.x, "m"), self.step.define(f"y_{name}", zero.y, "m")
@@ -116,7 +121,7 @@ def write_dyad(dyad: object, write: DyadWriter) -> bool:
 
 
 @write_dyad.register
-def _(dyad: RRR, write: DyadWriter) -> bool:
+def _rrr(dyad: RRR, write: DyadWriter) -> bool:
     step, tip, mode = write.step, write.tip, write.mode
     (p, first, way_1), (q, second, way_2) = (write.arm(end) for end in write.ends)
     r1, lean_1 = write.length(p, way_1.reach)
@@ -136,12 +141,12 @@ def _(dyad: RRR, write: DyadWriter) -> bool:
 
 
 @write_dyad.register
-def _(dyad: RRP, write: DyadWriter) -> bool:
+def _rrp(dyad: RRP, write: DyadWriter) -> bool:
     step, tip, mode = write.step, write.tip, write.mode
     p, joint, way_1 = write.arm(write.ends[0])
     r, lean = write.length(p, way_1.reach)
     zero, way = write.frame_chain(write.ends[1], f"{tip.label}0")
-    guide, n, _ = way.slides[0]
+    guide, n, _unused = way.slides[0]
     f = p.place - zero
     h = step.define("h", n.cross(f), "m")
     along = step.define("f", n.dot(f), "m")
@@ -157,7 +162,7 @@ def _(dyad: RRP, write: DyadWriter) -> bool:
 
 
 @write_dyad.register
-def _(dyad: RPR, write: DyadWriter) -> bool:
+def _rpr(dyad: RPR, write: DyadWriter) -> bool:
     step, tip, mode = write.step, write.tip, write.mode
     p, joint, way = write.arm(write.ends[0])
     guide, m, heading = way.slides[0]
@@ -181,7 +186,7 @@ def _slides(write: DyadWriter, *, apart: bool) -> bool:
     step, tip = write.step, write.tip
     zero_1, way_1 = write.frame_chain(write.ends[0], f"{tip.label}1")
     zero_2, way_2 = write.frame_chain(write.ends[1], f"{tip.label}2")
-    (g1, n1, _), (g2, n2, _) = [*way_1.slides, *way_2.slides]
+    (g1, n1, _unused), (g2, n2, _unused2) = [*way_1.slides, *way_2.slides]
     f = zero_2 - zero_1
     f = Pair(step.define("f_x", f.x, "m"), step.define("f_y", f.y, "m"))
     det = step.define("k", n1.cross(n2), "")
@@ -195,10 +200,10 @@ def _slides(write: DyadWriter, *, apart: bool) -> bool:
 
 
 @write_dyad.register
-def _(dyad: PRP, write: DyadWriter) -> bool:
+def _prp(dyad: PRP, write: DyadWriter) -> bool:
     return _slides(write, apart=True)
 
 
 @write_dyad.register
-def _(dyad: RPP, write: DyadWriter) -> bool:
+def _rpp(dyad: RPP, write: DyadWriter) -> bool:
     return _slides(write, apart=False)

@@ -12,7 +12,7 @@ from linkwright.equations.steps import Step
 from linkwright.equations.terms import ZERO, Term, number, symbol
 from linkwright.joints.cam import CamJoint
 from linkwright.laws.program import MotionProgram
-from linkwright.words import has
+from linkwright.words import _, has
 from linkwright.worked.symbols import Book
 
 
@@ -85,7 +85,15 @@ class LiftWriter:
     def write(self, step: Step) -> None:
         """θ, then S, S' and S''."""
         book, joint, theta = self.book, self.joint, self.now.angle
-        step.say(book.say("worked.cam_angle", cam=joint.cam, joint=joint.name))
+        step.say(
+            book.say(
+                _(
+                    "Angle of {cam} in the program of {joint}, and the lift there:",
+                    cam=joint.cam,
+                    joint=joint.name,
+                )
+            )
+        )
         formula = book.turn(joint.cam) - book.turn(joint.carrier)
         formula = formula - book.degrees(joint.phase)
         formula = formula if joint.sense > 0 else -formula
@@ -104,13 +112,21 @@ class LiftWriter:
         k, law = self._law_at
         start = self.factor * float(program.lift_at_edges[k])
         if law is None:
-            step.say(say("worked.cam_rest", number=k + 1))
+            step.say(say(_("Segment {number}: dwell, the lift does not change.", number=k + 1)))
             step.give(self.now.value, self.unit)
             return
         law, scale = program.moved_by[k]
         assert law is not None
         word = f"report.law_{law.key}"
-        step.say(say("worked.cam_segment", number=k + 1, law=say(word) if has(word) else law.key))
+        step.say(
+            say(
+                _(
+                    "Segment {number}: {law}; u runs from 0 to 1.",
+                    number=k + 1,
+                    law=say(word) if has(word) else law.key,
+                )
+            )
+        )
         low, width = float(program.edges[k]), float(program.edges[k + 1] - program.edges[k])
         begin = step.give(self.named("θ_a", math.degrees(low), degrees=True), "°")
         over = step.give(self.named("β", math.degrees(width), degrees=True), "°")
@@ -122,7 +138,7 @@ class LiftWriter:
         u = step.find(self.named("u", u_is.value), u_is, "")
         if law.formula:
             step.relate(symbol("s(u)", 0.0), symbol(law.formula, 0.0))
-        s, v, a, _ = (float(each[0]) for each in law.curves(np.array([u.amount])))
+        s, v, a, _unused = (float(each[0]) for each in law.curves(np.array([u.amount])))
         names = ("s(u)", "s'(u)", "s''(u)")
         shape = [step.give(self.named(name, value), "") for name, value in zip(names, (s, v, a), strict=True)]
         step.find(self.now.value, base + rise * shape[0], self.unit)
@@ -138,10 +154,19 @@ class LiftWriter:
         row = [float(each) for each in self._row]
         ends = {key: f"{math.degrees(value):.9g}" for key, value in (("low", low), ("high", high))}
         if not any(row[1:]):
-            step.say(say("worked.cam_table_rest", **ends))
+            step.say(
+                say(_("From {low}° to {high}° the table rests: the lift does not change.").format(**ends))
+            )
             step.give(self.now.value, "m")
             return
-        step.say(say("worked.cam_points", **ends))
+        step.say(
+            say(
+                _(
+                    "Between the points of the table at {low}° and {high}° the lift is a polynomial of t "
+                    "from -1 to 1:",
+                ).format(**ends)
+            )
+        )
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
         centre = step.give(self.named("θ_m", math.degrees(middle), degrees=True), "°")
         wide = step.give(self.named("δ", math.degrees(half), degrees=True), "°")

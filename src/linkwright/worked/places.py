@@ -19,6 +19,7 @@ from linkwright.equations.terms import (
 )
 from linkwright.groups.base import Dyad
 from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
+from linkwright.words import _
 from linkwright.worked.chains import ChainClosure, attach, chain_closures, trail
 from linkwright.worked.dyads import DyadWriter, write_dyad
 from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, is_unknown, pair_closures
@@ -76,19 +77,30 @@ class Places(Placing):
         rows = pair_closures(book, group, chains)
         known = self._held(group)
         if rows:
-            step.say(book.say("worked.newton_pairs", joints=", ".join(row.cut.joint for row in rows)))
+            step.say(
+                book.say(
+                    _(
+                        "The pairs {joints} tie rotations, counted with their turns, and displacements to "
+                        "each other, as the closure equations have them (i: ratio to each link, r: lever "
+                        "arm; β, c: from the drawing or the file):",
+                        joints=", ".join(row.cut.joint for row in rows),
+                    )
+                )
+            )
         for row in rows:
             known |= self._tied(step, row, known)
         if chains:
             joints = ", ".join(dict.fromkeys(closure.cut.joint for closure in chains))
-            step.say(book.say("worked.newton_chains", joints=joints))
+            step.say(book.say(_("Closure equations of the chains, cut at {joints}:", joints=joints)))
         for closure in chains:
             self._closure(step, group, closure, known)
         form = whole_form(group)
         step.say(
-            book.say("worked.newton")
+            book.say(_("They have no closed form; Newton's method gives"))
             if form is None
-            else book.say("worked.own_form", form=form.signature or type(form).__name__)
+            else book.say(
+                _("The closed form {form} of a package gives", form=form.signature or type(form).__name__)
+            )
         )
         self.give(step, group)
 
@@ -161,7 +173,7 @@ class Places(Placing):
         start = attach(steps[0], steps[0].parent, self.book)
         way = trail(self.book, steps, steps[0].parent, start, tip, local=False)
         found = self.book.spot(steps[0].parent, start).place + way.reach
-        for joint, along, _ in way.slides:
+        for joint, along, _unused in way.slides:
             found = found + along.times(self.book.slide(joint.joint).s)
         return found
 

@@ -8,6 +8,7 @@ from linkwright.core.outputs import Output
 from linkwright.elements.topology import Group, TreeJoint
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import TWO, Pair, Term, number, symbol
+from linkwright.words import _
 from linkwright.worked.chains import attach, turned
 from linkwright.worked.higher_pairs import pair_closures
 from linkwright.worked.places import Places
@@ -32,7 +33,7 @@ def _start(book: Book, joint: TreeJoint) -> tuple[str, Spot, str, Spot]:
 def place_points(book: Book, places: Places, step: Step, group: Group) -> None:
     """Places of all points of a group's links, and for groups without closed form the closure put in."""
     for joint in group.tree:
-        _, held, own, start = _start(book, joint)
+        _unused, held, own, start = _start(book, joint)
         link = joint.child
         at = next((p for p, spot in named_points(book, link) if spot.key in places.known or spot.fixed), None)
         if at is None:
@@ -74,7 +75,7 @@ def _guide_ends(book: Book, joint: str) -> tuple[Spot, Spot]:
 
 def check_closure(book: Book, places: Places, step: Step, group: Group) -> None:
     """What is left of the closure equations with the numbers put in: zero but for rounding."""
-    step.say(book.say("worked.closure_check"))
+    step.say(book.say(_("The closure put in: what is left is zero to the digits shown.")))
     for cut in group.cuts:
         if cut.higher:
             continue
@@ -120,7 +121,7 @@ class Movers:
         book = self.book
         known = self.accelerations if second else self.velocities
         for joint in group.tree:
-            _, held, own, start = _start(book, joint)
+            _unused, held, own, start = _start(book, joint)
             if joint.slides:
                 formula = self._slid(joint, held, start, second=second)
             else:

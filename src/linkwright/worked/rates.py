@@ -9,6 +9,7 @@ from linkwright.core.outputs import Output
 from linkwright.elements.topology import Connection, Group
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, symbol, total
+from linkwright.words import _
 from linkwright.worked.chains import ChainClosure, Closure, Drift, bends, matrix, unknown_names
 from linkwright.worked.higher_pairs import PairClosure
 from linkwright.worked.symbols import Book
@@ -57,10 +58,10 @@ def solve(
         for term, above, output in zip(unknowns, found, outputs, strict=True):
             step.find(term, above / system.determinant, output)
         return
-    step.say(book.say("worked.linear_solution", count=len(rows)))
+    step.say(book.say(_("Solution of the {count} linear equations (by elimination):", count=len(rows))))
     for term, output in zip(unknowns, outputs, strict=True):
         step.give(term, output)
-    step.say(book.say("worked.linear_check"))
+    step.say(book.say(_("Put into the left sides, row by row:")))
     for row, goal in zip(rows, right, strict=True):
         left = total([entry * term for entry, term in zip(row, unknowns, strict=True)])
         if goal.is_zero:
@@ -119,7 +120,11 @@ class RateWriter:
         if joints:
             step.say(self.book.say(f"{key}_guide" if across else key, joints=joints))
         if pairs:
-            step.say(self.book.say("worked.pair_rates", joints=pairs))
+            step.say(
+                self.book.say(
+                    _("The rows of {joints}, differentiated (r: lever arms of the rotations):", joints=pairs)
+                )
+            )
             for closure in cuts:
                 if isinstance(closure, PairClosure):
                     closure.give(step, None)
@@ -131,7 +136,7 @@ class RateWriter:
 
     def _right(self, step: Step, gaps: list[Term], letter: str, unit: str) -> list[Term]:
         found = []
-        step.say(self.book.say("worked.right_sides"))
+        step.say(self.book.say(_("Right sides:")))
         for i, gap in enumerate(gaps, 1):
             term = step.define(f"{letter}{i}", gap, unit)
             found.append(ZERO if gap.is_zero else term)

@@ -15,6 +15,7 @@ from linkwright.equations.steps import Step
 from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, direction, root, symbol, total
 from linkwright.kinematics.groups import in_one_step
 from linkwright.kinetostatics.forces import Forces
+from linkwright.words import _
 from linkwright.worked.applied_forces import Known, KnownForces
 from linkwright.worked.chains import ChainClosure, Closure, attach
 from linkwright.worked.higher_pairs import closures
@@ -78,18 +79,53 @@ class Reactions:
         """Forces at the cuts, from one equation for every unknown coordinate."""
         book = self.book
         cuts = closures(book, group)
-        step.say(book.say("worked.cut_forces", joints=", ".join(dict.fromkeys(c.joint for c in group.cuts))))
+        step.say(
+            book.say(
+                _(
+                    "The force at {joints} first; the equations are such that no other joint force enters.",
+                    joints=", ".join(dict.fromkeys(c.joint for c in group.cuts)),
+                )
+            )
+        )
         if any(cut.higher for cut in group.cuts):
-            step.say(book.say("worked.pair_forces"))
+            step.say(
+                book.say(
+                    _(
+                        "T: tangential force of a pair. S acts along the line of centres (its direction: γ), "
+                        "does no work and follows from T: it presses teeth apart, |T| tan α with the "
+                        "pressure angle α, or is the pull of a belt's strands, which lie at the angle ψ to "
+                        "it.",
+                    )
+                )
+            )
         right = self._demands(step, group)
-        step.say(book.say("worked.same_matrix"))
+        step.say(
+            book.say(
+                _("The arms of the unknown forces form the matrix J of the velocities, read by columns:")
+            )
+        )
         system = name_matrix(step, group, cuts)
         values = _transposed(system, right)
         if self._pressed(group, system, values):
-            step.say(book.say("worked.rows_first"))
+            step.say(
+                book.say(
+                    _(
+                        "The rows of the pairs hold for closed joints. So the pairs' forces T follow from "
+                        "these equations, but the multipliers λ of the cut joints lack what the pairs do to "
+                        "these:",
+                    )
+                )
+            )
             self._solved(step, system, self._by_rows(group, values), right)
             self._press_all(step, group, values)
-            step.say(book.say("worked.pairs_known"))
+            step.say(
+                book.say(
+                    _(
+                        "With the forces of the pairs among the known ones, the same equations give the "
+                        "forces at the cut joints, and nothing more for the pairs (ΔT = 0):",
+                    )
+                )
+            )
             right = self._demands(step, group, "'")
             unknowns = self._multipliers(group, _transposed(system, right), pairs=False)
             self._solved(step, system, unknowns, right)
@@ -97,14 +133,16 @@ class Reactions:
             unknowns = self._multipliers(group, values)
             self._solved(step, system, unknowns, right)
             self._press_all(step, group, values)
-        self._noted(step, cuts, [term for term, _ in unknowns], group)
+        self._noted(step, cuts, [term for term, _unused in unknowns], group)
 
     def _solved(self, step: Step, system: System, unknowns: Unknowns, right: list[Term]) -> None:
         """The equations Jᵀ q = right and their solution."""
-        terms = [term for term, _ in unknowns]
+        terms = [term for term, _unused in unknowns]
         for column, goal in zip(zip(*system.entries, strict=True), right, strict=True):
             step.relate(total([e * u for e, u in zip(column, terms, strict=True)]), goal)
-        solve(step, self.book, system, terms, right, [output for _, output in unknowns], transposed=True)
+        solve(
+            step, self.book, system, terms, right, [output for _unused, output in unknowns], transposed=True
+        )
 
     def _noted(self, step: Step, cuts: Sequence[Closure], unknowns: list[Term], group: Group) -> None:
         """The forces at the cuts of chains as what acts on the links."""
@@ -134,12 +172,12 @@ class Reactions:
         self._press_all(aside, group, values)
         again = _transposed(system, self._demands(aside, group))
         del self.found[known:]
-        chains = [not cut.higher for cut, _ in _rows(group)]
+        chains = [not cut.higher for cut, _unused in _rows(group)]
         return bool(np.abs(again - values)[chains].max() > SAME * np.abs(values).max())
 
     def _press_all(self, step: Step, group: Group, values: Floats) -> None:
         """The forces of all higher pairs of a group, from the tangential ones."""
-        for place, (cut, _) in enumerate(_rows(group)):
+        for place, (cut, _unused) in enumerate(_rows(group)):
             if cut.higher:
                 self._press(step, cut, tangential(cut, float(values[place])))
 
@@ -151,7 +189,17 @@ class Reactions:
         """Tooth forces, pulls of belts and forces of cams, from what acts on wheels and followers."""
         book, wheels = self.book, Wheels(self.book)
         if wheels.alone(group) is None:
-            step.say(book.say("worked.wheel_forces", joints=", ".join(cut.joint for cut in group.cuts)))
+            step.say(
+                book.say(
+                    _(
+                        "Moments about the wheels' centres give T, the tangential force of each of {joints}. "
+                        "S acts along the line of centres (direction: γ): it presses teeth apart, |T| tan α "
+                        "with the pressure angle α, or is the pull of a belt's strands, which lie at the "
+                        "angle ψ to it.",
+                        joints=", ".join(cut.joint for cut in group.cuts),
+                    )
+                )
+            )
         right = self._demands(step, group)
         for cut, force in zip(group.cuts, wheels.multipliers(step, group, right), strict=True):
             self._press(step, cut, force)
@@ -169,8 +217,15 @@ class Reactions:
 
     def passive(self, names: tuple[str, ...], number: int) -> Step:
         """Pairs that others make superfluous: how they share the load is not determined; they count as unloaded."""
-        step = Step(str(number), self.book.say("worked.passive", joints=", ".join(names)))
-        step.say(self.book.say("worked.passive_share"))
+        step = Step(str(number), self.book.say(_("Passive pairs {joints}", joints=", ".join(names))))
+        step.say(
+            self.book.say(
+                _(
+                    "How they share the load with others is not determined by rigid links; they count as "
+                    "unloaded.",
+                )
+            )
+        )
         for name in names:
             on = next(k for k in self.book.mechanism.joints[name].joined if k != "frame")
             n = self.book.numbers[on]
@@ -221,7 +276,15 @@ class Reactions:
         if joint.slides:
             slide = book.slide(joint.joint)
             moved = list(subtree(group, joint))
-            step.say(book.say("worked.along", links=self._names_of(moved), joint=joint.joint))
+            step.say(
+                book.say(
+                    _(
+                        "Known forces on {links} along {joint}, reversed:",
+                        links=self._names_of(moved),
+                        joint=joint.joint,
+                    )
+                )
+            )
             force = self._resultant(moved)
             forward = slide.along.dot(force)
             formula = -forward if joint.child == joint.connection.b else forward
@@ -229,7 +292,15 @@ class Reactions:
         else:
             pivot = book.spot(joint.parent, joint.joint)
             own = list(segment(group, joint))
-            step.say(book.say("worked.moments", links=self._names_of(own), point=pivot.label))
+            step.say(
+                book.say(
+                    _(
+                        "Moments of the known forces on {links} about {point}, reversed:",
+                        links=self._names_of(own),
+                        point=pivot.label,
+                    )
+                )
+            )
             parts = [each.moment(pivot.place) for link in own for each in self.acting(link)]
             for hung in group.tree:
                 if hung.free and hung.turns and hung.parent in own and hung is not joint:
@@ -254,7 +325,15 @@ class Reactions:
         """Balance of a link: the force of the joint that it hangs on, and the couple or the driver's effort."""
         book, link = self.book, joint.child
         acting = self.acting(link)
-        step.say(book.say("worked.balance", link=f"{book.numbers[link]} {link}", joint=joint.joint))
+        step.say(
+            book.say(
+                _(
+                    "Balance of link {link}, force of {joint} on it:",
+                    link=f"{book.numbers[link]} {link}",
+                    joint=joint.joint,
+                )
+            )
+        )
         needed = NOWHERE
         for each in acting:
             needed = needed + each.force
@@ -294,7 +373,7 @@ class Reactions:
             own = joint.child == book.mechanism.drivers[joint.driver].link
             found = total([each.moment(place) for each in acting])
             term = symbol(f"M_{joint.driver}", self._effort(joint.driver))
-            step.say(book.say("worked.driver_torque", point=joint.joint))
+            step.say(book.say(_("Moments about {point}: torque of the driver.", point=joint.joint)))
             step.find(term, -found if own else found, Output("effort", joint.driver))
             return place, term if own else -term
         place = self._block_point(joint)
@@ -349,7 +428,7 @@ class Reactions:
     def shares(self, number: int) -> Step | None:
         """What every link carries on pins of several links."""
         book = self.book
-        step = Step(str(number), book.say("worked.shares"))
+        step = Step(str(number), book.say(_("Pins of several links: share of each link")))
         for name, joint in book.mechanism.joints.items():
             if len(joint.joined) < 3:
                 continue

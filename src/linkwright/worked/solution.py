@@ -18,7 +18,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
-from linkwright.words import language_of
+from linkwright.words import _, language_of
 from linkwright.words.sentence import link_said, links_said
 from linkwright.worked.applied_forces import KnownForces
 from linkwright.worked.higher_pairs import closures
@@ -53,7 +53,7 @@ def force_steps(forces: Forces, book: Book, before: int) -> list[Step]:
 
 def named_step(book: Book, number: int) -> Step:
     """Outputs that the model names: the formula of each, its value and its rates, where it has some."""
-    step = Step(str(number), book.say("worked.named"))
+    step = Step(str(number), book.say(_("Outputs that the model names")))
     for name, named in book.mechanism.outputs.items():
         text = of_file(named.expression.text)
         step.items.append(Written(f"{name} = {text}", (read_name(name), read_name(text))))
@@ -66,8 +66,8 @@ def named_step(book: Book, number: int) -> Step:
 
 def power_step(forces: Forces, book: Book, known: KnownForces, number: int) -> Step:
     """Powers of all known forces, of the drivers, and the effort that follows from them."""
-    step = Step(str(number), book.say("worked.power"))
-    step.say(book.say("worked.power_terms"))
+    step = Step(str(number), book.say(_("Check by virtual power")))
+    step.say(book.say(_("Power of weight, inertia and loads of every link:")))
     powers = []
     for link, acting in known.on.items():
         n = book.numbers[link]
@@ -91,11 +91,11 @@ def _drivers(step: Step, forces: Forces, book: Book, sum_of: Term) -> None:
         terms.append((symbol(f"{letter}_{name}", value), rate))
     if len(terms) == 1 and abs(terms[0][1].amount) > NOTHING and not sum_of.is_zero:
         effort, rate = terms[0]
-        step.say(book.say("worked.power_effort"))
+        step.say(book.say(_("The driver's power takes the sum to zero, so its effort once more:")))
         unit = "N" if effort.plain.startswith("F") else "N·m"
         step.find(effort, -(sum_of / rate), unit)
         return
-    step.say(book.say("worked.power_balance"))
+    step.say(book.say(_("With the powers of the drivers the sum is zero:")))
     gap = symbol("ΔP", 0.0)
     step.find(gap, sum_of + total([effort * rate for effort, rate in terms]), "W")
 
@@ -168,31 +168,68 @@ def worked(
         from linkwright.worked.solution import force_steps
 
         steps += force_steps(source, book, len(steps) and int(steps[-1].number.split(".")[0]))
-    title = say("worked.title", name=motion.mechanism.name)
+    title = say(_("{name}: worked solution of one position", name=motion.mechanism.name))
     return Worked(title, tuple(_legend(book)), index, tuple(step for step in steps if step.items))
 
 
 def _solved_at(source: Forces | Motion, at: float) -> Forces | Motion:
     mechanism = source.mechanism
     if not mechanism.drivers:
-        raise RequestError("worked.no_input", name=mechanism.name)
+        raise RequestError(
+            _(
+                "{name!r} has no driver, so there is no input to set; leave `at` out",
+                code="worked.no_input",
+                name=mechanism.name,
+            )
+        )
     motion = solve_motion(mechanism, at=np.array([at]))
     return solve_forces(motion, static=source.static) if isinstance(source, Forces) else motion
 
 
 def _refuse_missing(motion: Motion, position: int) -> None:
     if not -motion.steps <= position < motion.steps:
-        raise RequestError("worked.no_position", position=position, steps=motion.steps, last=motion.steps - 1)
+        raise RequestError(
+            _(
+                "there is no position {position}; the motion has {steps}, from 0 to {last}",
+                code="worked.no_position",
+                position=position,
+                steps=motion.steps,
+                last=motion.steps - 1,
+            )
+        )
     if not motion.ok[position]:
         raise LinkwrightError(
-            "worked.not_reached", position=position, sentence=motion.outcomes[position].sentence
+            _(
+                "position {position} was not reached: {sentence}",
+                code="worked.not_reached",
+                position=position,
+                sentence=motion.outcomes[position].sentence,
+            )
         )
 
 
 def _legend(book: Book) -> list[str]:
     say = book.say
     links = ", ".join(links_said(book.numbers, language_of(say)))
-    return [say("worked.links", links=links), say("worked.convention"), say("worked.digits")]
+    return [
+        say(_("Links: {links}.", links=links)),
+        say(
+            _(
+                "x to the right, y up, angles and moments counter-clockwise positive; SI units. x_A, "
+                "v_Ax, a_Ax: place, velocity, acceleration of point A; φ, ω, α: angle of a link's x "
+                "axis and its rates; l, u, w: coordinates of a point in the axes of its link, from "
+                "the first point named to the second (l along the x axis); s, s', s'': displacement "
+                "of a block and its rates; atan2(y, x): angle of the vector (x, y) in its own "
+                "quadrant.",
+            )
+        ),
+        say(
+            _(
+                "Every line: symbol = formula = numbers put in = result. Numbers put in have as many "
+                "digits as the result needs.",
+            )
+        ),
+    ]
 
 
 class _Kinematics:
@@ -216,7 +253,7 @@ class _Kinematics:
 
     def _input(self) -> Step:
         book, say = self.book, self.book.say
-        step = Step("1", say("worked.input"))
+        step = Step("1", say(_("Input")))
         for name, driver in book.mechanism.drivers.items():
             turning = book.mechanism.joints[driver.joint].coordinate == "turn"
             key = "worked.input_turn" if turning else "worked.input_slide"
@@ -229,7 +266,7 @@ class _Kinematics:
             )  # fmt: skip
             for term, what in zip(book.drive(name), measures, strict=True):
                 if term.is_zero:
-                    step.say(say("worked.no_second"))
+                    step.say(say(_("Constant speed: no acceleration of the input.")))
                 else:
                     step.give(term, what)
         return step
@@ -240,7 +277,7 @@ class _Kinematics:
         moving = bool(self.book.mechanism.drivers)
         head = Step(str(number), self._title(group, links), name)
         head.say(self._joints(group))
-        places = Step(f"{number}.1", say("worked.positions"), name)
+        places = Step(f"{number}.1", say(_("Positions")), name)
         wheels = in_one_step(group)
         if wheels:
             self.wheels.positions(places, self.places, group)
@@ -254,11 +291,11 @@ class _Kinematics:
         if wheels:
             return [head, places, *self._wheel_rates(group, number), *self.wheels.shapes(group, number)]
         cuts = closures(self.book, group)
-        first = Step(f"{number}.2", say("worked.velocities"), name)
+        first = Step(f"{number}.2", say(_("Velocities")), name)
         self.movers.driven_guides(first, group, second=False)
         system: System | None = self.rates.velocities(first, group, cuts)
         self.movers.move(first, group, second=False)
-        second = Step(f"{number}.3", say("worked.accelerations"), name)
+        second = Step(f"{number}.3", say(_("Accelerations")), name)
         self.movers.driven_guides(second, group, second=True)
         self.rates.accelerations(second, group, cuts, system)
         self.movers.move(second, group, second=True)

@@ -28,6 +28,7 @@ from linkwright.equations.terms import (
 )
 from linkwright.joints.base import Joint
 from linkwright.joints.cam import CamJoint
+from linkwright.words import _
 from linkwright.worked.cams import cam_pair
 from linkwright.worked.contacts import Contact, contact_of
 from linkwright.worked.higher_pairs import PairClosure, Slid, Turned, lever, one_by_one, pair_closures
@@ -65,7 +66,7 @@ def own_form(joint: Joint, book: Book) -> OwnForm | None:
 
 
 @own_form.register
-def _(joint: CamJoint, book: Book) -> OwnForm:
+def _cam_joint(joint: CamJoint, book: Book) -> OwnForm:
     return cam_pair(joint, book)
 
 
@@ -101,7 +102,15 @@ class Wheels:
         if (own := self.alone(group)) is not None:
             own.place(step, places)
             return
-        step.say(book.say("worked.wheels", joints=_names(group)))
+        step.say(
+            book.say(
+                _(
+                    "The pairs {joints} add the rotations up, counted with their turns (i: ratio to each "
+                    "link, r: lever arm; β, c: from the drawing or the file):",
+                    joints=_names(group),
+                )
+            )
+        )
         for joint in group.unknowns:
             if joint.slides:
                 places.guide(step, joint.joint)
@@ -129,14 +138,14 @@ class Wheels:
         speed = self._second if second else self._speed
         solved = [(row, target, row.rate_of(target, rate, speed)) for row, target in one_by_one(group, rows)]
         if solved:
-            if any(not formula.is_zero for *_, formula in solved):
-                step.say(book.say("worked.wheel_rates", joints=_names(group)))
-            for _, target, formula in solved:
+            if any(not formula.is_zero for *_unused, formula in solved):
+                step.say(book.say(_("The rows of {joints}, differentiated:", joints=_names(group))))
+            for _unused, target, formula in solved:
                 name, output = self._rate(target, second)
                 if not name.is_zero:
                     step.find(name, formula, output)
             return
-        step.say(book.say("worked.wheel_rates", joints=_names(group)))
+        step.say(book.say(_("The rows of {joints}, differentiated:", joints=_names(group))))
         self._together(step, group, rows, second=second)
 
     def _together(self, step: Step, group: Group, rows: Sequence[PairClosure], *, second: bool) -> None:
@@ -151,7 +160,8 @@ class Wheels:
         for row in rows:
             known = row.known_seconds(book, _no_chain)[0] if second else row.known_rates(book)[0]
             left = [
-                row.column(joint)[0] * name for joint, (name, *_) in zip(group.unknowns, names, strict=True)
+                row.column(joint)[0] * name
+                for joint, (name, *_unused) in zip(group.unknowns, names, strict=True)
             ]
             formula = total([*left, known])
             if not formula.is_zero:

@@ -18,6 +18,7 @@ from linkwright.cli.pictures import (
     vector_arguments,
 )
 from linkwright.cli.session import Session
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -38,7 +39,11 @@ def arguments(option: Options) -> None:
     what.either("--labels", True)
     pace = option.group("pace_title")
     pace("--seconds", "TIME")
-    pace.count("--frames", FRAMES, help=option.say("animate.frames_help", frames=FRAMES))
+    pace.count(
+        "--frames",
+        FRAMES,
+        help=option.say(_("positions shown in one cycle (default: {frames})", frames=FRAMES)),
+    )
     file_arguments(option)
 
 
@@ -51,7 +56,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     refuse_output(options.output, ENDINGS, force=options.force)
     seconds = _seconds(options.seconds)
-    mechanism, _ = read_model(options.file, session)
+    mechanism, _unused = read_model(options.file, session)
     refuse_unknown_marks(mechanism, options)
     motion = cycle(mechanism, max(options.steps, options.frames), session)
     forces = _forces(motion, options)
@@ -96,5 +101,12 @@ def _seconds(text: str | None) -> float | None:
     except ValueError:
         values = quantities(text, "time", "--seconds")
     if len(values) > 1:
-        raise UsageError("draw.one_position", option="--seconds", text=text)
+        raise UsageError(
+            _(
+                '{option}: "{text}" is more than one value; give one',
+                code="draw.one_position",
+                option="--seconds",
+                text=text,
+            )
+        )
     return values[0]

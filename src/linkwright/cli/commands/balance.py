@@ -11,7 +11,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, did_you_mean, number_of
 from linkwright.cli.session import Session
 from linkwright.errors import about
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.machine.balancing import Balancing
@@ -37,7 +37,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     refuse_output(options.output, ENDINGS, force=options.force)
     share = _share(options.share)
-    mechanism, _ = read_model(options.file, session)
+    mechanism, _unused = read_model(options.file, session)
     radius = _radius(options.radius, mechanism)
     found = balance(mechanism, radius=radius, share=share, steps=options.steps)
     if options.output is not None:
@@ -49,7 +49,13 @@ def run(options: argparse.Namespace, session: Session) -> int:
 def _share(text: str) -> float:
     share = number_of(text)
     if not 0.0 <= share <= 1.0:
-        raise UsageError("balance.bad_share", text=text)
+        raise UsageError(
+            _(
+                '--share: "{text}" is no share; give a number from 0 (nothing) to 1 (everything)',
+                code="balance.bad_share",
+                text=text,
+            )
+        )
     return share
 
 
@@ -59,9 +65,15 @@ def _radius(text: str, mechanism: Mechanism) -> float | dict[str, float]:
         return _length(text)
     radii: dict[str, float] = {}
     for part in text.split(","):
-        link, _, given = (piece.strip() for piece in part.partition("="))
+        link, _unused, given = (piece.strip() for piece in part.partition("="))
         if link not in mechanism.links:
-            raise UsageError(did_you_mean(Sentence("balance.no_link", link=link), link, mechanism.links))
+            raise UsageError(
+                did_you_mean(
+                    _('--radius: there is no link "{link}"', code="balance.no_link", link=link),
+                    link,
+                    mechanism.links,
+                )
+            )
         radii[link] = _length(given)
     return radii
 
@@ -72,7 +84,13 @@ def _length(text: str) -> float:
     with about("--radius", UsageError):
         value = amount(text, "length")
     if not value > 0:
-        raise UsageError("balance.bad_radius", text=text)
+        raise UsageError(
+            _(
+                '--radius: "{text}" is no radius; give a length above zero, such as 80mm',
+                code="balance.bad_radius",
+                text=text,
+            )
+        )
     return value
 
 

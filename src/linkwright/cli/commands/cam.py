@@ -11,6 +11,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.part import part_arguments, read, refuse_outputs, show
 from linkwright.cli.session import Session
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.cams.result import CamDesign
@@ -36,7 +37,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_output(options.profile, PROFILES, force=options.force)
     refuse_output(options.draw, DRAWINGS, force=options.force)
     if not math.isfinite(options.at):
-        raise UsageError("cam.bad_angle", angle=options.at)
+        raise UsageError(
+            _("--at is {angle}; give an angle in degrees", code="cam.bad_angle", angle=options.at)
+        )
     from linkwright.cams.cam import Cam
 
     problem = read(options.file, "cam", session)

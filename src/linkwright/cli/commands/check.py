@@ -8,6 +8,7 @@ from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.errors import NO_FILE
 from linkwright.file_check import Checked, checked
+from linkwright.words import _
 
 
 def arguments(option: Options) -> None:
@@ -23,7 +24,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     else:
         for name, found in results:
             _show(name, found, session)
-    everything = [finding for _, found in results for finding in found.findings]
+    everything = [finding for _unused, found in results for finding in found.findings]
     if any(finding.code in NO_FILE for finding in everything):
         return 2
     grave = {"error", "warning"} if options.strict else {"error"}
@@ -35,11 +36,20 @@ def _show(name: str, found: Checked, session: Session) -> None:
         session.show(session.finding(finding))
     errors, fact = sum(finding.severity == "error" for finding in found.findings), found.fact
     if errors:
-        session.show(session.strong(session.say("check.faulty", name=name, count=errors)))
+        session.show(session.strong(session.say(_("{name}: errors: {count}", name=name, count=errors))))
     elif "kind" in fact:
-        session.show(session.say("check.fine_kind", name=name, kind=fact["kind"]))
+        session.show(session.say(_("{name}: fine (kind {kind})", name=name, kind=fact["kind"])))
     else:
-        session.show(session.say("check.fine", name=name, links=fact["links"], mobility=fact["mobility"]))
+        session.show(
+            session.say(
+                _(
+                    "{name}: fine ({links} moving links, mobility {mobility})",
+                    name=name,
+                    links=fact["links"],
+                    mobility=fact["mobility"],
+                )
+            )
+        )
 
 
 def _show_data(results: list[tuple[str, Checked]], session: Session) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, number_of
 from linkwright.cli.session import Session
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.designs.compare import Comparison
@@ -33,7 +33,14 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Compares the machines and prints or writes what came out."""
     if len(options.files) < 2:
-        raise UsageError("cli.about", name="linkwright compare", cause=Sentence("compare.too_few"))
+        raise UsageError(
+            _(
+                "{name}: {cause}",
+                code="cli.about",
+                name="linkwright compare",
+                cause=_("one file cannot be compared; name two or more", code="compare.too_few"),
+            )
+        )
     weights, fluctuation = _weights(options.weights or []), _fluctuation(options.fluctuation)
     from linkwright.cli.files import PICTURES, refuse_output
     from linkwright.cli.progress import progress
@@ -61,20 +68,33 @@ def _outputs(options: argparse.Namespace) -> str | list[str] | None:
     if options.of is None or len(options.of) == 1:
         return None if options.of is None else str(options.of[0])
     if len(options.of) != len(options.files):
-        raise UsageError("compare.bad_count", count=len(options.of), files=len(options.files))
+        raise UsageError(
+            _(
+                "--of: {count} names are given for {files} files; name one for all, or one per file",
+                code="compare.bad_count",
+                count=len(options.of),
+                files=len(options.files),
+            )
+        )
     return list(options.of)
 
 
 def _weights(texts: list[str]) -> dict[str, float]:
     found = {}
     for text in texts:
-        name, _, value = text.rpartition("=")
+        name, _unused, value = text.rpartition("=")
         try:
             found[name] = float(value)
         except ValueError:
             name = ""
         if not name:
-            raise UsageError("compare.bad_weight", text=text)
+            raise UsageError(
+                _(
+                    '--weights: "{text}" is no weight; write NAME=NUMBER, such as flywheel=2',
+                    code="compare.bad_weight",
+                    text=text,
+                )
+            )
     return found
 
 
@@ -85,7 +105,13 @@ def _fluctuation(text: str | None) -> float:
         return FLUCTUATION
     value = number_of(text)
     if not 0.0 < value < float("inf"):
-        raise UsageError("compare.bad_fluctuation", text=text)
+        raise UsageError(
+            _(
+                '--fluctuation: "{text}" is no coefficient; give a number above zero, such as 0.02',
+                code="compare.bad_fluctuation",
+                text=text,
+            )
+        )
     return value
 
 

@@ -10,6 +10,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.errors import about
+from linkwright.words import _
 
 ENDINGS = (".yaml", ".yml", ".csv")
 
@@ -36,7 +37,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.files.write import dump
 
     refuse_output(options.output, ENDINGS, force=options.force)
-    mechanism, _ = read_model(options.file, session)
+    mechanism, _unused = read_model(options.file, session)
     with about("--zone", UsageError):
         zone = None if options.zone is None else _zone(options.zone, mechanism.across)
     with about("--span", UsageError):
@@ -58,7 +59,13 @@ def _zone(text: str, across: str) -> tuple[float, float]:
 
     first, dots, last = (each.strip() for each in text.partition(".."))
     if not dots:
-        raise UsageError("compensate.bad_zone", text=text)
+        raise UsageError(
+            _(
+                '--zone: "{text}" is no zone; write where it begins and ends, such as "90..210 deg"',
+                code="compensate.bad_zone",
+                text=text,
+            )
+        )
     unit = re.sub(r"^[-+\d.eE]*", "", last).strip()
     return amount(first if re.search(r"[^-+\d.eE\s]", first) else f"{first} {unit}", across), amount(
         last, across

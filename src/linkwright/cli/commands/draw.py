@@ -20,6 +20,7 @@ from linkwright.cli.pictures import (
     vector_arguments,
 )
 from linkwright.cli.session import Session
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -55,7 +56,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.plot.drawing.draw import draw
 
     refuse_output(options.output, ENDINGS, force=options.force)
-    mechanism, _ = read_model(options.file, session)
+    mechanism, _unused = read_model(options.file, session)
     dimensions = _dimensions(options.dimensions)
     _refuse_unknown_names(mechanism, options, dimensions)
     motion = cycle(mechanism, options.steps, session)
@@ -90,7 +91,14 @@ def _inputs(mechanism: Mechanism, text: str | None) -> dict[str, float] | None:
 
     given = inputs(text, mechanism)
     if any(len(values) > 1 for values in given.values()):
-        raise UsageError("draw.one_position", option="--at", text=text)
+        raise UsageError(
+            _(
+                '{option}: "{text}" is more than one value; give one',
+                code="draw.one_position",
+                option="--at",
+                text=text,
+            )
+        )
     return {name: values[0] for name, values in given.items()}
 
 
@@ -101,7 +109,14 @@ def _time(mechanism: Mechanism, text: str | None) -> float | None:
 
     values = places(text, mechanism, "time", "--time")
     if len(values) > 1:
-        raise UsageError("draw.one_position", option="--time", text=text)
+        raise UsageError(
+            _(
+                '{option}: "{text}" is more than one value; give one',
+                code="draw.one_position",
+                option="--time",
+                text=text,
+            )
+        )
     return values[0]
 
 
@@ -138,6 +153,6 @@ def _refuse_unknown_names(
     refuse_unknown(mechanism.link, "--dimensions", links)
     ends = [point for each in named if not isinstance(each, str) for point in each]
     refuse_unknown(lambda name: find_point(mechanism, name), "--dimensions", ends)
-    word, _, output = options.overlay.partition(":")
+    word, _unused, output = options.overlay.partition(":")
     if word == "limits" and output:
         refuse_unknown(lambda name: place_meant(mechanism, name), "--overlay", [output])

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -26,7 +27,12 @@ OPTIONS = (
 def arguments(option: Options) -> None:
     option.model()
     option("--output", "FILE", "--to", required=True)
-    option("--format", "FORMAT", choices=NAMES, help=option.say("export.format_help", names=", ".join(NAMES)))
+    option(
+        "--format",
+        "FORMAT",
+        choices=NAMES,
+        help=option.say(_("the format, where the ending does not say it: {names}", names=", ".join(NAMES))),
+    )
     where = option.exclusive()
     where.count("--steps", 360)
     where("--at", "INPUTS", nargs="+", words="solve.at_help")
@@ -60,7 +66,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     path = Path(options.output)
     chosen, form = _checked(path, options)
     refuse_existing(path, force=options.force)
-    mechanism, _ = read_model(options.file, session)
+    mechanism, _unused = read_model(options.file, session)
     motion = chosen_motion(mechanism, options, "mark")
     if chosen == "html":
         form |= _of_page(options.file, options.beside or ())

@@ -11,7 +11,7 @@ from linkwright.cli.parser import Options, did_you_mean
 from linkwright.cli.session import Session
 from linkwright.errors import with_remedy
 from linkwright.registry import nearest
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 
 def arguments(option: Options) -> None:
@@ -26,9 +26,15 @@ def run(options: argparse.Namespace, session: Session) -> int:
     actions = {"list": _list, "show": _show, "copy": _copy}
     if options.action not in actions:
         choices = tuple(actions)
-        said = Sentence("cli.bad_choice", name="gallery", value=options.action, choices=choices)
+        said = _(
+            '{name} cannot be "{value}"; choose from {choices}',
+            code="cli.bad_choice",
+            name="gallery",
+            value=options.action,
+            choices=choices,
+        )
         offer = nearest(options.action, choices)
-        hint = Sentence("names.did_you_mean", offer=f"gallery {offer}") if offer else ""
+        hint = _('did you mean "{offer}"?', offer=f"gallery {offer}") if offer else ""
         raise UsageError(with_remedy(said, hint))
     return actions[options.action](options, session)
 
@@ -56,7 +62,9 @@ def _list(options: argparse.Namespace, session: Session) -> int:
         name, title = entry["name"], title_said(entry["title"], session.language)
         session.show(f"{session.strong(name)}{' ' * (wide - len(name))}  {title}")
     session.show()
-    session.show(session.say("gallery.hint"))
+    session.show(
+        session.say(_("linkwright gallery show NAME prints a file; linkwright solve gallery:NAME solves it."))
+    )
     return 0
 
 
@@ -85,12 +93,22 @@ def _text(options: argparse.Namespace) -> tuple[str, str]:
     from linkwright import gallery
 
     if options.name is None:
-        raise UsageError("gallery.which", action=options.action)
+        raise UsageError(
+            _(
+                "gallery {action}: which one? give a name; linkwright gallery list shows all",
+                code="gallery.which",
+                action=options.action,
+            )
+        )
     name = options.name.removeprefix("gallery:").removesuffix(".yaml")
     known = (*gallery.names(), *gallery.calculations(), *gallery.tasks())
     if name not in known:
-        hint = Sentence("cli.see_help_of", command="linkwright gallery")
-        raise UsageError(did_you_mean(Sentence("gallery.unknown", name=name), name, known, hint))
+        hint = _("see {command} --help", command="linkwright gallery")
+        raise UsageError(
+            did_you_mean(
+                _('the gallery has no model "{name}"', code="gallery.unknown", name=name), name, known, hint
+            )
+        )
     return name, gallery.file(name).read_text(encoding="utf-8")
 
 
@@ -101,7 +119,7 @@ def _heading(name: str) -> dict[str, str]:
     found = {"name": name, "title": "", "purpose": ""}
     keys = {"name": "title", "purpose": "purpose"}
     for line in gallery.file(name).read_text(encoding="utf-8").splitlines():
-        key, _, value = line.partition(": ")
+        key, _unused, value = line.partition(": ")
         if key in keys and not found[keys[key]]:
             found[keys[key]] = value.strip().strip("\"'")
         if all(found.values()):

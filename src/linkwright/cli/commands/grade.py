@@ -8,6 +8,7 @@ from pathlib import Path
 
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.words import _
 
 ENDINGS = (".csv",)
 
@@ -43,7 +44,15 @@ def run(options: argparse.Namespace, session: Session) -> int:
     session.show("\n".join(session.table(found.lines())))
     session.show_written(options.output, apart=True)
     if faults:
-        session.tell_error(session.say("course.faulty_sheets", count=len(faults), of=len(grades)))
+        session.tell_error(
+            session.say(
+                _(
+                    "{count} of {of} sheets cannot be graded; the others are",
+                    count=len(faults),
+                    of=len(grades),
+                )
+            )
+        )
         for fault in faults:
             session.tell(f"  {in_language(fault, session.language)}")
     return int(bool(faults))

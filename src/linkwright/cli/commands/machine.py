@@ -9,6 +9,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.table import Block, csv_text, rows_data, together
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.cli.machine_options import Wanted
@@ -49,9 +50,20 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if options.file is not None:
         return _mechanism(options, asked, session)
     if asked.speed is None and (asked.fluctuation is not None or asked.inertia):
-        raise UsageError("machine.needs_speed")
+        raise UsageError(
+            _(
+                "a flywheel or a speed fluctuation needs the mean speed; add --speed, such as --speed 180rpm",
+                code="machine.needs_speed",
+            )
+        )
     if asked.size is not None and asked.fluctuation is None:
-        raise UsageError("machine.shape_needs_fluctuation")
+        raise UsageError(
+            _(
+                "the dimensions of a flywheel need to know how even the speed must be; add "
+                "--fluctuation, such as --fluctuation 0.01",
+                code="machine.shape_needs_fluctuation",
+            )
+        )
     title, blocks = _curves(options, asked, session)
     _show(title, blocks, [], session)
     return 0
@@ -60,16 +72,37 @@ def run(options: argparse.Namespace, session: Session) -> int:
 def _refuse_contradictions(options: argparse.Namespace) -> None:
     curves = "--areas" if options.areas is not None else "--torque" if options.torque is not None else None
     if options.file is None and curves is None:
-        raise UsageError("machine.nothing_given")
+        raise UsageError(
+            _(
+                "name a model file, or give a torque diagram with --areas or --torque; see "
+                "linkwright machine --help",
+                code="machine.nothing_given",
+            )
+        )
     from_curves = [f"--{name}" for name in CURVE_OPTIONS if getattr(options, name) is not None]
     if options.file is not None and (curves or from_curves):
-        raise UsageError("machine.not_with_file", option=curves or from_curves[0])
+        raise UsageError(
+            _(
+                "{option} describes a torque diagram; it cannot be used together with a model file",
+                code="machine.not_with_file",
+                option=curves or from_curves[0],
+            )
+        )
     if options.file is None and options.output is not None:
-        raise UsageError("machine.output_needs_file")
+        raise UsageError(
+            _("--output writes the cycle of a mechanism; name a model file", code="machine.output_needs_file")
+        )
     only = {"--areas": ("load", "period"), "--torque": ("scale",)}
     for name in only.get(curves or "", ()):
         if getattr(options, name) is not None:
-            raise UsageError("cli.not_together", name=str(curves), other=f"--{name}")
+            raise UsageError(
+                _(
+                    "{name} cannot be used together with {other}",
+                    code="cli.not_together",
+                    name=str(curves),
+                    other=f"--{name}",
+                )
+            )
 
 
 def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> int:
@@ -81,7 +114,7 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
     from linkwright.machine.running import steady_running
 
     refuse_output(options.output, ENDINGS, force=options.force)
-    mechanism, _ = read_model(options.file, session)
+    mechanism, _unused = read_model(options.file, session)
     forces = solve_forces(mechanism, steps=options.steps)
     running = steady_running(
         forces,
@@ -109,11 +142,11 @@ def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> tup
     if options.areas is not None:
         given, (torque, angle) = areas(options.areas, options.scale)
         energy = fluctuation_from_areas(given, torque_scale=torque, angle_scale=angle)
-        return say("machine.areas_title", count=len(given)), of_areas(energy, asked, say)
+        return say(_("Torque diagram of {count} areas", count=len(given))), of_areas(energy, asked, say)
     driver = curve("--torque", options.torque, options.period)
     load = None if options.load is None else curve("--load", options.load, options.period)
-    against = say("machine.its_mean") if options.load is None else options.load
-    title = say("machine.torque_title", torque=options.torque, load=against)
+    against = say(_("its mean")) if options.load is None else options.load
+    title = say(_("T = {torque}, against {load}", torque=options.torque, load=against))
     return title, of_curves(driver, load, asked, say)
 
 

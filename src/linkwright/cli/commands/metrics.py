@@ -9,7 +9,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.errors import LinkwrightError, about
-from linkwright.words import say
+from linkwright.words import _, say
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     refuse_output(options.output, ENDINGS, force=options.force)
     names = _names(options.names)
-    mechanism, _ = read_model(options.file, session)
+    mechanism, _unused = read_model(options.file, session)
     table, refused, trouble = _evaluated(mechanism, names, options)
     troubles = [in_language(each, session.language) for each in refused]
     troubles += [] if trouble is None else [trouble.say(session.language)]
@@ -69,7 +69,13 @@ def _names(texts: list[str] | None) -> list[str] | None:
 
     names = [name.strip() for text in texts for name in text.split(",")]
     if not all(names):
-        raise UsageError("metrics.no_names", text=" ".join(texts))
+        raise UsageError(
+            _(
+                '--names: "{text}" has an empty place between commas',
+                code="metrics.no_names",
+                text=" ".join(texts),
+            )
+        )
     for name in names:
         with about("--names", UsageError, LinkwrightError):
             METRICS[name]
@@ -124,7 +130,11 @@ def _all(
 def _report(table: MetricsTable, session: Session) -> list[str]:
     say = session.say
     if not table.rows:
-        return [session.strong(table.title), "", say("metrics.nothing")]
+        return [
+            session.strong(table.title),
+            "",
+            say(_("none of the design numbers applies to this mechanism")),
+        ]
     warnings = table.warnings_in(session.language)
     lines = [session.strong(table.title), "", *session.table(_lines(table, session))]
     return [

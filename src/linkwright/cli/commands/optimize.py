@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 if TYPE_CHECKING:
     from linkwright.designs.optimise.optimum import OptimizeError, Optimum
@@ -56,7 +56,13 @@ def _searched(options: argparse.Namespace, session: Session) -> int:
     refuse_output(options.output, ENDINGS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
     if options.seed is not None and options.seed < 0:
-        raise UsageError("study.bad_seed", seed=options.seed)
+        raise UsageError(
+            _(
+                "the seed is {seed}; give a whole number that is not negative",
+                code="study.bad_seed",
+                seed=options.seed,
+            )
+        )
     settings = {
         "vary": _pairs(options.vary),
         "keep": _pairs(options.keep),
@@ -86,9 +92,21 @@ def _pairs(texts: list[str] | None) -> dict[str, str] | None:
     for text in texts:
         name, sign, value = text.partition("=")
         if not sign or not name.strip() or not value.strip():
-            raise UsageError("optimize.bad_pair", text=text)
+            raise UsageError(
+                _(
+                    '"{text}" is no setting; write NAME=VALUE, such as crank.length=80..120mm',
+                    code="optimize.bad_pair",
+                    text=text,
+                )
+            )
         if name.strip() in found:
-            raise UsageError("optimize.given_twice", name=name.strip())
+            raise UsageError(
+                _(
+                    "{name} is given twice; write one setting for it, such as {name}=90..100mm",
+                    code="optimize.given_twice",
+                    name=name.strip(),
+                )
+            )
         found[name.strip()] = value.strip()
     return found
 
@@ -98,8 +116,8 @@ def _stopped(stopped: KeyboardInterrupt, say: Say) -> str:
     from linkwright.designs.finished_parts import Interrupted
 
     if isinstance(stopped, Interrupted):
-        return say("study.interrupted", path=stopped.state)
-    return say("optimize.nothing_yet")
+        return say(_("Interrupted; run the same command with --state {path} to go on.", path=stopped.state))
+    return say(_("Nothing new had been computed; run the same command again."))
 
 
 def _unmet(error: OptimizeError, session: Session) -> int:

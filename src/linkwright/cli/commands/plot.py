@@ -13,6 +13,7 @@ from linkwright.cli.parser import Options
 from linkwright.cli.positions import places
 from linkwright.cli.session import Session
 from linkwright.errors import LinkwrightError, about
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -27,7 +28,12 @@ def arguments(option: Options) -> None:
 
     option("files", "FILE", nargs="+")
     what = option.group("what_title")
-    what("--kind", "KIND", default="sva", help=option.say("plot.kind_help", kinds=", ".join(kinds())))
+    what(
+        "--kind",
+        "KIND",
+        default="sva",
+        help=option.say(_("kind of diagram: {kinds} (default: sva)", kinds=", ".join(kinds()))),
+    )
     what("--of", "NAME", nargs="+", default=[])
     what("--joint", "JOINT")
     what("--on", "LINK")
@@ -89,14 +95,25 @@ def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
     notes = []
     with progress(session.say, "plot.solving") as report:
         for done, file in enumerate(options.files, 1):
-            mechanism, _ = read_model(file, session)
+            mechanism, _unused = read_model(file, session)
             motion = solve_motion(mechanism, steps=options.steps, failures="mark")
             failed = [outcome for outcome in motion.outcomes if not outcome.ok]
             if len(failed) == motion.steps:
-                raise LinkwrightError("cli.about", name=file, cause=failed[0].sentence)
+                raise LinkwrightError(
+                    _("{name}: {cause}", code="cli.about", name=file, cause=failed[0].sentence)
+                )
             if failed:
-                notes.append(session.say("plot.not_reached", file=file, count=len(failed), of=motion.steps,
-                                         sentence=failed[0].sentence))  # fmt: skip
+                notes.append(
+                    session.say(
+                        _(
+                            "{file}: {count} of {of} positions are not reached and left blank: {sentence}",
+                            file=file,
+                            count=len(failed),
+                            of=motion.steps,
+                            sentence=failed[0].sentence,
+                        )
+                    )
+                )
             found[mechanism.name if mechanism.name not in found else f"{mechanism.name} ({file})"] = motion
             if report is not None:
                 report(done, len(options.files))
@@ -135,7 +152,14 @@ def _place(text: str | None, motions: dict[str, Motion], session: Session) -> fl
         return text
     values = places(text, first.mechanism, first.input_dimension, "--at")
     if len(values) > 1:
-        raise UsageError("draw.one_position", option="--at", text=text)
+        raise UsageError(
+            _(
+                '{option}: "{text}" is more than one value; give one',
+                code="draw.one_position",
+                option="--at",
+                text=text,
+            )
+        )
     return values[0]
 
 

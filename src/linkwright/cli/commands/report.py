@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
@@ -25,7 +26,18 @@ SECTIONS = (
 def arguments(option: Options) -> None:
     option("files", "FILE", nargs="+")
     names = ", ".join(SECTIONS)
-    option("--sections", "NAME", nargs="+", default=[], help=option.say("report.sections_help", names=names))
+    option(
+        "--sections",
+        "NAME",
+        nargs="+",
+        default=[],
+        help=option.say(
+            _(
+                "sections in the order wanted, of: {names}; titles of own chapters; rest: all others",
+                names=names,
+            )
+        ),
+    )
     option("--position", "INPUT", default="")
     option("--positions", "POSITIONS", nargs="+")
     option("--to", "pdf|html|docx")
@@ -69,7 +81,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         session.show_data({"ok": not found.broken, "file": str(path), "missing": list(found.missing)})
         return int(found.broken)
     if found.missing:
-        session.tell(session.say("report.missing_title"))
+        session.tell(session.say(_("Not in the report:")))
         for sentence in found.missing:
             session.tell(f"  {sentence}")
     session.show_written(path)
@@ -81,13 +93,22 @@ def _path(options: argparse.Namespace) -> Path:
     from linkwright.cli.files import refuse_existing
 
     if options.to is not None and options.to not in FORMS:
-        raise UsageError("report.bad_form", text=options.to)
+        raise UsageError(
+            _('--to: "{text}" is no form; use pdf, html or docx', code="report.bad_form", text=options.to)
+        )
     source = Path(options.files[0].removeprefix("gallery:")).stem
     path = Path(options.output or f"{source}-report.{options.to or 'pdf'}")
     if path.suffix.lower().lstrip(".") not in FORMS or (
         options.to and path.suffix.lower() != f".{options.to}"
     ):
         endings = tuple(f".{form}" for form in FORMS if options.to in (None, form))
-        raise UsageError("cli.bad_suffix", path=path, endings=endings)
+        raise UsageError(
+            _(
+                '"{path}": the ending says what is written; end the name in {endings}',
+                code="cli.bad_suffix",
+                path=path,
+                endings=endings,
+            )
+        )
     refuse_existing(path, force=options.force)
     return path

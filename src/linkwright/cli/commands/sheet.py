@@ -9,6 +9,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.sheets.paper import SIZES
+from linkwright.words import _
 
 ENDINGS = (".pdf", ".svg", ".dxf")
 
@@ -30,7 +31,14 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     path = Path(options.output or f"{Path(options.file.removeprefix('gallery:')).stem}-sheet.pdf")
     if path.suffix.lower() not in ENDINGS:
-        raise UsageError("cli.bad_suffix", path=path, endings=ENDINGS)
+        raise UsageError(
+            _(
+                '"{path}": the ending says what is written; end the name in {endings}',
+                code="cli.bad_suffix",
+                path=path,
+                endings=ENDINGS,
+            )
+        )
     refuse_existing(path, force=options.force)
     found = sheet(
         options.file, kind=options.kind, of=options.of, size=options.size, language=session.language

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.cli.solving import Solved
@@ -75,9 +76,23 @@ def _show_worked(solved: Solved, options: argparse.Namespace, session: Session) 
 
 def _refuse_contradictions(options: argparse.Namespace) -> None:
     if options.worked and options.output is not None:
-        raise UsageError("cli.not_together", name="--worked", other="--output")
+        raise UsageError(
+            _(
+                "{name} cannot be used together with {other}",
+                code="cli.not_together",
+                name="--worked",
+                other="--output",
+            )
+        )
     if options.static and options.forces is False:
-        raise UsageError("cli.not_together", name="--static", other="--no-forces")
+        raise UsageError(
+            _(
+                "{name} cannot be used together with {other}",
+                code="cli.not_together",
+                name="--static",
+                other="--no-forces",
+            )
+        )
     if options.output is not None:
         from linkwright.cli.files import refuse_output
 

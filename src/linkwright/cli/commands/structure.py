@@ -9,7 +9,7 @@ from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.cli.source import read_model
 from linkwright.core.table import Cell, Table
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 if TYPE_CHECKING:
     from linkwright.formula.program import Program
@@ -27,7 +27,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.kinematics.rank_of_motion import rank_sentence
     from linkwright.kinematics.structure_with_rank import analysed
 
-    mechanism, _ = read_model(options.file, session)
+    mechanism, _unused = read_model(options.file, session)
     built = analysed(mechanism)
     rank = rank_sentence(mechanism, "en" if session.json else session.language)
     program = _program(mechanism, options.forces) if options.program or options.forces else None
@@ -41,7 +41,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     session.show()
     session.show(built.text(session.language))
     if rank:
-        session.show(session.say("structure.rank", sentence=rank))
+        session.show(session.say(_("{sentence}.", sentence=rank)))
     if program is not None:
         session.show()
         session.show(_counts(program, session.say))
@@ -70,6 +70,6 @@ def _counts(program: Program, say: Say) -> str:
     design, position = counts["design"], counts["position"]
     kinds = sorted({*design, *position})
     rows: list[list[Cell]] = [[kind, design.get(kind, 0), position.get(kind, 0)] for kind in kinds]
-    rows.append([say("structure.total"), sum(design.values()), sum(position.values())])
+    rows.append([say(_("total")), sum(design.values()), sum(position.values())])
     head = [say(f"structure.{key}") for key in ("operation", "per_design", "per_position")]
     return "\n".join(Table(head, rows).lines())

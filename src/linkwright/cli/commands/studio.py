@@ -6,7 +6,8 @@ import argparse
 
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words.sentence import Sentence, reason_of
+from linkwright.words import _
+from linkwright.words.sentence import reason_of
 
 LAST_PORT = 65535
 
@@ -32,10 +33,23 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if options.file is not None:
         path = (folder / options.file).resolve()
         if not path.is_relative_to(folder.resolve()):
-            raise UsageError("studio.outside", name=options.file)
+            raise UsageError(
+                _(
+                    "{name} is no model file below the folder in which the studio was started",
+                    code="studio.outside",
+                    name=options.file,
+                )
+            )
         name = path.relative_to(folder.resolve()).as_posix()
     if not 0 <= options.port <= LAST_PORT:
-        raise UsageError("studio.no_port", port=options.port, reason=Sentence("studio.ports", last=LAST_PORT))
+        raise UsageError(
+            _(
+                "port {port} cannot be used: {reason}; choose another one, or none for a free one",
+                code="studio.no_port",
+                port=options.port,
+                reason=_("ports go from 0 to {last}", last=LAST_PORT),
+            )
+        )
     known = recalled(folder)
     studio = None
     if known is not None and options.port in (0, known.port):
@@ -44,12 +58,19 @@ def run(options: argparse.Namespace, session: Session) -> int:
     try:
         studio = studio or Studio(folder, name, port=options.port, language=session.language)
     except OSError as problem:
-        raise UsageError("studio.no_port", port=options.port, reason=reason_of(problem)) from None
+        raise UsageError(
+            _(
+                "port {port} cannot be used: {reason}; choose another one, or none for a free one",
+                code="studio.no_port",
+                port=options.port,
+                reason=reason_of(problem),
+            )
+        ) from None
     remember(folder, Address(studio.server_port, studio.token))
     with studio:
         if name is not None:
             studio.work.foresee(name, session.language)
-        session.show(session.say("studio.serving", url=studio.url))
+        session.show(session.say(_("The studio is at {url} (end it with Ctrl+C)", url=studio.url)))
         if not options.no_browser:
             webbrowser.open(studio.url)
         studio.serve_forever()

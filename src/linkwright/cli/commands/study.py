@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.designs.study import Study
@@ -47,7 +48,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_output(options.output, ENDINGS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
     vary = ranges_of(options.vary)
-    mechanism, _ = read_model(options.file, session)
+    mechanism, _unused = read_model(options.file, session)
     settings = {
         "metrics": options.metrics, "sampling": options.sampling, "samples": options.samples, "seed": options.seed,
         "output": options.of, "steps": options.steps,
@@ -65,9 +66,22 @@ def ranges_of(texts: list[str]) -> dict[str, str]:
     for text in texts:
         address, sign, given = text.partition("=")
         if not sign or not address.strip() or not given.strip():
-            raise UsageError("study.bad_vary", text=text)
+            raise UsageError(
+                _(
+                    '--vary: "{text}" says no range; write ADDRESS=FROM..TO UNIT:NUMBER, such as '
+                    '"crank.length=20..30 mm:11"',
+                    code="study.bad_vary",
+                    text=text,
+                )
+            )
         if address.strip() in found:
-            raise UsageError("study.twice", name=address.strip())
+            raise UsageError(
+                _(
+                    "--vary: {name} is given twice; give one range for it",
+                    code="study.twice",
+                    name=address.strip(),
+                )
+            )
         found[address.strip()] = given.strip()
     return found
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.commands.study import ranges_of
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.export.sweep_parts import SweepParts
@@ -34,7 +35,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.export.sweep_parts import sweep_parts
 
     vary = ranges_of(options.vary)
-    mechanism, _ = read_model(options.file, session)
+    mechanism, _unused = read_model(options.file, session)
     with progress(session.say, "sweep.computing") as report:
         found = sweep_parts(
             mechanism, vary, options.folder, outputs=options.numbers, sampling=options.sampling,
@@ -58,7 +59,13 @@ def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> N
     say = session.say
     session.show(
         say(
-            "sweep.done", designs=found.designs, parts=found.parts, skipped=found.skipped, folder=found.folder
+            _(
+                "{designs} designs in {parts} parts in {folder} ({skipped} were there already); values in SI",
+                designs=found.designs,
+                parts=found.parts,
+                skipped=found.skipped,
+                folder=found.folder,
+            )
         )
     )
     head = [say(f"sweep.column.{name}") for name in ("number", "least", "greatest", "designs")]
@@ -67,8 +74,8 @@ def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> N
     ]
     session.show("\n" + "\n".join(Table(head, rows).lines()))
     for note in found.notes:
-        session.show("\n" + say("solve.note", text=in_language(note, session.language)))
+        session.show("\n" + say(_("Note: {text}", text=in_language(note, session.language))))
     if best:
         found_rows = [[Amount(float(value)) for value in row] for row in zip(*best.values(), strict=True)]
-        session.show("\n" + say("sweep.best", number=options.best) + "\n")
+        session.show("\n" + say(_("Best {number}:", number=options.best)) + "\n")
         session.show("\n".join(Table(list(best), found_rows, ">" * len(best)).lines()))

@@ -10,7 +10,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, number_of
 from linkwright.cli.session import Session
 from linkwright.core.table import Amount, Cell, Table
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 if TYPE_CHECKING:
     from linkwright.synthesis.result import Synthesis, SynthesisError
@@ -19,7 +19,13 @@ if TYPE_CHECKING:
 def arguments(option: Options) -> None:
     from linkwright.synthesis.task_names import TASK_NAMES
 
-    option("task", "FILE|TASK", help=option.say("synthesize.task_help", tasks=", ".join(TASK_NAMES)))
+    option(
+        "task",
+        "FILE|TASK",
+        help=option.say(
+            _("a file with a section synthesis, or the name of a task: {tasks}", tasks=", ".join(TASK_NAMES))
+        ),
+    )
     option("demands", "KEY=VALUE", nargs="*")
     option("--output", "FOLDER")
     option("--plot", "FILE")
@@ -88,9 +94,15 @@ def _asked(options: argparse.Namespace, session: Session) -> tuple[str, dict[str
         return asked_of(options.task)
     for text in options.demands:
         if not text.partition("=")[1]:
-            raise UsageError("synthesize.bad_demand", text=text)
+            raise UsageError(
+                _(
+                    '"{text}" is no demand; write KEY=VALUE, such as stroke="40 mm"',
+                    code="synthesize.bad_demand",
+                    text=text,
+                )
+            )
     pairs = (text.partition("=") for text in options.demands)
-    lines = [f"  {key.strip()}: {value.strip()}" for key, _, value in pairs]
+    lines = [f"  {key.strip()}: {value.strip()}" for key, _unused, value in pairs]
     return asked_in("\n".join(["synthesis:", f"  task: {options.task}", *lines]), "synthesize")
 
 
@@ -149,5 +161,11 @@ def _mass(text: str | None) -> float | None:
         return None
     value = number_of(text)
     if not 0 < value < float("inf"):
-        raise UsageError("synthesize.bad_mass", text=text)
+        raise UsageError(
+            _(
+                '--mass: "{text}" is no mass per length in kg/m; give a positive number',
+                code="synthesize.bad_mass",
+                text=text,
+            )
+        )
     return value

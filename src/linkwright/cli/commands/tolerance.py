@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 from linkwright.cli.parser import Options
 from linkwright.cli.part import part_arguments, read, refuse_outputs, show
 from linkwright.cli.session import Session
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.designs.tolerance.study import ToleranceStudy
@@ -39,7 +39,12 @@ def surplus(word: str) -> str:
     from linkwright.metrics.base import METRICS
     from linkwright.registry import nearest
 
-    return Sentence("tolerance.named_in_file", name=nearest(word[:100], list(METRICS)) or word)
+    return _(
+        "what is asked stands in the file (kind: tolerance): of: [{name}], a design number "
+        'as metrics names it, or "OUTPUT KIND" such as "rocker.angle range" (min, max, mean, '
+        "rms, range, peak)",
+        name=nearest(word[:100], list(METRICS)) or word,
+    )
 
 
 def asked(problem: ToleranceStudy) -> tuple[object, ...]:

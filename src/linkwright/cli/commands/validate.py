@@ -7,6 +7,7 @@ import argparse
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.words import _
 
 
 def arguments(option: Options) -> None:
@@ -23,7 +24,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
     wanted = options.case.casefold()
     cases = [each for each in published() if wanted in f"{each.case} {each.source}".casefold()]
     if not cases:
-        raise UsageError("validate.no_case", text=options.case)
+        raise UsageError(
+            _('no case has "{text}" in its name or source', code="validate.no_case", text=options.case)
+        )
     with progress(session.say, "validate.working") as told:
         found = validate(cases, told)
     if session.json:

@@ -10,6 +10,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.quantity import number
+from linkwright.words import _
 
 COUNT = 30
 
@@ -33,11 +34,25 @@ def run(options: argparse.Namespace, session: Session) -> int:
     say = session.say
     unknown = next((form for form in options.to if form not in FORMS), None)
     if unknown is not None:
-        raise UsageError("course.no_form", name=unknown, forms=tuple(FORMS))
+        raise UsageError(
+            _(
+                'there is no form "{name}"; the forms are {forms}',
+                code="course.no_form",
+                name=unknown,
+                forms=tuple(FORMS),
+            )
+        )
     folder = Path(options.output or f"{Path(options.file.removeprefix('gallery:')).stem}-variants")
     if os.path.exists(folder) and not options.force:
-        raise UsageError("variants.folder_exists", path=folder)
-    mechanism, _ = read_model(options.file, session)
+        raise UsageError(
+            _(
+                "{path}: the folder is there already; name another with --output, or replace its "
+                "files with --force",
+                code="variants.folder_exists",
+                path=folder,
+            )
+        )
+    mechanism, _unused = read_model(options.file, session)
     with progress(say, "variants.working") as told:
         found = variants(mechanism, options.count, seed=options.seed, progress=told)
         files = found.save(folder, options.to, session.language, force=True)
@@ -45,11 +60,30 @@ def run(options: argparse.Namespace, session: Session) -> int:
         session.show_data({"ok": True, "files": [str(path) for path in files], "key": found.key()})
     else:
         questions = len(found.task.questions)
-        session.show(say("variants.written", count=options.count, questions=questions, path=folder))
+        session.show(
+            say(
+                _(
+                    "{count} variants with {questions} questions written: {path}",
+                    count=options.count,
+                    questions=questions,
+                    path=folder,
+                )
+            )
+        )
         found_angles, ratio = found.difficulty.transmission_angle, f"{found.difficulty.ratio:.3g}"
         if found_angles is None:
-            session.show(say("variants.spread", ratio=ratio))
+            session.show(say(_("difficulty: an answer's sizes differ by {ratio} times at most", ratio=ratio)))
         else:
             low, high = (number(each, "angle", 3) for each in found_angles)
-            session.show(say("variants.difficulty", low=low, high=high, ratio=ratio))
+            session.show(
+                say(
+                    _(
+                        "difficulty: smallest transmission angle {low}° to {high}°; an answer's sizes differ "
+                        "by {ratio} times at most",
+                        low=low,
+                        high=high,
+                        ratio=ratio,
+                    )
+                )
+            )
     return 0

@@ -32,6 +32,7 @@ from linkwright.metrics.of_designs import MetricsOfDesigns
 from linkwright.metrics.of_output import Asked
 from linkwright.metrics.outputs import mechanism_outputs, usual_output
 from linkwright.units import powers
+from linkwright.words import _
 
 #: Designs that a worker of a cluster takes at a time where they go one by one.
 FEW = 4
@@ -53,7 +54,7 @@ class Measures:
         )
         self.expressions = {text: self._expression(text) for text in texts}
         self.numbers = tuple(dict.fromkeys(
-            name for _, names in self.expressions.values() for name in names.values()
+            name for _unused, names in self.expressions.values() for name in names.values()
             if name not in self._dimensions and name not in problem.paths
         ))  # fmt: skip
         heaviest = {each.address: each.high for each in problem.variables}
@@ -85,12 +86,34 @@ class Measures:
         names = {name: defined.get(name, name) for name in found.names}
         for name in names.values():
             if not self._is_number(name):
-                raise RequestError("optimize.no_number", text=name)
+                raise RequestError(
+                    _(
+                        'there is no number "{text}"; name a design number (linkwright metrics), flywheel, a '
+                        'summary such as "jaw.angle range", a dimension, or an expression of names given by '
+                        "define:",
+                        code="optimize.no_number",
+                        text=name,
+                    )
+                )
         if not names:
-            raise RequestError("optimize.no_number", text=text)
+            raise RequestError(
+                _(
+                    'there is no number "{text}"; name a design number (linkwright metrics), flywheel, a '
+                    'summary such as "jaw.angle range", a dimension, or an expression of names given by '
+                    "define:",
+                    code="optimize.no_number",
+                    text=text,
+                )
+            )
         for name in set(names.values()) & set(self._dimensions):
             if name in self.mechanism.expressions and name not in self.problem.addresses:
-                raise RequestError("optimize.derived", name=name)
+                raise RequestError(
+                    _(
+                        '"{name}" follows from parameters; name the parameters in the expression instead',
+                        code="optimize.derived",
+                        name=name,
+                    )
+                )
         return found, names
 
     def _is_number(self, name: str) -> bool:
@@ -226,7 +249,7 @@ class Measures:
         """Dimensions that stand in expressions."""
         names = {
             name
-            for _, each in self.expressions.values()
+            for _unused, each in self.expressions.values()
             for name in each.values()
             if name in self._dimensions
         }

@@ -40,8 +40,7 @@ from linkwright.files.write import dump
 from linkwright.kinematics.outcome import PositionError
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 from linkwright.words.titles import title_said
 
 #: Evaluations where designs go one after the other and nobody says how many; the name of a population that is kept.
@@ -136,7 +135,13 @@ def _source(
         mechanism = document.mechanism
     given = dict(mechanism.optimize) | {key: value for key, value in settings.items() if value is not None}
     if not given:
-        raise RequestError("optimize.no_section", name=partial(title_said, mechanism.name))
+        raise RequestError(
+            _(
+                '{name} has no section "optimize"; add one with vary: and minimize:, or give them here',
+                code="optimize.no_section",
+                name=partial(title_said, mechanism.name),
+            )
+        )
     return mechanism, document, given
 
 
@@ -306,7 +311,7 @@ class _Run:
         sampled = task.problem.robust == "yield" and task.measures.side_by_side
         if not sampled or judged.goals.shape[1] > 1 or not (judged.total == 0).any():
             return judged
-        for _ in range(AGAIN):
+        for _unused in range(AGAIN):
             best = self._chosen(found)
             if not np.isfinite(best.goals).all():
                 break
@@ -333,7 +338,7 @@ class _Run:
         for goal in range(count):
             judged = self._bettered(judged, self._end(judged, goal))
         points = spread(count, self.places)
-        for _ in range(ROUNDS):
+        for _unused in range(ROUNDS):
             judged = self._bettered(judged, self._descended(judged, points, len(points), -1.0, self.last))
             points = points[without_own(judged, points)]
             if not len(points):
@@ -425,13 +430,28 @@ class _Run:
                 continue
             else:
                 if none:
-                    return Sentence("optimize.no_values", name=name, numbers=none)
+                    return _(
+                        "no design of {name} within the bounds has a value of {numbers}; name another "
+                        "number, or give the machine what the number needs (a flywheel, for one, needs work "
+                        "that the drivers do)",
+                        code="optimize.no_values",
+                        name=name,
+                        numbers=none,
+                    )
         if not nearest:
-            return Sentence("optimize.nothing_moves", name=name)
+            return _(
+                "no design of {name} within the bounds passes the whole cycle; widen the bounds, or "
+                "start from a machine that moves",
+                name=name,
+            )
         failed, said, stuck = min(nearest, key=lambda each: each[0])
         reason = stuck.sentence if stuck.outcome is None else stuck.outcome.sentence
         counts = {"failed": failed, "steps": asked.steps}
-        return Sentence("optimize.none_whole", name=name, design=said, reason=reason, **counts)
+        return _(
+            "no design of {name} within the bounds passes the whole cycle; the nearest that was "
+            "tried ({design}) fails in {failed} of {steps} positions: {reason}; widen the bounds",
+            code="optimize.none_whole",
+        ).format(name=name, design=said, reason=reason, **counts)
 
     def _failing(self, found: Optimum) -> Message:
         """Which demands the nearest design misses, and by how much."""
@@ -440,5 +460,14 @@ class _Run:
         best, asked = found.best, found.problem
         if best.made is not None and not best.missed:
             shares = {"share": f"{100 * best.made:.1f}", "wanted": f"{100 * asked.least_yield:.6g}"}
-            return Sentence("optimize.failing_yield", **shares)
-        return Sentence("optimize.failing", demands=tuple(missing(found)))
+            return _(
+                "of the machines made within the tolerances {share} % meet all demands at best, not "
+                "{wanted} %; tighten the tolerances, ask for a smaller yield:, or widen the bounds",
+                code="optimize.failing_yield",
+            ).format(**shares)
+        return _(
+            "the demands cannot be met together; the nearest design misses {demands}: change "
+            "these demands, or widen the bounds",
+            code="optimize.failing",
+            demands=tuple(missing(found)),
+        )

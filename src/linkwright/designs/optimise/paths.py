@@ -17,7 +17,7 @@ from linkwright.errors import QuantityError
 from linkwright.files.write import flow
 from linkwright.formula.summaries import Backend
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: Designs that one thread takes.
 ALONE = 512
@@ -34,7 +34,14 @@ def path_error(given: Any) -> PathError | None:
         return None
     rows = given["target"]
     if not isinstance(rows, Sequence) or not rows or any(not _is_pair(row) for row in rows):
-        raise QuantityError(Sentence("optimize.target", given=flow(rows)[:40]), code="target")
+        raise QuantityError(
+            _(
+                "target: {given} is no list of places; write [[30 mm, 40 mm], [32 mm, 41 mm], …], "
+                "one a position",
+                given=flow(rows)[:40],
+            ),
+            code="target",
+        )
     places = [
         [each if isinstance(each, float) else amount(str(each), "length") for each in row] for row in rows
     ]

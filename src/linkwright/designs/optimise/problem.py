@@ -22,7 +22,7 @@ from linkwright.files.write import flow
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 Robust = Literal["", "worst", "yield"]
 SETTINGS = (
@@ -130,7 +130,13 @@ class _Reading:
         for key in self.given:
             if key not in SETTINGS:
                 self._wrong(
-                    key, Sentence("optimize.unknown", key_=key, hint=offered(key, SETTINGS)), "unknown-key"
+                    key,
+                    _(
+                        '"{key_}" is no setting of an optimisation; {hint}',
+                        key_=key,
+                        hint=offered(key, SETTINGS),
+                    ),
+                    "unknown-key",
                 )
         variables = self._variables()
         define, paths = self._defined()
@@ -140,26 +146,59 @@ class _Reading:
             for text in self._texts(key, paths)
         ]
         if not goals:
-            self._wrong("minimize", Sentence("optimize.no_goal"), "no-goal")
+            self._wrong(
+                "minimize",
+                _(
+                    "nothing is made least or greatest; give minimize: or maximize: with a number such "
+                    "as peak_input_torque",
+                ),
+                "no-goal",
+            )
         sought = [goal.text.strip() for goal in goals]
         for text in sorted({each for each in sought if sought.count(each) > 1}):
-            self._wrong("maximize", Sentence("optimize.goal_twice", text=text), "goal-twice")
+            self._wrong(
+                "maximize",
+                _("{text} is sought twice; give it once, under minimize: or under maximize:", text=text),
+                "goal-twice",
+            )
         demands = self._demands()
         tolerances = self._tolerances()
         robust = str(self.given.get("robust") or "")
         if robust not in ("", "worst", "yield"):
-            self._wrong("robust", Sentence("optimize.robust", given=robust), "unknown-word")
+            self._wrong(
+                "robust",
+                _(
+                    'robust: "{given}" is neither worst nor yield; write one of them, or leave it out',
+                    given=robust,
+                ),
+                "unknown-word",
+            )
         if robust and not tolerances:
-            self._wrong("tolerance", Sentence("optimize.no_tolerance"), "no-tolerance")
+            self._wrong(
+                "tolerance",
+                _("robust: needs tolerance: with ± of dimensions, such as crank.length: 0.1 mm"),
+                "no-tolerance",
+            )
         numbers = {key: self._number(key, usual) for key, usual in _USUAL.items()}
         if self.findings:
             raise ModelError(self.findings)
         kind: Robust = "worst" if robust == "worst" else "yield" if robust else ""
         return Problem(
-            self.mechanism, tuple(variables), tuple(goals), tuple(demands), define, paths, tolerances, kind,
-            numbers["yield"], numbers["fluctuation"], int(numbers["steps"]), int(numbers["evaluations"]),
-            int(numbers["population"]), int(numbers["seed"]),
-        )  # fmt: skip
+            self.mechanism,
+            tuple(variables),
+            tuple(goals),
+            tuple(demands),
+            define,
+            paths,
+            tolerances,
+            kind,
+            numbers["yield"],
+            numbers["fluctuation"],
+            int(numbers["steps"]),
+            int(numbers["evaluations"]),
+            int(numbers["population"]),
+            int(numbers["seed"]),
+        )
 
     def _wrong(self, key: str, told: str, code: str) -> None:
         self.findings.append(Finding("error", self.source, f"optimize.{key}", told, code=code))
@@ -167,7 +206,14 @@ class _Reading:
     def _mapping(self, key: str) -> dict[str, Any]:
         value = self.given.get(key) or {}
         if not isinstance(value, Mapping):
-            self._wrong(key, Sentence("optimize.mapping", key_=key), "type")
+            self._wrong(
+                key,
+                _(
+                    "{key_}: must be names with their values; write NAME: VALUE on lines of their own",
+                    key_=key,
+                ),
+                "type",
+            )
             return {}
         return {str(name): each for name, each in value.items()}
 
@@ -199,7 +245,15 @@ class _Reading:
             elif isinstance(each, str):
                 found.append(each)
             else:
-                self._wrong(key, Sentence("optimize.texts", key_=key), "type")
+                self._wrong(
+                    key,
+                    _(
+                        "{key_}: must be a number's name or a list of them, such as [peak_input_torque, "
+                        "flywheel]",
+                        key_=key,
+                    ),
+                    "type",
+                )
                 return []
         return found
 
@@ -213,7 +267,15 @@ class _Reading:
         high = 1.0 if key in ("yield", "fluctuation") else 1e6 if key in ("steps", "population") else 1e9
         if not low <= found <= high:
             self._wrong(
-                key, Sentence("optimize.number", key_=key, given=flow(value), low=low, high=high), "range"
+                key,
+                _(
+                    "{key_}: {given} is no number between {low} and {high}; give one",
+                    key_=key,
+                    given=flow(value),
+                    low=low,
+                    high=high,
+                ),
+                "range",
             )
         return found
 
@@ -226,7 +288,14 @@ class _Reading:
             except LinkwrightError as error:
                 self._wrong(f"vary.{address}", error.sentence, error.code)
         if not found and not self.findings:
-            self._wrong("vary", Sentence("study.nothing_varies"), "nothing-varies")
+            self._wrong(
+                "vary",
+                _(
+                    'nothing varies; give dimensions with ranges: {{"crank.length": "20..30 mm:11"}}',
+                    code="study.nothing_varies",
+                ),
+                "nothing-varies",
+            )
         return found
 
     def _variable(self, address: str, value: Any) -> Variable:
@@ -240,7 +309,14 @@ class _Reading:
             if key == "whole":
                 choices = np.arange(np.ceil(found.low), np.floor(found.high) + 1)
             if len(choices) < 1:
-                raise RequestError("optimize.no_choice", address=address)
+                raise RequestError(
+                    _(
+                        "{address} has no value to choose from; give values: or a whole: range that holds a "
+                        "whole number",
+                        code="optimize.no_choice",
+                        address=address,
+                    )
+                )
             return Variable(address, float(choices[0]), float(choices[-1]), choices, found.unit)
         if (
             isinstance(value, (list, tuple))
@@ -254,16 +330,39 @@ class _Reading:
             try:
                 value = np.array(value, float)
             except (TypeError, ValueError):
-                raise RequestError("optimize.no_bounds", address=address, given=flow(value)) from None
+                raise RequestError(
+                    _(
+                        "{address}: {given} says no bounds; give two values such as [80 mm, 120 mm], or "
+                        "values: [80 mm, 90 mm]",
+                        code="optimize.no_bounds",
+                        address=address,
+                        given=flow(value),
+                    )
+                ) from None
         found = parse_range(self.mechanism, address, value)
         if len(found.values) > 2 and not (isinstance(value, str) and ".." in value):
             return Variable(address, found.low, found.high, np.unique(found.values), found.unit)
         _rising(found)
         if not found.low < found.high:
-            raise RequestError("optimize.bounds", address=address)
+            raise RequestError(
+                _(
+                    "{address} has equal bounds; give a lower and a higher one",
+                    code="optimize.bounds",
+                    address=address,
+                )
+            )
         if gives_part_of_tooth(self.mechanism, address, between(found)):
             low, high = math.ceil(found.low), math.floor(found.high)
-            raise RequestError("optimize.whole_teeth", address=address, low=low, high=high)
+            raise RequestError(
+                _(
+                    "{address} gives numbers of teeth, which are whole; write {address}: {{whole: "
+                    "{low}..{high}}}",
+                    code="optimize.whole_teeth",
+                    address=address,
+                    low=low,
+                    high=high,
+                )
+            )
         return Variable(address, found.low, found.high, None, found.unit)
 
     def _demands(self) -> list[Demand]:
@@ -271,7 +370,15 @@ class _Reading:
         for text, value in self._mapping("keep").items():
             demand = _demand(text, value)
             if demand is None:
-                self._wrong(f"keep.{text}", Sentence("optimize.demand", given=flow(value)), "demand")
+                self._wrong(
+                    f"keep.{text}",
+                    _(
+                        '"{given}" is no demand; write at least 40 deg, at most 60 kN, 1..2 m, or same '
+                        "within 1 %",
+                        given=flow(value),
+                    ),
+                    "demand",
+                )
             else:
                 found.append(demand)
         return found
@@ -293,7 +400,12 @@ def _rising(found: Range) -> None:
     first, last = float(found.values[0]), float(found.values[-1])
     if first > last:
         said = {"first": found.shown(first), "last": found.shown(last)}
-        raise RequestError("optimize.falling", address=found.address, **said)
+        raise RequestError(
+            _(
+                "the bounds of {address} fall from {first} to {last}; write the lower one first",
+                code="optimize.falling",
+            ).format(address=found.address, **said)
+        )
 
 
 _USUAL = {

@@ -10,7 +10,7 @@ from linkwright.core.table import Cell, Table
 from linkwright.designs.criteria import Criterion
 from linkwright.designs.optimise.optimum import Choice, Optimum
 from linkwright.errors import speaker
-from linkwright.words import Say, say
+from linkwright.words import Say, _, say
 from linkwright.words.titles import title_said
 
 #: Designs of a front that are listed.
@@ -21,26 +21,72 @@ def text(found: Optimum, language: str = "en") -> str:
     """Title, the best design beside the start, the front, and notes."""
     tell = speaker(language)
     name = title_said(found.problem.mechanism.name, language)
-    lines = [tell("optimize.title", name=name, goals=_goals(found, language)), ""]
+    lines = [tell(_("{name}: {goals}", name=name, goals=_goals(found, language))), ""]
     lines += comparison(found, found.best, language).lines()
     if len(found.problem.goals) > 1:
         lines += [
             "",
-            tell("optimize.front", count=len(found), hypervolume=f"{found.hypervolume or 0.0:.4f}"),
+            tell(
+                _(
+                    "Designs on the front: {count}, none beaten by another in all objectives; "
+                    "hypervolume {hypervolume} of the box to the worst values",
+                    count=len(found),
+                    hypervolume=f"{found.hypervolume or 0.0:.4f}",
+                )
+            ),
             "",
         ]
         lines += _front(found, language)
-    lines += ["", tell("optimize.work", evaluations=found.evaluations, generations=found.generations)]
+    lines += [
+        "",
+        tell(
+            _(
+                "{evaluations} designs judged in {generations} generations; every design passes the "
+                "whole cycle with the start's assembly",
+                evaluations=found.evaluations,
+                generations=found.generations,
+            )
+        ),
+    ]
     moved = any(each.choices is None for each in found.problem.variables)
     if moved and (found.exact or not found.problem.robust):
-        lines.append(tell("optimize.exact" if found.exact else "optimize.differences"))
+        lines.append(
+            tell(
+                _("The last steps followed exact gradients.")
+                if found.exact
+                else _(
+                    "This machine's designs go one after the other, and the last steps followed "
+                    "differences: slower, and less exact.",
+                )
+            )
+        )
     if found.best.worst:
-        lines.append(tell("optimize.worst", numbers=", ".join(_worst(found))))
+        lines.append(
+            tell(_("At the worst within the tolerances: {numbers}.", numbers=", ".join(_worst(found))))
+        )
     if found.best.made is not None:
-        lines.append(tell("optimize.made", share=f"{100 * found.best.made:.1f}"))
-    lines += [tell("optimize.no_effect", address=each) for each in found.without_effect]
+        lines.append(
+            tell(
+                _(
+                    "{share} % of the machines made within the tolerances meet all demands (512 samples).",
+                    share=f"{100 * found.best.made:.1f}",
+                )
+            )
+        )
+    lines += [
+        tell(
+            _(
+                "{address} changes none of these numbers; leave it out of vary:, or ask for a number "
+                "that it changes.",
+                address=each,
+            )
+        )
+        for each in found.without_effect
+    ]
     if found.interrupted:
-        lines.append(tell("study.interrupted", path=found.state))
+        lines.append(
+            tell(_("Interrupted; run the same command with --state {path} to go on.", path=found.state))
+        )
     return "\n".join(lines)
 
 
@@ -50,7 +96,7 @@ def _goals(found: Optimum, language: str) -> str:
         say(words[goal.sign], language, number=label(found, goal.text, language))
         for goal in found.problem.goals
     )
-    return say("optimize.and", language).join(said)
+    return _("; ").translate(language).join(said)
 
 
 def label(found: Optimum, text: str, language: str) -> str:
@@ -81,11 +127,11 @@ def comparison(found: Optimum, choice: Choice, language: str) -> Table:
 
 def _limits(found: Optimum, choice: Choice, text: str, tell: Say) -> str:
     goals = {goal.text: goal.sign for goal in found.problem.goals}
-    said = [tell("optimize.goal" if goals[text] > 0 else "optimize.goal_most")] if text in goals else []
+    said = [tell(_("made least") if goals[text] > 0 else _("made greatest"))] if text in goals else []
     if text in found.limits:
         said.append(_between(found, text)[0])
     if text in choice.missed:
-        said.append(tell("optimize.missed"))
+        said.append(tell(_("missed")))
     return ", ".join(said)
 
 

@@ -16,6 +16,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.designs.optimise.measures import Measures
 from linkwright.designs.optimise.problem import Demand, Problem
 from linkwright.errors import Finding, ModelError, QuantityError
+from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 #: A number, and 1 where it must not become larger, -1 where it must not become smaller.
@@ -160,7 +161,7 @@ class Task:
         rows = np.where(np.isnan(numbers), np.inf, numbers).argmax(axis=2)
         worst = np.take_along_axis(numbers, rows[:, :, None], axis=2)[:, :, 0]
         own = np.take_along_axis(away, rows[:, :, None], axis=1)
-        return self._made(columns, own), worst * np.array([sign for _, sign in self.sides])
+        return self._made(columns, own), worst * np.array([sign for _unused, sign in self.sides])
 
     def _away(self, columns: Mapping[str, Floats]) -> Floats:
         """Corners of the tolerances, (N, corners, dimensions): all where they are few, else those to which the exact
@@ -169,7 +170,7 @@ class Task:
         if len(names) <= ALL_CORNERS:
             every = np.array([*product((-1.0, 1.0), repeat=len(names))])
             return np.tile(every, (len(next(iter(columns.values()))), 1, 1))
-        _, slopes = self.measures.with_slopes(columns, names)
+        _unused, slopes = self.measures.with_slopes(columns, names)
         found = np.stack([sign * slopes[text] for text, sign in self.sides], axis=1)
         found = np.where(found < 0.0, -1.0, 1.0)
         return np.concatenate([found, -found], axis=1)
@@ -183,7 +184,7 @@ class Task:
 
     def _worst(self, x: Floats, columns: Mapping[str, Floats]) -> Judged:
         """Objectives and violations of the worst machines within the tolerances."""
-        drawn, (_, found) = self.measures(columns), self.corners(columns)
+        drawn, (_unused, found) = self.measures(columns), self.corners(columns)
         worst = dict(zip(self.sides, found.T, strict=True))
         goals = np.column_stack([goal.sign * worst[goal.text, goal.sign] for goal in self.problem.goals])
         misses = [np.zeros(len(x))]
@@ -256,9 +257,9 @@ class Task:
 
     def worst_of(self, values: Floats) -> dict[str, tuple[float, ...]]:
         """What the numbers of a design (k,) come to at the worst within the tolerances, side after side."""
-        _, (worst,) = self.corners(self.columns_of(values[None]))
+        _unused, (worst,) = self.corners(self.columns_of(values[None]))
         found = dict[str, tuple[float, ...]]()
-        for (text, _), value in zip(self.sides, worst.tolist(), strict=True):
+        for (text, _unused2), value in zip(self.sides, worst.tolist(), strict=True):
             found[text] = (*found.get(text, ()), value)
         return found
 
@@ -308,7 +309,13 @@ class Task:
         if demand.same is not None:
             share = _SHARE.match(demand.same)
             if not np.isfinite(start):
-                raise QuantityError(Sentence("optimize.no_start", text=demand.text), code="no-start")
+                raise QuantityError(
+                    _(
+                        'the start has no value of "{text}", so it cannot stay the same; demand a range',
+                        text=demand.text,
+                    ),
+                    code="no-start",
+                )
             within = (
                 float(share[1]) / 100 * abs(start) if share else self._value(demand.same, kind, demand.text)
             )
@@ -317,7 +324,11 @@ class Task:
         low = self._value(demand.low, kind, demand.text) if demand.low else -np.inf
         high = self._value(demand.high, kind, demand.text) if demand.high else np.inf
         if low > high:
-            told = Sentence("optimize.falling_demand", low=demand.low, high=demand.high)
+            told = _(
+                "the range falls from {low} to {high}; write the lower value first",
+                low=demand.low,
+                high=demand.high,
+            )
             raise QuantityError(told, code="falling-demand")
         sizes = [abs(each) for each in (low, high) if np.isfinite(each) and each] or [abs(start)]
         return Bounds(
@@ -343,5 +354,8 @@ class Task:
 def _split(text: str) -> tuple[float, str]:
     match = re.match(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$", text.strip())
     if match is None:
-        raise QuantityError(Sentence("optimize.no_value", text=text), code="quantity")
+        raise QuantityError(
+            _('"{text}" is no value; write a number with its unit, such as 40 deg', text=text),
+            code="quantity",
+        )
     return float(match[1]), match[2].strip()

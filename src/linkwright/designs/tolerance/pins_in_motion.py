@@ -28,6 +28,7 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.loads.base import Load
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
 
 #: Most rounds in which the pins follow their forces, and the residual, rad, that ends them.
 ROUNDS, FOLLOWED = 6, 1e-9
@@ -58,7 +59,7 @@ class FollowedPins:
             address = next(iter(self.mechanism.dimensions()))
             one = {address: np.array([self.mechanism.dimension(address)])}
             name = self._renamed(output)
-            ((_, found),) = sweep_curves(self.mechanism, one, outputs=[name], steps=self.study.steps)
+            ((_unused, found),) = sweep_curves(self.mechanism, one, outputs=[name], steps=self.study.steps)
             self._known[output] = np.where(self.followed, found[name][0], np.nan)
         return self._known[output]
 
@@ -96,12 +97,18 @@ def follow(study: Tolerances, nominal: Forces) -> FollowedPins:
     """
     positions = nominal.motion.positions
     if not positions.closed or positions.period is None:
-        raise LinkwrightError("tolerance.open_cycle")
+        raise LinkwrightError(
+            _(
+                "pressed pins have rates and forces only where the cycle closes; ask for positions, "
+                "or take free clearances",
+                code="tolerance.open_cycle",
+            )
+        )
     holes = {pin: study.clearances[pin].on for pin in study.holes("pressed")}
     angles = {pin: _angles(nominal, pin, on) for pin, on in holes.items()}
     jumps = {pin: _jumps(study, nominal, pin, on) for pin, on in holes.items()}
     best: FollowedPins | None = None
-    for _ in range(ROUNDS):
+    for _unused in range(ROUNDS):
         mechanism = study.prepared
         for pin in holes:
             law = TurnedByReaction.of(angles[pin], jumps[pin], positions.period)
@@ -144,7 +151,7 @@ def _jumps(study: Tolerances, nominal: Forces, pin: str, on: str) -> tuple[int, 
     places = np.flatnonzero(change > 4.0 * np.median(change))
     low, high = places * period / count, (places + 1) * period / count
     first, last = ends[places], ends[places + 1]
-    for _ in range(HALVINGS if len(places) else 0):
+    for _unused in range(HALVINGS if len(places) else 0):
         middle = 0.5 * (low + high)
         between = _angles(solve_forces(solve_motion(study.prepared, times=middle)), pin, on)
         before = np.abs(_turn(between - first)) > np.abs(_turn(last - between))
@@ -187,7 +194,17 @@ def _refuse_attached(elements: Mapping[str, object], pin: str, on: str) -> None:
     """Raises LinkwrightError where a joint, or a load of two links, uses the hole's point of the link as well."""
     for name, each in elements.items():
         if {pin, on} <= set(_words(each)):
-            raise LinkwrightError("tolerance.attached", what=name, pin=pin, link=on)
+            raise LinkwrightError(
+                _(
+                    "{what} is attached to the point {pin} of {link}, where the pin must move in its "
+                    "hole; give the clearance on another link of the pin, or give {what} a point of its "
+                    "own",
+                    code="tolerance.attached",
+                    what=name,
+                    pin=pin,
+                    link=on,
+                )
+            )
 
 
 def _words(value: object) -> Iterator[str]:

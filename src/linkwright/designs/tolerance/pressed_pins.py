@@ -19,6 +19,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.names import output_meant
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
+from linkwright.words import _
 
 #: Rounds in which the force follows the moved pin.
 ROUNDS = 3
@@ -43,7 +44,13 @@ def require_forces(study: Tolerances) -> Forces:
     forces = solve_forces(study.prepared, steps=study.steps)
     for pin, way in directions(study, forces).items():
         if not way.any():
-            raise LinkwrightError("tolerance.no_force", pin=pin)
+            raise LinkwrightError(
+                _(
+                    "the pin {pin} carries no force, so nothing presses it; give masses, gravity or loads",
+                    code="tolerance.no_force",
+                    pin=pin,
+                )
+            )
     return forces
 
 
@@ -71,7 +78,7 @@ def exact(study: Tolerances, output: str) -> Floats:
     found = np.empty(study.steps if forces.motion.positions.closed else forces.steps)
     for i in range(len(found)):
         here = {pin: way[i] for pin, way in ways.items()}
-        for _ in range(ROUNDS):
+        for _unused in range(ROUNDS):
             solved = solver.solve(_moved(study, holes, nominal, here))
             here = {pin: way[i] for pin, way in directions(study, solved).items()}
         found[i] = solved.motion.read(meant)[i]

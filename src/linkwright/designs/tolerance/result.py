@@ -25,7 +25,7 @@ from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.by_name import wanted
 from linkwright.parts.base import Result, fault, put
-from linkwright.words import Say
+from linkwright.words import Say, _, pgettext
 
 #: Linear and Monte Carlo spread agree within this share.
 AGREE = 0.005
@@ -65,21 +65,51 @@ class Spread(Result):
         """Solves what everything rests on; raises LinkwrightError where it cannot be."""
         for text in self.study.of:
             if len(wanted([text])) != 1:
-                raise ModelError([fault("tolerance.no_kind", f"of.{self.study.of.index(text)}", name=text)])
+                raise ModelError(
+                    [
+                        fault(
+                            "no_kind",
+                            f"of.{self.study.of.index(text)}",
+                            _('"{name}" is a curve, not one number of a machine'),
+                            _("add min, max, mean, rms, range or peak, or name it under curves"),
+                            name=text,
+                        )
+                    ]
+                )
             if self.study.holes("pressed") and not self.summaries[text].kind:
                 raise ModelError(
-                    [fault("tolerance.pressed_number", f"of.{self.study.of.index(text)}", name=text)]
+                    [
+                        fault(
+                            "pressed_number",
+                            f"of.{self.study.of.index(text)}",
+                            _('"{name}" is a design number; pressed pins shift summaries of outputs alone'),
+                            _(
+                                "name a summary such as rocker.angle range, or leave the pressed clearances out"
+                            ),
+                            name=text,
+                        )
+                    ]
                 )
-        _ = self.derivatives
+        _unused = self.derivatives
         if self.drawn:
             design_values(self.study.prepared, self.drawn)
         unseen = self.drawn and self.study.curves and not self.curves
         if unseen or (self.swept is not None and not self.swept.ok.any()):
-            raise ModelError([fault("tolerance.none_passes", "dimensions", count=self.study.samples)])
+            raise ModelError(
+                [
+                    fault(
+                        "none_passes",
+                        "dimensions",
+                        _("none of the {count} machines within these tolerances passes its cycle"),
+                        _("give smaller tolerances and clearances"),
+                        count=self.study.samples,
+                    )
+                ]
+            )
         if self.study.holes("pressed"):
-            _ = self.forces
+            _unused2 = self.forces
             if not all(is_position(self.study, output) for output in self._over_positions):
-                _ = self.followed
+                _unused3 = self.followed
 
     @property
     def _over_positions(self) -> list[str]:
@@ -310,16 +340,38 @@ class Spread(Result):
     def reason(self, text: str, say: Say) -> str:
         """Whether linear and Monte Carlo agree, and if not, why."""
         if self.swept is None or (self.failed == 0 and abs(self.ratio(text) - 1.0) <= AGREE):
-            return "" if self.swept is None else say("tolerance.agree", name=text)
+            return (
+                ""
+                if self.swept is None
+                else say(_("{name}: linear and Monte Carlo agree within 0.5 %.", name=text))
+            )
         lines = []
         if abs(self.ratio(text) - 1.0) > AGREE or math.isnan(self.ratio(text)):
             lines.append(self._difference(text, say))
         close = self.closeness
         if close is not None and close[0] < NEAR:
             place = shown(close[1], "angle" if self.turning else "length", 4)
-            lines.append(say("tolerance.dead_point", closeness=f"{close[0]:.3g}", place=place))
+            lines.append(
+                say(
+                    _(
+                        "The cycle comes near a dead point (closeness {closeness} at {place}, 0 at a dead "
+                        "point): there the derivatives grow without bound, and the linear spread holds for "
+                        "ever smaller tolerances only.",
+                        closeness=f"{close[0]:.3g}",
+                        place=place,
+                    )
+                )
+            )
         if self.failed:
-            lines.append(say("tolerance.failed", failed=self.failed, count=self.study.samples))
+            lines.append(
+                say(
+                    _(
+                        "{failed} of {count} machines do not pass the cycle; the numbers are of the others.",
+                        failed=self.failed,
+                        count=self.study.samples,
+                    )
+                )
+            )
         return " ".join(lines)
 
     def _difference(self, text: str, say: Say) -> str:
@@ -329,8 +381,20 @@ class Spread(Result):
         said = {"name": text, "ratio": f"{self.ratio(text):.4g}", "dimension": name}
         said["bend"] = f"{100 * bend:.3g} %" if math.isfinite(bend) else "—"
         if self.failed or not 0.25 * bend**2 < SMALL * abs(self.ratio(text) - 1.0):
-            return say("tolerance.differ", **said)
-        return say("tolerance.few_machines", count=len(self.values(text)), **said)
+            return say(
+                _(
+                    "{name}: Monte Carlo gives {ratio} times the linear spread, because the number is "
+                    "not linear in the tolerances: over ±2σ of {dimension} it bends by {bend} of its "
+                    "change.",
+                ).format(**said)
+            )
+        return say(
+            _(
+                "{name}: Monte Carlo gives {ratio} times the linear spread, and the number hardly "
+                "bends over the tolerances ({bend} over ±2σ of {dimension}): {count} machines tell "
+                "the spread no better; give more samples.",
+            ).format(count=len(self.values(text)), **said)
+        )
 
     @property
     def turning(self) -> bool:
@@ -345,7 +409,7 @@ class Spread(Result):
         if self.study.curves:
             found = {"input": self.derivatives.input}
             for output in self.study.curves:
-                _, values, deviation = self.curve(output)
+                _unused, values, deviation = self.curve(output)
                 found |= {output: values, f"{output} standard deviation": deviation}
                 if output in self.curves:
                     spread = self.curves[output]
@@ -370,7 +434,11 @@ class Spread(Result):
         shift = self.shift(text)
         if self.study.holes("pressed"):
             gaps = int((~self.followed.followed).sum()) if math.isnan(shift) else 0
-            unknown = say("tolerance.no_shift", count=gaps) if gaps else ""
+            unknown = (
+                say(_("not followed (the pins cannot follow at {count} positions)", count=gaps))
+                if gaps
+                else ""
+            )
             rows.append(Row("shift", shift, kind, text=unknown))
         if self.swept is not None:
             values = self.values(text)
@@ -382,7 +450,7 @@ class Spread(Result):
                     self.monte_carlo(text),
                     kind,
                     "",
-                    say("tolerance.machines", count=len(values)),
+                    say(_("{count} machines", count=len(values))),
                 ),
                 Row("mean", float(values.mean()), kind),
                 Row("range", low, kind, end=high),
@@ -391,24 +459,35 @@ class Spread(Result):
         if text in self.study.limits:
             share, low, high, linear = self.passed(text)
             note = say(
-                "tolerance.interval",
-                low=f"{100 * low:.3f}",
-                high=f"{100 * high:.3f}",
-                linear=f"{100 * linear:.3f}",
+                _(
+                    "95 % interval {low} … {high} %; linear {linear} %",
+                    low=f"{100 * low:.3f}",
+                    high=f"{100 * high:.3f}",
+                    linear=f"{100 * linear:.3f}",
+                )
             )
             rows.append(Row("yield", share, note=note, scale=PERCENT))
         parts = []
         for each in self.shares(text):
             slope = f"{each.slope:.5g} {self.study.per_unit(kind, each.name)}".rstrip()
-            note = say("tolerance.part", slope=slope)
+            note = say(_("∂y/∂p = {slope}", slope=slope))
             percent = f"{100 * each.share:.2f} %"
             parts.append(Row(each.name, each.share, label=each.name, note=note, text=percent))
         remarks = [self.reason(text, say)]
         if self.summaries[text].kind in EXTREMES:
-            remarks.append(say("tolerance.at_positions", name=text, count=self.study.steps))
+            remarks.append(
+                say(
+                    _(
+                        "{name} is that of {count} positions of the cycle; design numbers (`swing_angle`, "
+                        "`stroke`, `peak_…`) are exact between them as well.",
+                        name=text,
+                        count=self.study.steps,
+                    )
+                )
+            )
         found = [Block(text, text, rows, tuple(filter(None, remarks)))]
         return (
-            [*found, Block(f"{text}: contributions", say("tolerance.contributions"), parts)]
+            [*found, Block(f"{text}: contributions", say(_("Contributions to the variance")), parts)]
             if parts
             else found
         )
@@ -419,41 +498,79 @@ class Spread(Result):
             return ()
         kept = self.followed.followed
         off = float(self.followed.residual[kept].max()) if kept.any() else math.nan
-        said = [say("tolerance.followed", off=shown(off, "angle", 2))] if kept.any() else []
+        said = (
+            [
+                say(
+                    _(
+                        "The pins lie within {off} of where their reactions press them.",
+                        off=shown(off, "angle", 2),
+                    )
+                )
+            ]
+            if kept.any()
+            else []
+        )
         if not kept.all():
-            said.append(say("tolerance.gaps", count=int((~kept).sum()), steps=len(kept)))
+            said.append(
+                say(
+                    _(
+                        "At {count} of {steps} positions a reaction jumps or turns faster than the pin can "
+                        "follow in its hole: no value there.",
+                        count=int((~kept).sum()),
+                        steps=len(kept),
+                    )
+                )
+            )
         return (" ".join(said),)
 
     def _curve_block(self, output: str, say: Say) -> Block:
         kind = self.dimension(output)
-        place, _, deviation = self.curve(output)
+        place, _unused, deviation = self.curve(output)
         rows = []
         i = int(deviation.argmax())
-        note = say("tolerance.at", place=shown(float(place[i]), "angle" if self.turning else "length", 4))
+        note = say(
+            pgettext(
+                "tolerance",
+                "at {place}",
+                place=shown(float(place[i]), "angle" if self.turning else "length", 4),
+            )
+        )
         rows.append(Row("largest_deviation", float(deviation[i]), kind, "", note))
         if output in self.curves:
             spread = self.curves[output]
             k = int(spread.deviation.argmax())
             place_k = shown(float(place[k]), "angle" if self.turning else "length", 4)
-            note = say("tolerance.at_of", place=place_k, count=spread.machines)
+            note = say(_("at {place}, of {count} machines", place=place_k, count=spread.machines))
             rows.append(Row("largest_monte_carlo", float(spread.deviation[k]), kind, "", note))
             wide = spread.high - spread.low
             k = int(np.nanargmax(wide))
-            note = say("tolerance.at", place=shown(float(place[k]), "angle" if self.turning else "length", 4))
+            note = say(
+                pgettext(
+                    "tolerance",
+                    "at {place}",
+                    place=shown(float(place[k]), "angle" if self.turning else "length", 4),
+                )
+            )
             rows.append(Row("widest", float(wide[k]), kind, "", note))
         moved = self.pressed(output)
         if np.isfinite(moved).any() and np.nanmax(np.abs(moved)) > 0.0:
             i = int(np.nanargmax(np.abs(moved)))
-            note = say("tolerance.at", place=shown(float(place[i]), "angle" if self.turning else "length", 4))
+            note = say(
+                pgettext(
+                    "tolerance",
+                    "at {place}",
+                    place=shown(float(place[i]), "angle" if self.turning else "length", 4),
+                )
+            )
             rows.append(Row("largest_shift", float(moved[i]), kind, "", note))
-        title = say("tolerance.curve", name=output)
+        title = say(_("Curve {name}", name=output))
         return Block(f"curve {output}", title, rows, self._followed_remark(output, say))
 
     def steps(self, say: Say) -> list[Step]:
         found: list[Step] = []
         for text in self.study.of:
             kind, step = self.dimension(text), Step(str(len(found) + 1), text)
-            step.say(say("tolerance.formula"))
+            step.say(say(_("σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)")))
             for each in self.shares(text):
                 product = abs(each.slope * each.deviation)
                 put(
@@ -472,14 +589,16 @@ class Spread(Result):
                 step.say(reason)
             found.append(step)
         for pin in self.study.holes("pressed"):
-            step = Step(str(len(found) + 1), say("tolerance.pressed", pin=pin))
+            step = Step(str(len(found) + 1), say(_("Pin {pin} pressed by its own reaction", pin=pin)))
             step.law("r = c·F/|F|; Δy(φ) = c·(∂y/∂x·F_x + ∂y/∂y·F_y)/|F|")
             for text in self.study.of:
                 shift = self.shift(text)
                 if not math.isnan(shift):
                     put(step, f"Δ {text}", "", shift, self.dimension(text))
             found.append(step)
-        return found or [Step("1", say("tolerance.formula"))]
+        return found or [
+            Step("1", say(_("σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)")))
+        ]
 
 
 def _summed(kind: str, curve: Floats) -> float:

@@ -14,6 +14,7 @@ from linkwright.metrics.base import METRICS
 from linkwright.metrics.by_name import is_metric, wanted
 from linkwright.parts.base import fault
 from linkwright.registry import PROBABLE, nearest
+from linkwright.words import _, pgettext
 
 
 @dataclass(frozen=True)
@@ -27,26 +28,65 @@ class ToleranceStudy(Tolerances):
 
     def findings(self) -> list[Finding]:
         found = (
-            [] if self.dimensions or self.clearances else [fault("tolerance.nothing_varies", "dimensions")]
+            []
+            if self.dimensions or self.clearances
+            else [
+                fault(
+                    "nothing_varies",
+                    "dimensions",
+                    _("nothing varies"),
+                    _("write dimensions: {{crank.length: 0.05 mm}}, or clearances"),
+                )
+            ]
         )
-        found += [] if self.of or self.curves else [fault("tolerance.nothing_asked", "of")]
+        found += (
+            []
+            if self.of or self.curves
+            else [
+                fault(
+                    "nothing_asked",
+                    "of",
+                    _("nothing is asked"),
+                    _('write of: ["rocker.angle range"], or curves'),
+                )
+            ]
+        )
         for address, tolerance in self.dimensions.items():
             found += self._dimension_findings(address, tolerance)
         for pin, clearance in self.clearances.items():
             found += self._clearance_findings(pin, clearance)
         found += self._name_findings()
         found += [
-            fault("tolerance.limit_of", f"limits.{name}", name=name)
+            fault(
+                "limit_of",
+                f"limits.{name}",
+                _('there is a limit of "{name}", which is not asked'),
+                _("name it under of as well"),
+                name=name,
+            )
             for name in self.limits
             if name not in self.of
         ]
         found += [
-            fault("part.limits_order", f"limits.{name}")
+            fault(
+                "limits_order",
+                f"limits.{name}",
+                _("the upper limit is not above the lower one"),
+                _("give the larger value as upper"),
+            )
             for name, limit in self.limits.items()
             if limit.lower >= limit.upper
         ]
         if self.samples < LEAST:
-            found.append(fault("tolerance.few_samples", "samples", least=LEAST))
+            found.append(
+                fault(
+                    "few_samples",
+                    "samples",
+                    _("too few machines to tell a spread"),
+                    pgettext("tolerance", "give at least {least}"),
+                    least=LEAST,
+                )
+            )
         return found
 
     def _name_findings(self) -> list[Finding]:
@@ -63,7 +103,14 @@ class ToleranceStudy(Tolerances):
             except RequestError as error:
                 offer = nearest(text[:100], list(METRICS), PROBABLE) if number else None
                 found.append(
-                    fault("tolerance.no_number", key, name=text, offer=offer)
+                    fault(
+                        "no_number",
+                        key,
+                        _('there is no output or design number "{name}"'),
+                        _('did you mean "{offer}"?'),
+                        name=text,
+                        offer=offer,
+                    )
                     if offer
                     else Finding("error", "", key, error.sentence, "", "unknown-name")
                 )
@@ -73,35 +120,91 @@ class ToleranceStudy(Tolerances):
         key, known = f"dimensions.{address}", self.mechanism.dimensions()
         if address not in known:
             return [
-                fault("tolerance.no_dimension", key, name=address, nearest=nearest(address, known) or "—")
+                fault(
+                    "no_dimension",
+                    key,
+                    _('the mechanism has no dimension "{name}"'),
+                    _("the nearest is {nearest}"),
+                    name=address,
+                    nearest=nearest(address, known) or "—",
+                )
             ]
         if tolerance.tolerance <= 0:
-            return [fault("tolerance.not_above_zero", key)]
+            return [
+                fault(
+                    "not_above_zero",
+                    key,
+                    _("a tolerance of zero or less"),
+                    _("give a tolerance above zero, or leave it out"),
+                )
+            ]
         needed = dimension_of(self.mechanism, address)
         if tolerance.dimension not in (None, units.NONE, needed) and needed is not None:
             assert tolerance.dimension is not None
             given, wanted = units.name_of(tolerance.dimension), units.name_of(needed)
-            return [fault("tolerance.wrong_kind", key, name=address, given=given, needed=wanted)]
+            return [
+                fault(
+                    "wrong_kind",
+                    key,
+                    _("the tolerance of {name} is {given}, where {needed} is needed"),
+                    _("write it in the unit of the dimension"),
+                    name=address,
+                    given=given,
+                    needed=wanted,
+                )
+            ]
         owner = address.partition(".")[0]
         moved = any(clearance.on == owner for clearance in self.clearances.values())
         link = self.mechanism.links.get(owner)
         if moved and link is not None and self.alias(address) not in self.prepared.dimensions():
-            return [fault("tolerance.bent_clearance", key, link=owner)]
+            return [
+                fault(
+                    "bent_clearance",
+                    key,
+                    _("{link} has a hole with clearance and a tolerance that its coordinates do not show"),
+                    _("give the clearance on the other link of the pin"),
+                    link=owner,
+                )
+            ]
         return self._wheel_findings(key, address, tolerance.tolerance)
 
     def _wheel_findings(self, key: str, address: str, change: float) -> list[Finding]:
         """Pairs of wheels that no longer fit when a dimension changes."""
-        return [fault("tolerance.wheels", key, why=why) for why in misfits(self.mechanism, address, change)]
+        return [
+            fault(
+                "wheels",
+                key,
+                _("{why} as soon as this changes"),
+                _("give the pair by its teeth, or by its ratio, alone: such a pair takes any distance"),
+                why=why,
+            )
+            for why in misfits(self.mechanism, address, change)
+        ]
 
     def _clearance_findings(self, pin: str, clearance: Clearance) -> list[Finding]:
         joint = self.mechanism.pins.get(pin)
         key = f"clearances.{pin}"
         if joint is None:
-            return [fault("tolerance.no_pin", key, name=pin, known=tuple(self.mechanism.pins))]
+            return [
+                fault(
+                    "no_pin",
+                    key,
+                    _('there is no pin "{name}"'),
+                    _("one of: {known}"),
+                    name=pin,
+                    known=tuple(self.mechanism.pins),
+                )
+            ]
         if clearance.on not in joint.joined:
             return [
                 fault(
-                    "tolerance.not_on", f"{key}.on", pin=pin, link=clearance.on, known=", ".join(joint.joined)
+                    "not_on",
+                    f"{key}.on",
+                    _("the pin {pin} does not touch {link}"),
+                    _("one of: {known}"),
+                    pin=pin,
+                    link=clearance.on,
+                    known=", ".join(joint.joined),
                 )
             ]
         address = f"{clearance.on}.{pin}.x"
@@ -118,5 +221,15 @@ class ToleranceStudy(Tolerances):
         except ModelError:
             raise
         except LinkwrightError as error:
-            raise ModelError([fault("tolerance.unsolved", "mechanism", why=error.sentence)]) from None
+            raise ModelError(
+                [
+                    fault(
+                        "unsolved",
+                        "mechanism",
+                        _("the study cannot be made: {why}"),
+                        _("mend the mechanism or the names (linkwright check, linkwright solve)"),
+                        why=error.sentence,
+                    )
+                ]
+            ) from None
         return found

@@ -10,6 +10,7 @@ from linkwright.cams.result import CamDesign
 from linkwright.errors import RequestError
 from linkwright.export.dxf.sheet import content_of, new_document
 from linkwright.whole_files import refuse_target, write_whole
+from linkwright.words import _
 
 ENDINGS = (".dxf", ".csv", ".txt")
 #: Layers with their colours (numbers of the AutoCAD colour index), seen on white and on dark sheets.
@@ -21,7 +22,14 @@ def save_profile(design: CamDesign, path: str | Path, points: int = 720, *, forc
     """Writes the profile as the file's ending says; raises LinkwrightError where that cannot be."""
     path = Path(path)
     if path.suffix.lower() not in ENDINGS:
-        raise RequestError("cams.profile_ending", path=path, endings=tuple(ENDINGS))
+        raise RequestError(
+            _(
+                "{path}: choose one of the endings {endings}",
+                code="cams.profile_ending",
+                path=path,
+                endings=tuple(ENDINGS),
+            )
+        )
     refuse_target(path, force=force)
     if path.suffix.lower() == ".dxf":
         return write_whole(path, _drawing(design, points), force=force)

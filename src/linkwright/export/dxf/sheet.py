@@ -19,6 +19,7 @@ from linkwright.pictures.picture import Circle, Line, Vec
 from linkwright.pictures.symbols.base import PIN, points
 from linkwright.plot.drawing.dimensions import Dimensioned, dimension_lines
 from linkwright.plot.drawing.scene import laid_out, link_labels, point_labels
+from linkwright.words import _
 from linkwright.words.characters import one_line
 
 #: Layers with their colours (numbers of the AutoCAD colour index), each with a contrast of 3 or more on a white, a
@@ -85,7 +86,7 @@ class Sheet:
         if not names:
             return
         for label, chosen in zip(wanted, places[len(values) :], strict=True):
-            left, _, _, bottom = chosen.box
+            left, _unused, _unused2, bottom = chosen.box
             self._text(label.text, (left, bottom - 0.15 * label.size), CAPITAL * label.size * self.unit)
         cloud = np.concatenate(ink)
         corner = (float(np.nanmin(cloud[:, 0])), float(np.nanmax(cloud[:, 1])) + 60.0)
@@ -200,7 +201,7 @@ def check_unit(unit: str) -> tuple[float, int]:
     """Units per metre, and DXF's number of the unit; raises LinkwrightError."""
     known = {"mm": (1000.0, 4), "m": (1.0, 6)}
     if unit not in known:
-        raise RequestError("export.bad_unit", unit=unit)
+        raise RequestError(_('a drawing is in mm or m, not in "{unit}"', code="export.bad_unit", unit=unit))
     return known[unit]
 
 

@@ -16,6 +16,7 @@ from linkwright.export.dxf.sheet import (
 )
 from linkwright.export.export import FORMATS, Format
 from linkwright.export.results import Results
+from linkwright.words import _
 
 
 def content(
@@ -37,7 +38,9 @@ def content(
     """
     factor, code = check_unit(unit)
     if curve not in ("polyline", "spline"):
-        raise RequestError("export.bad_curve", curve=curve)
+        raise RequestError(
+            _('a path is a "polyline" or a "spline", not a "{curve}"', code="export.bad_curve", curve=curve)
+        )
     index = _index(results, position)
     document = new_document(LAYERS, code)
     sheet = Sheet(document, results, index, factor)
@@ -56,10 +59,22 @@ def _index(results: Results, position: int | None) -> int:
         return results.first_ok()
     steps = results.motion.steps
     if not -steps <= position < steps:
-        raise RequestError("export.no_position", position=position, last=steps - 1)
+        raise RequestError(
+            _(
+                "position {position} does not exist; there are the positions 0 to {last}",
+                code="export.no_position",
+                position=position,
+                last=steps - 1,
+            )
+        )
     if not results.motion.ok[position]:
         raise LinkwrightError(
-            "export.not_drawn", position=position, sentence=results.motion.outcomes[position].sentence
+            _(
+                "position {position} cannot be drawn: {sentence}",
+                code="export.not_drawn",
+                position=position,
+                sentence=results.motion.outcomes[position].sentence,
+            )
         )
     return position % steps
 

@@ -9,6 +9,7 @@ from linkwright.export.modelica.equations import Equations, indented
 from linkwright.export.modelica.names import identifier, number, quoted
 from linkwright.export.modelica.rates import Rates
 from linkwright.export.results import Results
+from linkwright.words import _
 
 INTERVALS = 360
 FORMS = ("positions", "rates")
@@ -34,7 +35,13 @@ def content(
     motion, mechanism = results.motion, results.mechanism
     index = results.first_ok()
     if form not in FORMS:
-        raise RequestError("export.bad_form", form=form)
+        raise RequestError(
+            _(
+                'the equations are of "positions" or of "rates", not of "{form}"',
+                code="export.bad_form",
+                form=form,
+            )
+        )
     if form == "rates":
         text = Rates(results, index, seconds(motion) / RELAXATIONS).write()
     else:

@@ -18,7 +18,7 @@ from linkwright.export.results import Results
 from linkwright.export.tables import Column, Table, tables
 from linkwright.metrics.base import METRICS
 from linkwright.units import NONE, si_symbol
-from linkwright.words import say
+from linkwright.words import Message, _, say
 from linkwright.words.characters import printable
 
 Cell = str | float | int | bool | None
@@ -81,7 +81,7 @@ class Workbook:
 
     def say(self, key: str) -> str:
         """A word of the catalogue."""
-        return say(f"export.{key}", self.results.language)
+        return say(key if isinstance(key, Message) else f"export.{key}", self.results.language)
 
     def _turned(self, columns: Sequence[Column]) -> list[Column]:
         return [column.turned if self.degrees else column for column in columns]
@@ -113,7 +113,14 @@ class Workbook:
         sheet = self._sheet(table.subject)
         columns = [*leading, *self._turned(table.columns)]
         if len(columns) > MOST_COLUMNS or len(columns[0].values) > MOST_ROWS:
-            raise RequestError("export.sheet_full", columns=MOST_COLUMNS, rows=MOST_ROWS)
+            raise RequestError(
+                _(
+                    "an Excel sheet holds {columns} columns of {rows} values; take fewer steps, or .parquet",
+                    code="export.sheet_full",
+                    columns=MOST_COLUMNS,
+                    rows=MOST_ROWS,
+                )
+            )
         for index, column in enumerate(columns):
             sheet.write_string(0, index, self._heading(column), self.head)
             subject = table.subject if index >= len(leading) else "positions"
@@ -131,8 +138,8 @@ class Workbook:
 
     def _heading(self, column: Column) -> str:
         """Owner, quantity in words, unit, each on a line."""
-        owner = self.say("quantity.shaking_force") if column.owner == "shaking_force" else column.owner
-        word = column.words(self.results.language) if column.quantity else self.say("input")
+        owner = self.say(_("shaking force")) if column.owner == "shaking_force" else column.owner
+        word = column.words(self.results.language) if column.quantity else self.say(_("input"))
         return printable("\n".join(filter(None, (owner, word, f"[{column.unit}]"))))
 
 

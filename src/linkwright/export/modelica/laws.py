@@ -15,27 +15,34 @@ from linkwright.drivers.expression import ExpressionLaw
 from linkwright.drivers.table import TableLaw
 from linkwright.errors import LinkwrightError
 from linkwright.export.modelica.names import number
+from linkwright.words import _
 
 
 @singledispatch
 def law_text(law: Law, begin: float, end: float) -> str:
     """A law between two times, s, as an expression of ``time``, of operations that tools can differentiate."""
-    raise LinkwrightError("export.no_law", law=law.key)
+    raise LinkwrightError(
+        _(
+            "a driver with the law {law!r} cannot be written as Modelica text",
+            code="export.no_law",
+            law=law.key,
+        )
+    )
 
 
 @law_text.register
-def _(law: ConstantSpeed, begin: float, end: float) -> str:
+def _constant_speed(law: ConstantSpeed, begin: float, end: float) -> str:
     return f"{number(law.start)} + ({number(law.speed)})*time"
 
 
 @law_text.register
-def _(law: ExpressionLaw, begin: float, end: float) -> str:
+def _expression_law(law: ExpressionLaw, begin: float, end: float) -> str:
     parameters = {name: number(value) for name, value in law.parameters.items()}
     return formula(law.expression.tree, {**parameters, "t": "time"})
 
 
 @law_text.register
-def _(law: TableLaw, begin: float, end: float) -> str:
+def _table_law(law: TableLaw, begin: float, end: float) -> str:
     """By cubic pieces between the times of the table, straight ones of a linear one."""
     nodes = np.asarray(law.times)
     if law.interpolation == "periodic":
@@ -45,7 +52,7 @@ def _(law: TableLaw, begin: float, end: float) -> str:
         nodes = np.unique(np.concatenate([nodes + turn * period for turn in turns]))
     rows = np.stack([nodes, *law.coordinate(nodes)], axis=1)
     texts = []
-    for (left, q, qd, qdd), (right, _, _, qdd_next) in pairwise(rows):
+    for (left, q, qd, qdd), (right, _unused, _unused2, qdd_next) in pairwise(rows):
         third = (qdd_next - qdd) / (6 * (right - left)) if law.interpolation != "linear" else 0.0
         x = f"(time - ({number(left)}))"
         a, b, c, d = (f"({number(each)})" for each in (q, qd, qdd / 2, third))

@@ -25,8 +25,7 @@ from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, section_field
 from linkwright.parts.fields import Flag, Listed, Named, Table
 from linkwright.parts.motions import plain_motions
-from linkwright.words import Message, Say
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, Say, _
 
 #: Acceleration of free fall for the beam's own weight, m/s².
 GRAVITY = 9.80665
@@ -142,19 +141,53 @@ class Beam(Problem):
         places |= {f"hinges.{i}": x for i, x in enumerate(self.hinges)}
         places |= {f"steps.{i}.from": each.start for i, each in enumerate(self.steps)}
         found += [
-            fault("beam.outside", key, x=shown(x, "length"), length=shown(self.length, "length"))
+            fault(
+                "outside",
+                key,
+                _("{x} lies outside the beam, which is {length} long"),
+                _("give a place between 0 and the length"),
+                x=shown(x, "length"),
+                length=shown(self.length, "length"),
+            )
             for key, x in places.items()
             if not 0.0 <= x <= self.length
         ]
         for name, support in self.supports.items():
             if support.kind == "spring" and not (support.stiffness or support.torsional_stiffness):
-                found.append(fault("beam.no_stiffness", f"supports.{name}"))
+                found.append(
+                    fault(
+                        "no_stiffness",
+                        f"supports.{name}",
+                        _("the spring has no stiffness"),
+                        _("give stiffness: 50 kN/m, or torsional_stiffness"),
+                    )
+                )
         if self.own_weight and (self.material.density is None or self.section.area is None):
-            found.append(fault("beam.no_weight", "own_weight"))
+            found.append(
+                fault(
+                    "no_weight",
+                    "own_weight",
+                    _("the own weight needs the material's density and the section's area"),
+                    _("give them, or leave own_weight out"),
+                )
+            )
         if self.safety is not None and self.material.strength is None:
-            found.append(fault("beam.no_strength", "safety"))
+            found.append(
+                fault(
+                    "no_strength",
+                    "safety",
+                    _("the material has no strength"),
+                    _("give its strength, or leave safety out"),
+                )
+            )
         return found or [
-            fault("beam.can_move", "supports", how=self._motion(motion))
+            fault(
+                "can_move",
+                "supports",
+                _("too few supports: the beam can {how}"),
+                _("add a support, or fix one"),
+                how=self._motion(motion),
+            )
             for motion in plain_motions(free_motions(self.length, self._holds(), sorted(self.hinges)))
         ]
 
@@ -162,26 +195,58 @@ class Beam(Problem):
         kinds = [each for each in ("force", "couple", "line") if getattr(load, each) is not None]
         key = f"loads.{name}"
         if len(kinds) != 1 or (kinds[0] != "line" and load.at is None):
-            return [fault("beam.load_form", key)]
+            return [
+                fault(
+                    "load_form",
+                    key,
+                    _("the load is neither complete nor unique"),
+                    _(
+                        "write {{force: -2 kN, at: 1 m}}, {{couple: 900 N·m, at: 1 m}} or {{line: -1 kN/m, "
+                        "from: 0 m, to: 1 m}}",
+                    ),
+                )
+            ]
         end = self.length if load.end is None else load.end
         places = {"from": load.start, "to": end} if kinds[0] == "line" else {"at": load.at or 0.0}
         found = [
-            fault("beam.outside", f"{key}.{word}", x=shown(x, "length"), length=shown(self.length, "length"))
+            fault(
+                "outside",
+                f"{key}.{word}",
+                _("{x} lies outside the beam, which is {length} long"),
+                _("give a place between 0 and the length"),
+                x=shown(x, "length"),
+                length=shown(self.length, "length"),
+            )
             for word, x in places.items()
             if not 0.0 <= x <= self.length * (1 + 1e-12)
         ]
         if kinds[0] == "line" and not found and end <= load.start:
-            found.append(fault("beam.empty_line", f"{key}.to"))
+            found.append(
+                fault(
+                    "empty_line",
+                    f"{key}.to",
+                    _("the line load ends where it begins, or before"),
+                    _("give to a value above from"),
+                )
+            )
         return found
 
     def _motion(self, motion: Floats) -> Message:
         """A motion that the supports leave, in words; ``motion`` is (w over length, slope, kinks)."""
         kinks = [x for x, kink in zip(sorted(self.hinges), motion[2:], strict=True) if abs(kink) > 1e-9]
         if kinks:
-            return Sentence("beam.folds", places=tuple(shown(x, "length") for x in kinks))
+            return _(
+                "fold at the hinge at {places}",
+                code="beam.folds",
+                places=tuple(shown(x, "length") for x in kinks),
+            )
         if abs(motion[1]) < 1e-9:
-            return Sentence("beam.shifts")
-        return Sentence("beam.turns", place=shown(-motion[0] / motion[1] * self.length, "length"))
+            return _("move up and down", code="beam.shifts")
+        return _(
+            "turn about x = {place}",
+            code="beam.turns",
+            place=shown(-motion[0] / motion[1] * self.length, "length"),
+        )
 
     def _holds(self) -> list[Hold]:
         return [each.hold for each in self.supports.values()]
@@ -315,17 +380,17 @@ class BeamLine(Result):
                 rows.append(Row(f"{name}.force", force, "force", f"{name} F"))
             if kind in ("fixed", "guided") or self.beam.supports[name].torsional_stiffness:
                 rows.append(Row(f"{name}.couple", couple, "torque", f"{name} M"))
-        found = [Block("reactions", say("beam.reactions"), rows)]
+        found = [Block("reactions", say(_("Reactions (force up, couple counter-clockwise)")), rows)]
         extremes = []
         for quantity in QUANTITIES:
             for word, (x, value) in zip(("least", "largest"), self.extremes(quantity), strict=True):
                 label = f"{say(f'beam.{quantity}')}, {say(f'beam.{word}')}"
-                note = say("beam.at", x=shown(x, "length"))
+                note = say(_("at x = {x}", x=shown(x, "length")))
                 extremes.append(Row(f"{word}_{quantity}", value, DIMENSIONS[quantity], label, note))
-        found.append(Block("extremes", say("beam.extremes"), extremes))
-        found.append(Block("places", say("beam.places"), self._places(say)))
+        found.append(Block("extremes", say(_("Extremes")), extremes))
+        found.append(Block("places", say(_("Key points")), self._places(say)))
         strength = self._strength(say)
-        return [*found, Block("strength", say("beam.strength"), strength)] if strength else found
+        return [*found, Block("strength", say(_("Strength")), strength)] if strength else found
 
     def _places(self, say: Say) -> list[Row]:
         """Moment and deflection where segments meet."""
@@ -352,7 +417,7 @@ class BeamLine(Result):
                     self.stress[1],
                     "pressure",
                     "",
-                    say("beam.at", x=shown(self.stress[0], "length")),
+                    say(_("at x = {x}", x=shown(self.stress[0], "length"))),
                 )
             )
         if self.safety is not None:
@@ -366,11 +431,21 @@ class BeamLine(Result):
 
     def _balance_step(self, say: Say) -> Step:
         """Reactions, and both equations of equilibrium with them."""
-        step = Step("1", say("beam.step_reactions"))
+        step = Step("1", say(_("Reactions and equilibrium")))
         holds = {name: each.hold for name, each in self.beam.supports.items()}
         unknown = sum(h.deflection + h.slope for h in holds.values())
         degree = unknown - 2 - len(self.beam.hinges)
-        step.say(say("beam.determinate" if degree <= 0 else "beam.indeterminate", degree=degree))
+        step.say(
+            say(
+                (
+                    _("Equilibrium alone gives the reactions.")
+                    if degree <= 0
+                    else _(
+                        "Statically indeterminate to degree {degree}: the stiffness decides with equilibrium."
+                    )
+                ).format(degree=degree)
+            )
+        )
         points, spreads = self.beam._loads()
         balance_laws(step, holds, self.beam.length, points, spreads)
         for name, (force, couple) in self.reactions.items():
@@ -378,8 +453,8 @@ class BeamLine(Result):
                 put(step, f"{name}.F", "", force, "force")
             if couple:
                 put(step, f"{name}.M", "", couple, "torque")
-        step.say(say("beam.proof"))
-        forces = [f for f, _ in self.reactions.values()] + [p.force for p in points]
+        step.say(say(_("Proof by the sums over all forces, and moments about x = 0:")))
+        forces = [f for f, _unused in self.reactions.values()] + [p.force for p in points]
         forces += [(s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
         put(step, "ΣF", "", rounded(forces), "force", numbers=signed(forces, "force"))
         moments = [
@@ -393,11 +468,27 @@ class BeamLine(Result):
 
     def _segment_step(self, say: Say) -> Step:
         """The polynomials of every segment."""
-        step = Step("2", say("beam.step_segments"))
+        step = Step(
+            "2",
+            say(
+                _(
+                    "Shear force, moment, slope and deflection, segment by segment (ξ from the segment's "
+                    "start)",
+                )
+            ),
+        )
         largest = {quantity: self._largest_coefficient(quantity) for quantity in QUANTITIES}
         for segment in self.line.segments:
-            step.say(say("beam.segment", start=shown(segment.start, "length"), end=shown(segment.end, "length"),
-                         rigidity=number(segment.rigidity)))  # fmt: skip
+            step.say(
+                say(
+                    _(
+                        "from {start} to {end}, EI = {rigidity} N·m²",
+                        start=shown(segment.start, "length"),
+                        end=shown(segment.end, "length"),
+                        rigidity=number(segment.rigidity),
+                    )
+                )
+            )
             for symbol, quantity, unit in (("V", "shear", "N"), ("M", "moment", "N·m"), ("θ", "slope", "rad"),
                                            ("w", "deflection", "m")):  # fmt: skip
                 polynomial = getattr(segment, quantity).coef
@@ -414,10 +505,19 @@ class BeamLine(Result):
         )
 
     def _extreme_step(self, say: Say) -> Step:
-        step = Step("3", say("beam.extremes"))
+        step = Step("3", say(_("Extremes")))
         for symbol, quantity, zero in (("V", "shear", "q"), ("M", "moment", "V"), ("w", "deflection", "θ")):
             x, value = self.largest(quantity)
-            step.say(say("beam.extreme_at", symbol=symbol, zero=zero, x=shown(x, "length")))
+            step.say(
+                say(
+                    _(
+                        "{symbol} is largest in size where {zero} = 0 or at an end or jump: x = {x}",
+                        symbol=symbol,
+                        zero=zero,
+                        x=shown(x, "length"),
+                    )
+                )
+            )
             put(step, f"{symbol}_max", "", value, DIMENSIONS[quantity])
         strength, safety = self.beam.material.strength or 0.0, self.beam.safety or 1.0
         if self.stress is not None and self.stress[1]:
@@ -444,4 +544,4 @@ class BeamLine(Result):
 def _first_largest(found: Iterable[tuple[float, float]]) -> tuple[float, float]:
     """Of pairs (place, value) the value of largest size, of equal ones the first."""
     ordered = sorted(found)
-    return ordered[first_largest(np.abs([value for _, value in ordered]))]
+    return ordered[first_largest(np.abs([value for _unused, value in ordered]))]

@@ -29,7 +29,7 @@ from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, require_modulus, section_field
 from linkwright.parts.fields import Listed, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: Points of a link lie on a line within this share of its length.
 STRAIGHT = 1e-6
@@ -63,23 +63,65 @@ class LinkBending(OfMechanism):
     def findings(self) -> list[Finding]:
         links = self.mechanism.links
         if self.link not in links:
-            return [fault("beam.no_link", "link", link=self.link, mechanism=self.mechanism.name,
-                          links=", ".join(links))]  # fmt: skip
+            return [
+                fault(
+                    "no_link",
+                    "link",
+                    _('there is no link "{link}" in {mechanism}'),
+                    _("one of: {links}"),
+                    link=self.link,
+                    mechanism=self.mechanism.name,
+                    links=", ".join(links),
+                )
+            ]
         link = links[self.link]
         if len(link.points) < 2:
-            return [fault("beam.one_point", "link", link=self.link)]
+            return [
+                fault(
+                    "one_point",
+                    "link",
+                    _("the link {link} has no length: it has one point"),
+                    _("choose a link with two points or more"),
+                    link=self.link,
+                )
+            ]
         strange = [name for name in self.axis if name not in link.points]
         if strange or len(set(self.axis)) < len(self.axis) or len(self.axis) == 1:
             known = ", ".join(link.points)
             return [
-                fault("beam.axis", "axis", link=self.link, names=", ".join(strange or self.axis), known=known)
+                fault(
+                    "axis",
+                    "axis",
+                    _("the axis of {link} cannot run through {names}"),
+                    _("name two or more of its points, each once, in their order: {known}"),
+                    link=self.link,
+                    names=", ".join(strange or self.axis),
+                    known=known,
+                )
             ]
         found = require_modulus(self.section)
         off = self._off_axis(link)
         if off:
-            found.append(fault("beam.crooked", "link", link=self.link, names=", ".join(off)))
+            found.append(
+                fault(
+                    "crooked",
+                    "link",
+                    _("the points or the mass centre of {link} do not lie on its axis ({names})"),
+                    _("name the points through which it runs: axis: [A, B, C]"),
+                    link=self.link,
+                    names=", ".join(off),
+                )
+            )
         elif SpreadMass(self.link_axis, link).gap > STRAIGHT:
-            found.append(fault("beam.mass_off", "link", link=self.link))
+            found.append(
+                fault(
+                    "mass_off",
+                    "link",
+                    _("mass, centre and inertia of {link} cannot lie along its axis"),
+                    _("correct them, or lay the axis through more points: axis: [A, B, C]"),
+                    link=self.link,
+                )
+            )
         return found
 
     @property
@@ -103,7 +145,17 @@ class LinkBending(OfMechanism):
         except LinkwrightError as error:
             from linkwright.errors import ModelError
 
-            raise ModelError([fault("part.not_passed", "mechanism", why=error.sentence)]) from None
+            raise ModelError(
+                [
+                    fault(
+                        "not_passed",
+                        "mechanism",
+                        _("the mechanism does not pass its cycle: {why}"),
+                        _("mend the model first (linkwright check)"),
+                        why=error.sentence,
+                    )
+                ]
+            ) from None
         return LinkStress(self, forces)
 
 
@@ -260,10 +312,15 @@ class LinkStress(Result):
         most = max(float(each.max()) for each in sizes)
         if gap > LIMIT * most:
             raise SelfCheckError(
-                "beam.not_closed",
-                link=self.problem.link,
-                gap=shown(gap, "force", 3),
-                size=shown(most, "force", 3),
+                _(
+                    "the forces on {link!r} do not pass their own check: beyond its last point {gap} are "
+                    "left, beside forces of up to {size}. This is an error of the program, and no result "
+                    "may be used: please report it with the model file",
+                    code="beam.not_closed",
+                    link=self.problem.link,
+                    gap=shown(gap, "force", 3),
+                    size=shown(most, "force", 3),
+                )
             )
 
     def _below(self, place: Floats) -> Floats:
@@ -371,11 +428,11 @@ class LinkStress(Result):
         size = np.hypot(self.deflection[:, :, 0], self.deflection[:, :, 1])
         rows.append(self._row("largest_deflection", size, "length", say))
         rows.append(Row("closure", self.closure, "force", remainder=True))
-        return [Block("cycle", say("beam.cycle"), rows, self._remarks(say))]
+        return [Block("cycle", say(_("Largest values over the cycle")), rows, self._remarks(say))]
 
     def _row(self, key: str, values: Floats, dimension: str, say: Say) -> Row:
         i, k = self.worst(values)
-        note = say("beam.at_input", at=self._input(i), x=shown(self.stations[k], "length"))
+        note = say(_("at {at}, x = {x}", at=self._input(i), x=shown(self.stations[k], "length")))
         return Row(key, float(values[i, k]), dimension, "", note)
 
     def _input(self, index: int) -> str:
@@ -388,30 +445,54 @@ class LinkStress(Result):
         if (a, b) != (0.0, self.axis.length):
             found.append(
                 say(
-                    "beam.mass_span", link=self.problem.link, start=shown(a, "length"), end=shown(b, "length")
+                    _(
+                        "The inertia of {link} is smaller than that of an even bar: its mass is spread "
+                        "evenly from {start} to {end}.",
+                        link=self.problem.link,
+                        start=shown(a, "length"),
+                        end=shown(b, "length"),
+                    )
                 )
             )
         if self.mass.density(np.linspace(a, b, 101)).min() < -1e-9 * max(self.link.mass, 1e-300) / (b - a):
-            found.append(say("beam.negative_density", link=self.problem.link))
+            found.append(
+                say(
+                    _(
+                        "Mass, centre and inertia of {link} cannot be spread along it without a negative "
+                        "density: the mass does not lie along the line, and the moments between the points "
+                        "are approximate.",
+                        link=self.problem.link,
+                    )
+                )
+            )
         if any(each.name == "loads" for each in self.point_forces):
-            found.append(say("beam.as_resultant", link=self.problem.link))
+            found.append(
+                say(
+                    _(
+                        "The loads on {link} act as their resultant where its line meets the axis.",
+                        link=self.problem.link,
+                    )
+                )
+            )
         return found
 
     def steps(self, say: Say) -> list[Step]:
         i, k = self.worst(self.stress)
-        step = Step("1", say("beam.link_position", at=self._input(i)))
+        step = Step("1", say(_("Position with the largest stress: {at}", at=self._input(i))))
         a, b = self.mass.span
         density = np.asarray(self.mass.density.coef, dtype=float)
         largest = np.abs(density * (b - a) ** np.arange(len(density))).max()
         text = polynomial_text(density, largest, b - a).replace("ξ", "s")
-        step.say(say("beam.link_density"))
+        step.say(say(_("Mass along the link with the same mass, centre and inertia")))
         step.law(f"ρ(s) = {text}", "kg/m")
-        step.say(say("beam.link_forces"))
+        step.say(say(_("Forces on the link in its own axes (along, across)")))
         for each in self.point_forces:
             where, (x, y) = shown(float(each.place[i]), "length"), each.force[i].tolist()
             values = f"({shown(x, 'force')}, {shown(y, 'force')})"
             step.say(f"{each.name}, s = {where}: {values}, {shown(float(each.couple[i]), 'torque')}")
-        cut = Step("2", say("beam.link_cut"))
+        cut = Step(
+            "2", say(_("Cut at s: the forces on the part below s balance V, M and N (inertia −ρ·a included)"))
+        )
         put(cut, "s", "", float(self.stations[k]), "length")
         put(cut, "V", "Σ F + ∫ q ds", float(self.shear[i, k]), "force")
         put(cut, "M", "Σ F·(s − s_k) − Σ C + ∫∫ q ds²", float(self.moment[i, k]), "torque")

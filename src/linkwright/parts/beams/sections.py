@@ -13,7 +13,7 @@ from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.parts.base import fault
 from linkwright.parts.fields import Known, Table
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: IPE profiles, EN 10365: h, b, web, flange, root radius (mm), area (mm²), I (mm⁴), W (mm³).
 IPE: Mapping[str, tuple[float, ...]] = {
@@ -79,12 +79,12 @@ def i_beam(height: float, width: float, web: float, flange: float) -> Section:
 def _require_room(*inner: float) -> None:
     """Raises RequestError where walls are thicker than what they surround."""
     if min(inner) < 0:
-        raise RequestError("beam.no_section")
+        raise RequestError(_("these dimensions make no section", code="beam.no_section"))
 
 
 def profile(name: str) -> Section:
     """A rolled profile of the table; raises KeyError for one that it does not have."""
-    *_, area, second, modulus = IPE[name]
+    *_unused, area, second, modulus = IPE[name]
     return Section(second * 1e-12, area * 1e-6, modulus * 1e-9, name)
 
 
@@ -98,7 +98,7 @@ SHAPES: Mapping[str, tuple[Callable[..., Section], str]] = {
 }
 COUNTS = {"rectangle": 2, "circle": 1, "tube": 2, "box": 3, "i_beam": 4}
 FIELDS: Mapping[str, Field] = {
-    **{name: Quantities("length", count=COUNTS[name], doc=form) for name, (_, form) in SHAPES.items()},
+    **{name: Quantities("length", count=COUNTS[name], doc=form) for name, (_unused, form) in SHAPES.items()},
     "second_moment": Quantity("second_moment_of_area", above=0.0, doc="I, where no shape is given"),
     "area": Quantity("area", above=0.0, doc="area, beside second_moment"),
     "modulus": Quantity("volume", above=0.0, doc="section modulus W = I/c, beside second_moment"),
@@ -123,8 +123,8 @@ def section_field(doc: str = "cross section") -> SectionField:
 def _shaped(reader: Reader, node: Node, place: Place, found: dict[str, Any]) -> Section | None:
     shapes = [name for name in SHAPES if name in found]
     if len(shapes) + ("second_moment" in found) != 1:
-        message = Sentence("beam.one_shape", count=len(shapes))
-        remedy = Sentence("beam.one_shape_remedy", shapes=tuple(SHAPES))
+        message = _("{count} shapes of the section are given", code="beam.one_shape", count=len(shapes))
+        remedy = _("give one of {shapes}, or second_moment", shapes=tuple(SHAPES))
         reader.error(node, place, message, remedy, "choice")
         return None
     if not shapes:
@@ -135,11 +135,28 @@ def _shaped(reader: Reader, node: Node, place: Place, found: dict[str, Any]) -> 
     except RequestError:
         made = None
     if made is None or made.second_moment <= 0 or (made.area or 0.0) <= 0:
-        reader.error(node, place, Sentence("beam.no_section"), Sentence("beam.no_section_remedy"), "range")
+        reader.error(
+            node,
+            place,
+            _("these dimensions make no section", code="beam.no_section"),
+            _("give lengths above zero that fit"),
+            "range",
+        )
         return None
     return made
 
 
 def require_modulus(section: Section) -> list[Finding]:
     """A finding where stresses cannot be told from the section."""
-    return [] if section.area and section.modulus else [fault("beam.no_modulus", "section")]
+    return (
+        []
+        if section.area and section.modulus
+        else [
+            fault(
+                "no_modulus",
+                "section",
+                _("stresses need the section's area and modulus"),
+                _("give a shape, or area and modulus beside second_moment"),
+            )
+        ]
+    )

@@ -14,7 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.errors import QuantityError
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 SENSES = {"<=": "<=", "≤": "<=", ">=": ">=", "≥": ">=", "=": "=", "==": "="}
 _SENSE = re.compile(r"(<=|>=|==|≤|≥|=)")
@@ -82,8 +82,8 @@ def formula(text: str, kinds: Mapping[str, units.Dimension], constants: Mapping[
     try:
         found.over(dict.fromkeys(found.names, math.nan) | used)
     except ZeroDivisionError:
-        message = Sentence("model.divides_by_zero", text=text)
-        raise QuantityError(message, Sentence("model.change_values"), code="not-finite") from None
+        message = _('"{text}" divides by zero', code="model.divides_by_zero", text=text)
+        raise QuantityError(message, _("change the values"), code="not-finite") from None
     return Formula(found, used, found.dimension(kinds))
 
 
@@ -94,7 +94,7 @@ def constraint(
     parts = [part.strip() for part in _SENSE.split(text)]
     if len(parts) not in (3, 5) or (len(parts) == 5 and "=" in (SENSES[parts[1]], SENSES[parts[3]])):
         raise QuantityError(
-            Sentence("program.no_constraint", text=text), Sentence("program.no_constraint_remedy")
+            _('"{text}" is no constraint', text=text), _("write left <= right, left >= right or left = right")
         )
     sides = [formula(part, kinds, constants) for part in parts[::2]]
     for side in sides[1:]:
@@ -105,8 +105,8 @@ def constraint(
         if side.dimension != sides[0].dimension and not zero:
             one, other = units.name_of(sides[0].dimension), units.name_of(side.dimension)
             raise QuantityError(
-                Sentence("program.sides_differ", left=one, right=other),
-                Sentence("program.sides_differ_remedy"),
+                _("the left side is {left}, the right side {right}", left=one, right=other),
+                _("compare values of one kind"),
             )
     if len(parts) == 3:
         return [Constraint(name, sides[0], SENSES[parts[1]], sides[1])]

@@ -36,8 +36,7 @@ from linkwright.parts.programs.nonlinear import (
     solve_nonlinear,
 )
 from linkwright.parts.programs.problem import Model, Variable
-from linkwright.words import Say
-from linkwright.words.sentence import Sentence
+from linkwright.words import Say, _
 
 #: A constraint is active within this share of the size of its sides.
 ACTIVE = 1e-6
@@ -47,9 +46,9 @@ AWAY = 1e6
 
 def _variable(**given: Any) -> Variable:
     ends = {name: given[name][0] for name in ("low", "high", "start") if given.get(name)}
-    choices = tuple(sorted(value for value, _ in given.get("choices", ())))
+    choices = tuple(sorted(value for value, _unused in given.get("choices", ())))
     kinds = [given[name][1] for name in ("low", "high", "start") if given.get(name) and given[name][0]]
-    kinds += [kind for _, kind in given.get("choices", ())]
+    kinds += [kind for _unused, kind in given.get("choices", ())]
     kinds = [kind for kind in kinds if kind != units.NONE] or [units.NONE]
     return Variable(**ends, integer=bool(given.get("integer")), choices=choices, dimension=kinds[0])
 
@@ -147,13 +146,39 @@ class Program(Problem):
         return Model(self.variables, objective, 1 if self.minimize else -1, self.subject_to)
 
     def findings(self) -> list[Finding]:
-        found = [] if self.variables else [fault("program.no_variables", "variables")]
+        found = (
+            []
+            if self.variables
+            else [
+                fault(
+                    "no_variables",
+                    "variables",
+                    _("there is no variable"),
+                    _("write variables: {{x: {{from: 0, to: 10}}}}"),
+                )
+            ]
+        )
         if (self.minimize is None) == (self.maximize is None):
-            found.append(fault("program.one_objective", "minimize" if self.minimize else ""))
+            found.append(
+                fault(
+                    "one_objective",
+                    "minimize" if self.minimize else "",
+                    _("there must be exactly one of minimize and maximize"),
+                    _("write minimize: 3*x + 2*y"),
+                )
+            )
         for name, v in self.variables.items():
             if v.least > v.most:
-                found.append(fault("program.bounds", f"variables.{name}", low=self.shown(name, v.least),
-                                   high=self.shown(name, v.most)))  # fmt: skip
+                found.append(
+                    fault(
+                        "bounds",
+                        f"variables.{name}",
+                        _("the lower bound {low} lies above the upper bound {high}"),
+                        _("exchange them"),
+                        low=self.shown(name, v.least),
+                        high=self.shown(name, v.most),
+                    )
+                )
         return found
 
     def shown(self, variable: str, value: float) -> str:
@@ -180,7 +205,17 @@ class Program(Problem):
             for name, step, size in zip(self.variables, way, model.sizes, strict=True)
             if abs(step) > 1e-9 * size
         )
-        raise ModelError([fault("program.unbounded", "subject_to", variables=moving)])
+        raise ModelError(
+            [
+                fault(
+                    "unbounded",
+                    "subject_to",
+                    _("no limit: the objective improves without end along {variables}"),
+                    _("give these variables bounds, or a constraint that stops them"),
+                    variables=moving,
+                )
+            ]
+        )
 
     def _nonlinear(self) -> Optimum:
         model = self.model
@@ -195,29 +230,53 @@ class Program(Problem):
         else:
             found, way = solve_nonlinear(model), "nonlinear"
         if found is None:
-            raise self._no_solution(
-                lambda m: solve_nonlinear(_aimless(m), 6) is not None, "program.not_found"
-            )
+            raise self._no_solution(lambda m: solve_nonlinear(_aimless(m), 6) is not None, from_starts=True)
         if (np.abs(found.x) > AWAY * model.sizes).any():
             far = tuple(
                 n for n, x, s in zip(self.variables, found.x, model.sizes, strict=True) if abs(x) > AWAY * s
             )
-            raise ModelError([fault("program.unbounded", "subject_to", variables=far)])
+            raise ModelError(
+                [
+                    fault(
+                        "unbounded",
+                        "subject_to",
+                        _("no limit: the objective improves without end along {variables}"),
+                        _("give these variables bounds, or a constraint that stops them"),
+                        variables=far,
+                    )
+                ]
+            )
         prices, gap = multipliers(model, found.x) if way == "nonlinear" else (None, 0.0)
         return Optimum(self, found.x, way, prices, agreed=(found.agreed, found.starts), gap=gap)
 
-    def _no_solution(
-        self, possible: Any, code: str = "program.infeasible", *, open_ends: bool = True
-    ) -> ModelError:
+    def _no_solution(self, possible: Any, *, open_ends: bool = True, from_starts: bool = False) -> ModelError:
         names, bounds = conflict(self.model, possible, open_ends=open_ends)
         texts = tuple(f"{c.name} ({c.text})" for c in self.subject_to if c.name in names)
         for name, side in bounds:
             value = self.shown(name, getattr(self.variables[name], side))
             texts += (f"{name} {'>=' if side == 'low' else '<='} {value}",)
         if not texts:
-            texts = (Sentence("program.whole_numbers"),)
+            texts = (_("the whole numbers or choices of the variables"),)
         key = f"subject_to.{names[0]}" if names else "variables"
-        return ModelError([fault(code, key, set=texts)])
+        if from_starts:
+            told = fault(
+                "not_found",
+                key,
+                _(
+                    "no point was found that keeps all constraints; from no start did these hold together: {set}"
+                ),
+                _("loosen one of them, or give a start near a point that keeps them"),
+                set=texts,
+            )
+        else:
+            told = fault(
+                "infeasible",
+                key,
+                _("no solution: these cannot hold together: {set}"),
+                _("loosen one of them; any one is enough for these"),
+                set=texts,
+            )
+        return ModelError([told])
 
 
 def _aimless(model: Model) -> Model:
@@ -283,15 +342,15 @@ class Optimum(Result):
                 text=in_kind(value, self._kind(name)))
             for name, value in self.x.items()
         ]  # fmt: skip
-        word = say("program.minimum" if self.program.minimize else "program.maximum")
+        word = say(_("minimum") if self.program.minimize else _("maximum"))
         kind = self.program.model.objective.dimension
         rows.append(
             Row("objective", self.value, label=word, scale=in_si(kind), text=in_kind(self.value, kind))
         )
-        found = [Block("optimum", say("program.optimum"), rows, (self._method(say),))]
+        found = [Block("optimum", say(_("Optimum")), rows, (self._method(say),))]
         limits = [self._limit_row(c, say) for c in self.program.subject_to]
         if limits:
-            found.append(Block("constraints", say("program.constraints"), limits, self._explained(say)))
+            found.append(Block("constraints", say(_("Constraints")), limits, self._explained(say)))
         return found
 
     def data(self) -> dict[str, Any]:
@@ -344,9 +403,9 @@ class Optimum(Result):
             in_kind(float(side.value(self.point)[0]), side.dimension, 5) for side in (c.left, c.right)
         )
         state = (
-            say("program.active")
+            say(_("active"))
             if self.active(c)
-            else say("program.slack", slack=in_kind(self.slack(c), c.left.dimension, 4))
+            else say(_("{slack} left", slack=in_kind(self.slack(c), c.left.dimension, 4)))
         )
         text = f"{left} {c.sense} {right}"
         return Row(c.name, self.slack(c), label=c.name, note=state, scale=in_si(_limit_kind(c)), text=text)
@@ -362,7 +421,7 @@ class Optimum(Result):
                     unit_of_kind(self.program.model.objective.dimension),
                 )
                 gain = f"{abs(price) * size / factor:.6g} {own}".rstrip()
-                best = say("program.minimum" if self.program.minimize else "program.maximum")
+                best = say(_("minimum") if self.program.minimize else _("maximum"))
                 key = "program.price_rises" if price > 0 else "program.price_falls"
                 lines.append(say(key, name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain))
         return tuple(lines)
@@ -423,7 +482,7 @@ class Optimum(Result):
         for line in self._explained(say):
             test.say(line)
         if self.way == "nonlinear":
-            test.say(say("program.kkt"))
+            test.say(say(_("Condition of Karush, Kuhn and Tucker, scaled:")))
             put(test, "|∇f + Σλ∇g|", "", self.gap)
         return [task, found, test]
 

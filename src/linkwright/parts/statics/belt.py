@@ -14,7 +14,7 @@ from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
 from linkwright.parts.base import Problem, Result, Value, fault, put
-from linkwright.words import Say
+from linkwright.words import Say, _, pgettext
 
 #: Largest μ θ: e^(μθ) stays a number, with all of its digits.
 GRIP = 300.0
@@ -62,19 +62,56 @@ class Belt(Problem):
         found = []
         names = [name for name in ("tight", "slack", "torque") if getattr(self, name) is not None]
         if len(names) != 1:
-            found.append(fault("statics.belt_choice", names[1] if names else "", count=len(names)))
+            found.append(
+                fault(
+                    "belt_choice",
+                    names[1] if names else "",
+                    _("{count} of tight, slack and torque are given"),
+                    pgettext("statics", "give exactly one of them"),
+                    count=len(names),
+                )
+            )
         if self.torque is not None and self.radius is None:
-            found.append(fault("statics.belt_radius", "radius"))
+            found.append(
+                fault(
+                    "belt_radius",
+                    "radius",
+                    _("a torque alone does not tell the forces"),
+                    _("give the radius of the drum"),
+                )
+            )
         if self.groove is not None and self.groove >= math.pi:
-            found.append(fault("statics.groove", "groove"))
+            found.append(
+                fault(
+                    "groove",
+                    "groove",
+                    _("a groove of 180° or more is no groove"),
+                    _("leave it out for a flat belt, or give an angle such as 38 deg"),
+                )
+            )
         if not found and self.effective_friction * self.wrap > GRIP:
             found.append(
-                fault("statics.belt_grip", "wrap", most=math.degrees(GRIP / self.effective_friction))
+                fault(
+                    "belt_grip",
+                    "wrap",
+                    _("the belt is wound so often that e^(μθ) is beyond all bounds"),
+                    _("give an angle of contact below {most}°"),
+                    most=math.degrees(GRIP / self.effective_friction),
+                )
             )
         for side in ("tight", "slack"):
             tension = getattr(self, side)
             if tension is not None and tension <= self.centrifugal:
-                found.append(fault("statics.flung_off", side, tension=tension, flung=self.centrifugal))
+                found.append(
+                    fault(
+                        "flung_off",
+                        side,
+                        _("the tension {tension} N does not exceed the centrifugal tension m·v² = {flung} N"),
+                        _("a belt as fast as this leaves the drum: give more tension or less speed"),
+                        tension=tension,
+                        flung=self.centrifugal,
+                    )
+                )
         return found
 
     def solve(self) -> BeltTensions:
@@ -124,7 +161,7 @@ class BeltTensions(Result):
         return [Block("belt", "", rows)]
 
     def steps(self, say: Say) -> list[Step]:
-        belt, step = self.belt, Step("1", say("statics.belt_step"))
+        belt, step = self.belt, Step("1", say(_("Belt friction (Euler, Eytelwein)")))
         mu = "μ" if belt.groove is None else "μ'"
         if belt.groove is not None:
             given: dict[str, Value] = {"μ": belt.friction, "α": (belt.groove, "angle")}

@@ -25,7 +25,7 @@ from linkwright.parts.base import Problem, Result, fault, put
 from linkwright.parts.fields import Listed, Named, Table
 from linkwright.parts.motions import plain_motions
 from linkwright.parts.statics.forces import COUPLES, DIRECTION, FORCES, Components, Force, ForceField, spatial
-from linkwright.words import Message, Say
+from linkwright.words import Message, Say, _
 from linkwright.words.sentence import Sentence
 
 #: Singular values below this share of the largest count as zero.
@@ -121,7 +121,12 @@ class RigidBody(Problem):
         loads = own.pop("loads", None) or {}
         forces, couples = dict(own.pop("forces", None) or {}), dict(own.pop("couples", None) or {})
         wrong = [
-            fault("statics.load_form", f"loads.{name}")
+            fault(
+                "load_form",
+                f"loads.{name}",
+                _("the load is both a force and a couple"),
+                _("give one of force, magnitude with direction, couple"),
+            )
             for name, each in loads.items()
             if isinstance(each, BodyLoad)
             and each.couple
@@ -157,13 +162,35 @@ class RigidBody(Problem):
 
     def findings(self) -> list[Finding]:
         found = [each for name, one in self.forces.items() for each in one.findings(self._key(name))]
-        found += [fault("statics.unknown_load", self._key(name)) for name, one in self.forces.items()
-                  if one.unknown and one.directed]  # fmt: skip
+        found += [
+            fault(
+                "unknown_load",
+                self._key(name),
+                _("the load has no magnitude"),
+                _("give magnitude: with a unit; what is sought on a body are its supports"),
+            )
+            for name, one in self.forces.items()
+            if one.unknown and one.directed
+        ]
         for name, support in self.supports.items():
             if not support.holds and not support.along:
-                found.append(fault("statics.holds_nothing", f"supports.{name}"))
+                found.append(
+                    fault(
+                        "holds_nothing",
+                        f"supports.{name}",
+                        _("the support holds nothing"),
+                        _("write holds: [x, y], or direction: [0, 1] for a rod, rope or roller"),
+                    )
+                )
             if support.along and not any(support.along):
-                found.append(fault("statics.no_direction", f"supports.{name}.direction"))
+                found.append(
+                    fault(
+                        "no_direction",
+                        f"supports.{name}.direction",
+                        _("the direction is zero"),
+                        _("give a vector of any length, such as [1, 0, 0]"),
+                    )
+                )
         return found or self._freedoms()
 
     def _freedoms(self) -> list[Finding]:
@@ -176,8 +203,17 @@ class RigidBody(Problem):
             found.append(fault(code, "supports", how=describe(motion, state.scale, self.planar)))
         if not found and len(state.names) > state.rank:
             spare = ", ".join(state.names)
-            found.append(fault("statics.indeterminate", "supports", unknowns=len(state.names), equations=state.rank,
-                               names=spare))  # fmt: skip
+            found.append(
+                fault(
+                    "indeterminate",
+                    "supports",
+                    _("{unknowns} reactions ({names}) stand against {equations} equations of equilibrium"),
+                    _("take supports away, or calculate it as a beam, whose stiffness decides"),
+                    unknowns=len(state.names),
+                    equations=state.rank,
+                    names=spare,
+                )
+            )
         return found
 
     def solve(self) -> Reactions:
@@ -197,10 +233,10 @@ class _Balance:
             for name, support in body.supports.items()
             for part, column in support.columns(self.scale)
         ]
-        self.names = [name for name, _ in pairs]
+        self.names = [name for name, _unused in pairs]
         kept = [0, 1, 5] if body.planar else list(range(6))
         self.columns = (
-            np.array([column for _, column in pairs]).T[kept] if pairs else np.zeros((len(kept), 0))
+            np.array([column for _unused, column in pairs]).T[kept] if pairs else np.zeros((len(kept), 0))
         )
         load = np.zeros(6)
         for each in body.forces.values():
@@ -208,7 +244,7 @@ class _Balance:
         for couple in body.couples.values():
             load[3:] += spatial(couple) / self.scale
         self.load = load[kept]
-        u, s, _ = np.linalg.svd(self.columns, full_matrices=True)
+        u, s, _unused = np.linalg.svd(self.columns, full_matrices=True)
         self.rank = int((s > ZERO * (s[0] if len(s) else 1.0)).sum())
         self.free = plain_motions(u[:, self.rank :].T)
 
@@ -220,11 +256,11 @@ def describe(motion: Floats, scale: float, planar: bool) -> Message:
     size = float(np.linalg.norm(turn))
     if size < 1e-9:
         way = velocity / np.abs(velocity).max()
-        return Sentence("statics.slides", way=_vector(way[:2] if planar else way))
+        return _("slide along {way}", code="statics.slides", way=_vector(way[:2] if planar else way))
     centre = np.cross(turn, velocity) / size**2 * scale
     along = float(turn @ velocity) / size**2 * scale
     if planar:
-        return Sentence("statics.turns_plane", place=_vector(centre[:2]))
+        return _("turn about the point {place} m", code="statics.turns_plane", place=_vector(centre[:2]))
     axis = turn / np.abs(turn).max()
     key = "statics.turns" if abs(along) < 1e-9 * scale else "statics.screws"
     return Sentence(key, axis=_vector(axis), place=_vector(centre))
@@ -265,10 +301,10 @@ class Reactions(Result):
 
     def blocks(self, say: Say) -> list[Block]:
         rows = [Row(name, value, _dimension(name), name) for name, value in self.values.items()]
-        return [Block("reactions", say("statics.reactions"), rows)]
+        return [Block("reactions", say(_("Reactions")), rows)]
 
     def steps(self, say: Say) -> list[Step]:
-        balance, found = Step("1", say("statics.equations")), Step("2", say("statics.reactions"))
+        balance, found = Step("1", say(_("Equations of equilibrium"))), Step("2", say(_("Reactions")))
         state = _Balance(self.body)
         names = _sums(self.body)
         for i, name in enumerate(names):
@@ -285,7 +321,7 @@ class Reactions(Result):
             load = state.load[i] * arm
             rest = "" if not load else f" {'+' if load > 0 else '−'} {number(abs(load))}"
             balance.law(f"{name} = {sides.removeprefix('+ ') or '0'}{rest} = 0")
-        found.say(say("statics.matrix"))
+        found.say(say(_("In matrix form A·X = B:")))
         a, b = self.matrix
         found.items.append(system(a, list(self.values), b, names))
         for name, value in self.values.items():

@@ -31,7 +31,7 @@ from linkwright.parts.statics.forces import (
     direction_angles,
     spatial,
 )  # fmt: skip
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: Singular values, and sums that stay, below this share of the largest count as zero.
 SINGULAR = 1e-10
@@ -65,7 +65,14 @@ class ForceSystem(Problem):
     def findings(self) -> list[Finding]:
         found = [each for name, one in self.forces.items() for each in one.findings(f"forces.{name}")]
         if not self.forces and not self.couples:
-            found.append(fault("statics.no_forces", "forces"))
+            found.append(
+                fault(
+                    "no_forces",
+                    "forces",
+                    _("there is no force"),
+                    _("write forces: {{F1: [0 N, 40 N, 60 N]}}"),
+                )
+            )
         found += self._asked()
         if not found and self.unknowns:
             found = point_findings(self)
@@ -76,14 +83,52 @@ class ForceSystem(Problem):
         found, known = [], tuple(self.forces)
         for name, line in self.components.items():
             key = f"components.{name}"
-            found += line.line_findings(key) or ([] if line.directed else [fault("statics.line_form", key)])
+            found += line.line_findings(key) or (
+                []
+                if line.directed
+                else [
+                    fault(
+                        "line_form",
+                        key,
+                        _("the line has no direction, or more than one"),
+                        _("give direction: [2, 3, 6], or two points from: and to:"),
+                    )
+                ]
+            )
             if line.of and line.of not in self.forces:
-                found.append(fault("statics.no_force", f"{key}.of", name=line.of, known=known))
+                found.append(
+                    fault(
+                        "no_force",
+                        f"{key}.of",
+                        _('there is no force "{name}"'),
+                        _("name one of {known}"),
+                        name=line.of,
+                        known=known,
+                    )
+                )
         for name, pair in self.angles.items():
-            found += [fault("statics.no_force", f"angles.{name}", name=each, known=known)
-                      for each in pair if each not in self.forces]  # fmt: skip
+            found += [
+                fault(
+                    "no_force",
+                    f"angles.{name}",
+                    _('there is no force "{name}"'),
+                    _("name one of {known}"),
+                    name=each,
+                    known=known,
+                )
+                for each in pair
+                if each not in self.forces
+            ]
             if len(pair) != 2:
-                found.append(fault("statics.pair", f"angles.{name}", count=len(pair)))
+                found.append(
+                    fault(
+                        "pair",
+                        f"angles.{name}",
+                        _("an angle lies between two forces, here are {count}"),
+                        _("write [F1, F2]"),
+                        count=len(pair),
+                    )
+                )
         return found
 
     def solve(self) -> Resultant | PointEquilibrium:
@@ -154,22 +199,22 @@ class Resultant(Result):
 
     def blocks(self, say: Say) -> list[Block]:
         blocks = [
-            Block(
-                "resultant", say("statics.resultant"), _vector_rows("R", self.force, self.size, self.angles)
-            )
+            Block("resultant", say(_("Resultant R")), _vector_rows("R", self.force, self.size, self.angles))
         ]
         moment = [Row("M", m, "torque", f"M{axis}") for axis, m in zip("xyz", self.moment, strict=True)]
-        blocks.append(Block("moment", say("statics.moment"), moment))
+        blocks.append(Block("moment", say(_("Moment about the chosen point")), moment))
         if self.size:
             place = [
                 Row("axis", p, "length", f"{axis}0") for axis, p in zip("xyz", self.axis_point, strict=True)
             ]
             wrench = [*place, Row("pitch", self.pitch, "length")]
             wrench.append(Row("couple", self.pitch * self.size, "torque"))
-            blocks.append(Block("wrench", say("statics.wrench"), wrench))
+            blocks.append(
+                Block("wrench", say(_("Wrench: force along an axis with a couple about it")), wrench)
+            )
         against = _vector_rows("E", self.equilibrant, self.size, direction_angles(self.equilibrant))
-        remark = () if not self.balanced else (say("statics.balanced"),)
-        blocks.append(Block("equilibrant", say("statics.equilibrant"), against, remark))
+        remark = () if not self.balanced else (say(_("The system is in equilibrium.")),)
+        blocks.append(Block("equilibrant", say(_("Equilibrant E = −R")), against, remark))
         vectors = {name: each.vector for name, each in self.system.forces.items()}
         return [*blocks, *asked_blocks(self.system, vectors, self.force, say)]
 
@@ -198,14 +243,22 @@ class Resultant(Result):
             for i, axis in enumerate("xyz"):
                 put(wrench, f"{axis}0", f"{axis} + (R × M)_{axis}/R²", float(self.axis_point[i]), "length")
         else:
-            wrench.say(say("statics.balanced" if self.balanced else "statics.pure_couple"))
+            wrench.say(
+                say(
+                    _("The system is in equilibrium.")
+                    if self.balanced
+                    else _("There is no resultant force: the system is a couple.")
+                )
+            )
         found = [sums, about, wrench]
         vectors = {name: each.vector for name, each in self.system.forces.items()}
         return [*found, *asked_steps(self.system, vectors, self.force, say, len(found))]
 
     def _moment_step(self, step: Step, say: Say) -> None:
         about = spatial(self.system.about)
-        step.say(say("statics.about", place=", ".join(f"{number(c)} m" for c in about)))
+        step.say(
+            say(_("moments about the point ({place})", place=", ".join(f"{number(c)} m" for c in about)))
+        )
         parts = [np.cross(each.place - about, each.vector) for each in self.system.forces.values()]
         parts += [spatial(each) for each in self.system.couples.values()]
         formulas = ("Σ (y·Fz − z·Fy)", "Σ (z·Fx − x·Fz)", "Σ (x·Fy − y·Fx)")
@@ -252,13 +305,15 @@ def asked_blocks(
         ]
         if np.any(vector):
             rows.append(Row("to_line", angle_between(vector, line.way), "angle"))
-        found.append(Block(f"component {name}", say("statics.component", of=of, name=name), rows))
+        found.append(
+            Block(f"component {name}", say(_("Component of {of} along {name}", of=of, name=name)), rows)
+        )
     angles = [
         Row(name, angle_between(vectors[a], vectors[b]), "angle", f"{name}: {a}, {b}")
         for name, a, b in pairs
         if np.any(vectors[a]) and np.any(vectors[b])
     ]
-    return [*found, *([Block("angles", say("statics.angles"), angles)] if angles else [])]
+    return [*found, *([Block("angles", say(_("Angles between forces")), angles)] if angles else [])]
 
 
 def angle_between(first: Floats, second: Floats) -> float:
@@ -273,7 +328,7 @@ def asked_steps(
     lines, pairs = _asked_for(system, vectors, resultant)
     found: list[Step] = []
     for name, line, of, vector in lines:
-        step = Step(str(count + len(found) + 1), say("statics.component", of=of, name=name))
+        step = Step(str(count + len(found) + 1), say(_("Component of {of} along {name}", of=of, name=name)))
         step.law(f"e = ({', '.join(number(float(c)) for c in line.way)})")
         numbers = dot_text(vector, line.way)
         along = float(vector @ line.way)
@@ -290,7 +345,10 @@ def asked_steps(
     for name, a, b in pairs:
         if not (np.any(vectors[a]) and np.any(vectors[b])):
             continue
-        step = Step(str(count + len(found) + 1), say("statics.angle_of", name=name, first=a, second=b))
+        step = Step(
+            str(count + len(found) + 1),
+            say(_("Angle {name} between {first} and {second}", name=name, first=a, second=b)),
+        )
         step.law(
             f"{a}·{b} = {dot_text(vectors[a], vectors[b])} = {number(float(vectors[a] @ vectors[b]))}", "N²"
         )
@@ -315,19 +373,41 @@ def point_findings(system: ForceSystem) -> list[Finding]:
     """Why equilibrium cannot tell the unknown magnitudes of a system."""
     places = [each.place for each in system.forces.values()]
     if system.couples or any(not np.array_equal(each, places[0]) for each in places):
-        return [fault("statics.one_point", "couples" if system.couples else "forces")]
+        return [
+            fault(
+                "one_point",
+                "couples" if system.couples else "forces",
+                _("the forces do not act through one point, as they must where a magnitude is sought"),
+                _("leave out at: and couples, or calculate it as a rigid_body with supports"),
+            )
+        ]
     a, b, names = _matrix(system)
     sizes = np.linalg.svd(a, compute_uv=False)
     rank = int((sizes > SINGULAR * sizes[0]).sum())
     if rank < len(names):
-        return [fault("statics.point_unknown", "forces", count=len(names), equations=rank, names=names)]
+        return [
+            fault(
+                "point_unknown",
+                "forces",
+                _(
+                    "{count} unknown magnitudes ({names}) in {equations} independent equations of "
+                    "equilibrium",
+                ),
+                _("give some of the magnitudes, or directions that are not parallel or in one plane"),
+                count=len(names),
+                equations=rank,
+                names=names,
+            )
+        ]
     found = np.linalg.lstsq(a, b, rcond=None)[0]
     if np.abs(a @ found - b).max() > SINGULAR * max(float(np.abs(b).max()), float(np.abs(found).max())):
         left = b - a @ found
         return [
             fault(
-                "statics.point_open",
+                "point_open",
                 "forces",
+                _("no magnitudes of {names} hold the point in equilibrium: {left} N stay unbalanced"),
+                _("add a force with another direction, or mend the directions"),
                 names=names,
                 left=f"({', '.join(number(float(c)) for c in left)})",
             )
@@ -356,7 +436,7 @@ class PointEquilibrium(Result):
     @property
     def matrix(self) -> tuple[Floats, Floats]:
         """A (2 or 3, n) and B, N."""
-        a, b, _ = _matrix(self.system)
+        a, b, _unused = _matrix(self.system)
         return a, b
 
     @cached_property
@@ -380,14 +460,18 @@ class PointEquilibrium(Result):
 
     def blocks(self, say: Say) -> list[Block]:
         rows = [Row(name, value, "force", name) for name, value in self.magnitudes.items()]
-        remarks = [say("statics.against", name=name) for name, value in self.magnitudes.items() if value < 0]
+        remarks = [
+            say(_("{name} acts against its direction.", name=name))
+            for name, value in self.magnitudes.items()
+            if value < 0
+        ]
         parts = [
             Row("component", float(c), "force", f"{name}.{axis}")
             for name in self.magnitudes
             for axis, c in zip("xyz"[: len(self.matrix[1])], self.vectors[name], strict=False)
         ]
-        found = [Block("magnitudes", say("statics.magnitudes"), rows, remarks)]
-        found.append(Block("components", say("statics.their_components"), parts))
+        found = [Block("magnitudes", say(_("Unknown magnitudes")), rows, remarks)]
+        found.append(Block("components", say(_("Their components")), parts))
         return [*found, *asked_blocks(self.system, self.vectors, np.zeros(3), say)]
 
     def steps(self, say: Say) -> list[Step]:
@@ -403,12 +487,12 @@ class PointEquilibrium(Result):
         rows = tuple(f"ΣF{axis}" for axis in "xyz"[: len(b)])
         for i, row in enumerate(rows):
             sums.law(f"{row} = {_row(a[i], list(self.magnitudes), -b[i])} = 0")
-        solved.say(say("statics.matrix"))
+        solved.say(say(_("In matrix form A·X = B:")))
         solved.items.append(system(a, list(self.magnitudes), b, rows))
         for name, value in self.magnitudes.items():
             put(solved, name, "", value, "force")
             if value < 0:
-                solved.say(say("statics.against", name=name))
+                solved.say(say(_("{name} acts against its direction.", name=name)))
         found = [directions, sums, solved]
         return [*found, *asked_steps(self.system, self.vectors, np.zeros(3), say, len(found))]
 

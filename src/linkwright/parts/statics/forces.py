@@ -18,6 +18,7 @@ from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.fields.reading import Place, Reader
 from linkwright.parts.base import fault
 from linkwright.parts.fields import Either, Listed, Named, Table
+from linkwright.words import _
 
 #: A sum smaller than this share of its largest part is zero but for rounding.
 ZERO = 1e-12
@@ -84,18 +85,45 @@ class Line:
     def line_findings(self, key: str) -> list[Finding]:
         """What is wrong with the direction."""
         found = [
-            fault("statics.components", f"{key}.{word}", count=len(vector))
+            fault(
+                "components",
+                f"{key}.{word}",
+                _("the number of components is {count}, not two or three as a vector needs"),
+                _("give two (in the plane) or three"),
+                count=len(vector),
+            )
             for word, vector in (("direction", self.along), ("from", self.start), ("to", self.end))
             if vector and len(vector) not in (2, 3)
         ]
         if found:
             return found
         if bool(self.start) != bool(self.end) or (self.along and self.start):
-            return [fault("statics.line_form", key)]
+            return [
+                fault(
+                    "line_form",
+                    key,
+                    _("the line has no direction, or more than one"),
+                    _("give direction: [2, 3, 6], or two points from: and to:"),
+                )
+            ]
         if self.along and not any(self.along):
-            return [fault("statics.no_direction", f"{key}.direction")]
+            return [
+                fault(
+                    "no_direction",
+                    f"{key}.direction",
+                    _("the direction is zero"),
+                    _("give a vector of any length, such as [1, 0, 0]"),
+                )
+            ]
         if self.start and np.array_equal(spatial(self.start), spatial(self.end)):
-            return [fault("statics.no_direction", f"{key}.to")]
+            return [
+                fault(
+                    "no_direction",
+                    f"{key}.to",
+                    _("the direction is zero"),
+                    _("give a vector of any length, such as [1, 0, 0]"),
+                )
+            ]
         return []
 
 
@@ -148,11 +176,29 @@ class Force(Line):
         """What is wrong with it."""
         found = []
         if bool(self.force) == self.directed or (self.force and self.size is not None):
-            found.append(fault("statics.force_form", key))
+            found.append(
+                fault(
+                    "force_form",
+                    key,
+                    _("a force is neither complete nor unique"),
+                    _(
+                        "write its components [Fx, Fy, Fz], or magnitude and direction; direction alone "
+                        "where the magnitude is sought",
+                    ),
+                )
+            )
         found += self.line_findings(key)
         for name, vector in (("force", self.force), ("at", self.at)):
             if vector and len(vector) not in (2, 3):
-                found.append(fault("statics.components", f"{key}.{name}", count=len(vector)))
+                found.append(
+                    fault(
+                        "components",
+                        f"{key}.{name}",
+                        _("the number of components is {count}, not two or three as a vector needs"),
+                        _("give two (in the plane) or three"),
+                        count=len(vector),
+                    )
+                )
         return found
 
 

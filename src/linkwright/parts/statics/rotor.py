@@ -14,7 +14,7 @@ from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
 from linkwright.parts.base import Problem, Result, Value, fault, put, signed
 from linkwright.parts.fields import Named, Table
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: What is left of the unbalances of a rotor that is balanced, as share of their sizes.
 ROUNDING = 1e-12
@@ -61,12 +61,38 @@ class Rotor(Problem):
     source: str = ""
 
     def findings(self) -> list[Finding]:
-        found = [] if self.masses else [fault("statics.rotor_masses", "masses")]
+        found = (
+            []
+            if self.masses
+            else [
+                fault(
+                    "rotor_masses",
+                    "masses",
+                    _("the rotor has no mass off its axis"),
+                    _("write masses: {{m1: {{mass: 10 kg, radius: 400 mm, angle: 120 deg, at: 0 mm}}}}"),
+                )
+            ]
+        )
         places = [plane.at for plane in self.planes.values()]
         if len(places) not in (1, 2):
-            found.append(fault("statics.rotor_planes", "planes", count=len(places)))
+            found.append(
+                fault(
+                    "rotor_planes",
+                    "planes",
+                    _("{count} planes are given for the counterweights"),
+                    _("give one (static balancing) or two (dynamic balancing)"),
+                    count=len(places),
+                )
+            )
         elif len(set(places)) < len(places):
-            found.append(fault("statics.rotor_place", f"planes.{list(self.planes)[1]}.at"))
+            found.append(
+                fault(
+                    "rotor_place",
+                    f"planes.{list(self.planes)[1]}.at",
+                    _("both planes lie at the same place along the shaft"),
+                    _("give them different places at:, or one plane alone"),
+                )
+            )
         return found
 
     def solve(self) -> RotorBalance:
@@ -128,20 +154,34 @@ class RotorBalance(Result):
                 rows.append(Row("seat", _angle(weight), "angle"))
             if self.rotor.speed:
                 rows.append(Row("rotating_force", abs(unbalance) * self.rotor.speed**2, "force"))
-            blocks.append(Block(f"plane {name}", say("statics.balancing_plane", name=name), rows))
+            blocks.append(Block(f"plane {name}", say(_("Plane {name}", name=name)), rows))
         if self.left:
             rows = [Row("mass_radius_arm", abs(self.left), "inertia")]
             if self.rotor.speed:
                 rows.append(Row("rotating_couple", abs(self.left) * self.rotor.speed**2, "torque"))
-            blocks.append(Block("left", say("statics.couple_left"), rows, [say("statics.two_planes")]))
+            blocks.append(
+                Block(
+                    "left",
+                    say(_("Left: the couple of masses beside the plane")),
+                    rows,
+                    [say(_("One plane balances statically; two planes take the couple too."))],
+                )
+            )
         return blocks
 
     def steps(self, say: Say) -> list[Step]:
         found = []
         for count, (name, unbalance) in enumerate(self.unbalances.items(), 1):
-            step = Step(str(count), say("statics.balancing_plane", name=name))
+            step = Step(str(count), say(_("Plane {name}", name=name)))
             if len(self.unbalances) > 1:
-                step.say(say("statics.share"))
+                step.say(
+                    say(
+                        _(
+                            "Every mass is replaced by parts in both planes; z is its place, z0 that of the "
+                            "plane, z' that of the other plane:",
+                        )
+                    )
+                )
                 step.law("k = (z' − z)/(z' − z0)")
             for mass, each in self.rotor.masses.items():
                 share = self.share(name, each.at) + 0.0  # no -0

@@ -22,7 +22,7 @@ from linkwright.parts.base import Result, fault, put
 from linkwright.parts.statics.balance import Balance, structure_balance
 from linkwright.parts.statics.body import describe
 from linkwright.structure import StructureError, structure
-from linkwright.words import Message, Say, language_of
+from linkwright.words import Message, Say, _, language_of
 from linkwright.words.sentence import Sentence
 
 #: Starts of the search for a position, and the gap below which the joints close.
@@ -54,9 +54,18 @@ def _freedoms(mechanism: Mechanism) -> list[Finding]:
     if place is None:
         structure(mechanism)
         return []
-    _, values, rows = np.linalg.svd(system.jacobian(place))
+    _unused, values, rows = np.linalg.svd(system.jacobian(place))
     rank = int((values > 1e-8 * values[0]).sum())
-    return [fault("statics.structure_moves", "links", how=_motion(system, row)) for row in rows[rank:]]
+    return [
+        fault(
+            "structure_moves",
+            "links",
+            _("the structure can move: {how}"),
+            _("add a bar or a support against this motion, or a driver that sets it"),
+            how=_motion(system, row),
+        )
+        for row in rows[rank:]
+    ]
 
 
 def _closed(system: ConstraintEquations) -> Floats | None:
@@ -64,7 +73,7 @@ def _closed(system: ConstraintEquations) -> Floats | None:
     from scipy.optimize import least_squares
 
     generator = np.random.default_rng(1)
-    for _ in range(STARTS):
+    for _unused in range(STARTS):
         start = generator.uniform(-1.0, 1.0, system.freedoms)
         found = least_squares(system.residual, start, jac=system.jacobian, xtol=1e-15, ftol=1e-15, gtol=1e-15)
         if np.abs(found.fun).max() < CLOSED:
@@ -108,7 +117,7 @@ class StructureForces(Result):
         rows = []
         for joint, link in self.pairs():
             x, y = self.reaction(joint, link)
-            label = say("statics.joint_on", joint=joint, link=link)
+            label = say(_("{joint} on {link}", joint=joint, link=link))
             rows += [
                 Row("reaction", float(x), "force", f"{label} Fx"),
                 Row("reaction", float(y), "force", f"{label} Fy"),
@@ -121,7 +130,14 @@ class StructureForces(Result):
         gaps = self.forces.balance_residual
         self.forces.solver.programs.checks.require_balance(gaps, self.forces.rows, self.forces.motion)
         gap = float(gaps.max())
-        return [Block("reactions", say("statics.reactions"), rows, (say("statics.gap", gap=f"{gap:.1e}"),))]
+        return [
+            Block(
+                "reactions",
+                say(_("Reactions")),
+                rows,
+                (say(_("largest gap in the balance of a link: {gap} N", gap=f"{gap:.1e}")),),
+            )
+        ]
 
     @cached_property
     def balance(self) -> Balance | None:
@@ -139,14 +155,29 @@ class StructureForces(Result):
 
 def balance_step(balance: Balance | None, number: str, say: Say) -> Step:
     """The equations of equilibrium as a step: A·X = B, and X."""
-    step = Step(number, say("statics.matrix_step"))
+    step = Step(number, say(_("Equilibrium in matrix form")))
     if balance is None:
-        step.say(say("statics.matrix_none"))
+        step.say(say(_("The matrix form is not shown for joints other than pins, guides and welds.")))
         return step
     links = dict.fromkeys(row.rpartition(" ")[0] for row in balance.rows)
-    step.say(say("statics.matrix_order", links=", ".join(links)))
+    step.say(
+        say(
+            _(
+                "Rows: ΣFx, ΣFy and ΣM about the first joint of every link ({links}); N, m.",
+                links=", ".join(links),
+            )
+        )
+    )
     acting = ", ".join(f"{name} → {link}" for name, link in zip(balance.names, balance.on, strict=True))
-    step.say(say("statics.matrix_of", names=acting))
+    step.say(
+        say(
+            _(
+                "Unknowns X with the links on which they act: {names}; on the joint's other link "
+                "they act the opposite way.",
+                names=acting,
+            )
+        )
+    )
     step.items.append(system(balance.a, list(balance.names), balance.b, balance.rows))
     for name, unit, value in zip(balance.names, balance.units, balance.x.tolist(), strict=True):
         put(step, name, "", value, "force" if unit == "N" else "torque")

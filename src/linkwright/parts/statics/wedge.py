@@ -14,7 +14,7 @@ from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
 from linkwright.parts.base import Problem, Result, Value, fault, put
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 
 @dataclass(frozen=True)
@@ -53,21 +53,36 @@ class Wedge(Problem):
         negative, and where α < ρ the wedge that is pulled out takes the load to the other side of its guide, whose
         friction holds the load as well: R = Q cos ρw/cos(|α - ρ| - ρw).
         """
-        slope, floor, _ = (sense * angle for angle in self.friction_angles)
+        slope, floor, _unused = (sense * angle for angle in self.friction_angles)
         return self.between(sense, load) * math.sin(self.angle + slope + floor) / math.cos(floor)
 
     def between(self, sense: int = 1, load: float | None = None) -> float:
         """Force R on the slope between wedge and load (N), as in :meth:`push`."""
-        slope, _, wall = (sense * angle for angle in self.friction_angles)
+        slope, _unused, wall = (sense * angle for angle in self.friction_angles)
         wall = math.copysign(wall, sense * (self.angle + slope))
         return (self.load if load is None else load) * math.cos(wall) / math.cos(self.angle + slope + wall)
 
     def findings(self) -> list[Finding]:
         if self.angle >= math.pi / 2:
-            return [fault("statics.wedge_angle", "angle")]
-        slope, _, wall = self.friction_angles
+            return [
+                fault(
+                    "wedge_angle",
+                    "angle",
+                    _("a wedge of 90° or more lifts nothing"),
+                    _("give an angle below 90°"),
+                )
+            ]
+        slope, _unused, wall = self.friction_angles
         if self.angle + slope + wall >= math.pi / 2:
-            return [fault("statics.wedge_stuck", "friction", sum=math.degrees(self.angle + slope + wall))]
+            return [
+                fault(
+                    "wedge_stuck",
+                    "friction",
+                    _("no push raises the load: α + ρ + ρw = {sum}° reaches 90°"),
+                    _("take a smaller angle or less friction"),
+                    sum=math.degrees(self.angle + slope + wall),
+                )
+            ]
         return []
 
     def solve(self) -> WedgeForces:
@@ -105,7 +120,7 @@ class WedgeForces(Result):
 
     def columns(self) -> dict[str, Floats]:
         """Push over the wedge's angle."""
-        slope, _, wall = self.wedge.friction_angles
+        slope, _unused, wall = self.wedge.friction_angles
         angles = np.linspace(0.0, min(2 * self.wedge.angle, 0.98 * (math.pi / 2 - slope - wall)), 181)
         wedges = [
             Wedge(self.wedge.load, a, self.wedge.friction, self.wedge.floor, self.wedge.wall) for a in angles
@@ -121,22 +136,41 @@ class WedgeForces(Result):
             Row("raising", self.raising, "force"), Row("lowering", self.lowering, "force"),
             Row("efficiency", self.efficiency),
         ]  # fmt: skip
-        return [Block("wedge", "", rows, (say("statics.locks" if self.locks else "statics.runs_back"),))]
+        return [
+            Block(
+                "wedge",
+                "",
+                rows,
+                (
+                    say(
+                        _("The wedge locks itself: it must be pulled out.")
+                        if self.locks
+                        else _("The wedge does not lock: the load drives it out unless it is held.")
+                    ),
+                ),
+            )
+        ]
 
     def steps(self, say: Say) -> list[Step]:
-        step = Step("1", say("statics.wedge_step"))
+        step = Step("1", say(_("Force polygons of load and wedge")))
         known: dict[str, Value] = {"Q": (self.wedge.load, "force"), "α": (self.wedge.angle, "angle")}
         for index, angle in zip(("", "f", "w"), self.wedge.friction_angles, strict=True):
             put(step, f"ρ{index}", f"arctan μ{index}", angle, "angle", of={f"μ{index}": math.tan(angle)})
             known[f"ρ{index}"] = (angle, "angle")
-        step.say(say("statics.wedge_raising"))
+        step.say(say(_("Raising: friction acts against the way up.")))
         put(step, "R", "Q·cos ρw/cos(α + ρ + ρw)", self.wedge.between(1), "force", of=known)
         raised: dict[str, Value] = {**known, "R": (self.wedge.between(1), "force")}
         put(step, "P_up", "R·sin(α + ρ + ρf)/cos ρf", self.raising, "force", of=raised)
-        step.say(say("statics.wedge_lowering"))
+        step.say(say(_("Lowering: all friction angles change their signs.")))
         put(step, "R", "Q·cos ρw/cos(|α − ρ| − ρw)", self.wedge.between(-1), "force", of=known)
         sunk: dict[str, Value] = {**known, "R": (self.wedge.between(-1), "force")}
         put(step, "P_down", "R·sin(α − ρ − ρf)/cos ρf", self.lowering, "force", of=sunk)
         put(step, "η", "Q·tan α/P_up", self.efficiency, of={**known, "P_up": (self.raising, "force")})
-        step.say(say("statics.locks" if self.locks else "statics.runs_back"))
+        step.say(
+            say(
+                _("The wedge locks itself: it must be pulled out.")
+                if self.locks
+                else _("The wedge does not lock: the load drives it out unless it is held.")
+            )
+        )
         return [step]

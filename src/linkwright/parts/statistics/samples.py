@@ -35,7 +35,7 @@ from linkwright.parts.statistics.describe import (
     regression,
 )
 from linkwright.parts.statistics.hypotheses import AGAINST, TESTS, TOGETHER, Outcome
-from linkwright.words import Say
+from linkwright.words import Say, _, pgettext
 
 #: A probability below this one is not told apart from nothing.
 TINY = 1e-12
@@ -126,9 +126,15 @@ class Samples(Problem):
         return np.array(self.samples[name].values)
 
     def findings(self) -> list[Finding]:
-        found = [fault("statistics.empty", f"samples.{n}") for n, s in self.samples.items() if not s.values]
+        found = [
+            fault("empty", f"samples.{n}", _("the sample is empty"), _("give at least one value"))
+            for n, s in self.samples.items()
+            if not s.values
+        ]
         if not 0.0 < self.confidence < 1.0:
-            found.append(fault("statistics.confidence", "confidence"))
+            found.append(
+                fault("confidence", "confidence", _("a confidence must lie between 0 and 1"), _("write 0.95"))
+            )
         for name, test in self.tests.items():
             found += self._test_findings(f"tests.{name}", test)
         for name, fitting in self.regressions.items():
@@ -141,7 +147,14 @@ class Samples(Problem):
 
     def _unknown(self, key: str, names: tuple[str, ...]) -> list[Finding]:
         return [
-            fault("statistics.no_sample", key, name=name, known=tuple(self.samples))
+            fault(
+                "no_sample",
+                key,
+                _('there is no sample "{name}"'),
+                _("one of: {known}"),
+                name=name,
+                known=tuple(self.samples),
+            )
             for name in names
             if name not in self.samples
         ]
@@ -153,10 +166,28 @@ class Samples(Problem):
             values = self.values(name)
             if len(values) < least:
                 found.append(
-                    fault("statistics.too_small", key, sample=name, count=len(values), what=what, least=least)
+                    fault(
+                        "too_small",
+                        key,
+                        _("the sample {sample} has {count} value(s), too few for {what}"),
+                        _("give at least {least}"),
+                        sample=name,
+                        count=len(values),
+                        what=what,
+                        least=least,
+                    )
                 )
             elif np.ptp(values) == 0.0:
-                found.append(fault("statistics.constant", key, sample=name, what=what))
+                found.append(
+                    fault(
+                        "constant",
+                        key,
+                        _("all values of {sample} are equal, so {what} has no answer"),
+                        _("measure finer, or leave it out"),
+                        sample=name,
+                        what=what,
+                    )
+                )
         return found
 
     def _test_findings(self, key: str, test: Asked) -> list[Finding]:
@@ -166,33 +197,79 @@ class Samples(Problem):
         if len(test.of) != wanted if kind.samples else len(test.of) < 2:
             found.append(
                 fault(
-                    "statistics.sample_count", f"{key}.of", what=test.kind, wanted=wanted, count=len(test.of)
+                    "sample_count",
+                    f"{key}.of",
+                    _("{what} needs {wanted} sample(s); {count} are named"),
+                    _("name as many under of"),
+                    what=test.kind,
+                    wanted=wanted,
+                    count=len(test.of),
                 )
             )
         if (test.kind in AGAINST) != (test.value is not None):
-            code = "value_needed" if test.kind in AGAINST else "value_useless"
-            found.append(fault(f"statistics.{code}", key, what=test.kind))
+            found.append(
+                fault(
+                    "value_needed",
+                    key,
+                    _("{what} needs a value to compare with"),
+                    _("give value: such as 20 mm"),
+                    what=test.kind,
+                )
+                if test.kind in AGAINST
+                else fault(
+                    "value_useless",
+                    key,
+                    _("{what} compares with no value"),
+                    _("leave value out"),
+                    what=test.kind,
+                )
+            )
         if found:
             return found
         found = self._small(key, test.of, test.kind, kind.least)
         kinds = {self.samples[n].dimension for n in test.of} | ({test.dimension} if test.dimension else set())
         if test.kind != "correlation" and len(kinds) > 1:
-            found.append(fault("statistics.kinds_differ", key))
+            found.append(
+                fault(
+                    "kinds_differ",
+                    key,
+                    _("lengths cannot be compared with forces: the samples or the value differ in kind"),
+                    _("compare values of one kind"),
+                )
+            )
         if test.kind in TOGETHER and len({len(self.values(n)) for n in test.of}) > 1:
             found.append(
                 fault(
-                    "statistics.not_paired", key, counts=" : ".join(str(len(self.values(n))) for n in test.of)
+                    "not_paired",
+                    key,
+                    _("the samples belong together value by value, but have different numbers ({counts})"),
+                    _("give as many values in each"),
+                    counts=" : ".join(str(len(self.values(n))) for n in test.of),
                 )
             )
         if test.kind == "variance" and test.value is not None and test.value <= 0:
-            found.append(fault("statistics.deviation_above_zero", f"{key}.value"))
+            found.append(
+                fault(
+                    "deviation_above_zero",
+                    f"{key}.value",
+                    _("the standard deviation to compare with must be above zero"),
+                    _("give a value above zero"),
+                )
+            )
         if (
             test.kind == "paired"
             and not found
             and np.ptp(self.values(test.of[0]) - self.values(test.of[1])) == 0.0
         ):
             found.append(
-                fault("statistics.constant", key, sample=f"{test.of[0]} − {test.of[1]}", what=test.kind)
+                fault(
+                    "constant",
+                    key,
+                    _("all values of {sample} are equal, so {what} has no answer"),
+                    _("measure finer, or leave it out"),
+                    sample=f"{test.of[0]} − {test.of[1]}",
+                    what=test.kind,
+                )
             )
         return found
 
@@ -201,38 +278,80 @@ class Samples(Problem):
         if found:
             return found
         if fitting.degree > 1 and len(fitting.on) > 1:
-            return [fault("statistics.degree_of_one", f"{key}.degree")]
+            return [
+                fault(
+                    "degree_of_one",
+                    f"{key}.degree",
+                    _("a degree above 1 is for one explaining sample"),
+                    _("name one sample under on, or leave degree out"),
+                )
+            ]
         counts = {len(self.values(n)) for n in (fitting.y, *fitting.on)}
         if len(counts) > 1:
-            return [fault("statistics.not_paired", key, counts=" : ".join(map(str, sorted(counts))))]
+            return [
+                fault(
+                    "not_paired",
+                    key,
+                    _("the samples belong together value by value, but have different numbers ({counts})"),
+                    _("give as many values in each"),
+                    counts=" : ".join(map(str, sorted(counts))),
+                )
+            ]
         least = len(self.columns_of(fitting)[1]) + 1
         if min(counts) < least:
             return [
                 fault(
-                    "statistics.too_small",
+                    "too_small",
                     key,
+                    _("the sample {sample} has {count} value(s), too few for {what}"),
+                    _("give at least {least}"),
                     sample=fitting.y,
                     count=min(counts),
                     what="regression",
                     least=least,
                 )
             ]
-        return [] if self.regress(fitting) else [fault("statistics.dependent", f"{key}.on")]
+        return (
+            []
+            if self.regress(fitting)
+            else [
+                fault(
+                    "dependent",
+                    f"{key}.on",
+                    _("the explaining samples depend on each other or do not vary"),
+                    pgettext("statistics", "leave one of them out"),
+                )
+            ]
+        )
 
     def _limit_findings(self, key: str, name: str, limits: Limits) -> list[Finding]:
         found = self._unknown(key, (name,))
         if found:
             return found
         if limits.lower is None and limits.upper is None:
-            return [fault("statistics.no_limits", key)]
+            return [fault("no_limits", key, _("there is no limit"), _("give lower, upper or both"))]
         if limits.lower is not None and limits.upper is not None and limits.upper <= limits.lower:
-            return [fault("part.limits_order", key)]
+            return [
+                fault(
+                    "limits_order",
+                    key,
+                    _("the upper limit is not above the lower one"),
+                    _("give the larger value as upper"),
+                )
+            ]
         return self._small(key, (name,), "capability", 2 * (limits.subgroup or 1))
 
     def _fit_findings(self, word: str) -> list[Finding]:
         found = self._small("fit", tuple(self.samples), word, FIT_LEAST)
         found += [
-            fault("statistics.not_positive", "fit", sample=n, what=word)
+            fault(
+                "not_positive",
+                "fit",
+                _("{what} is for positive values, but {sample} has zero or negative ones"),
+                _("leave this distribution out"),
+                sample=n,
+                what=word,
+            )
             for n in self.samples
             if word in POSITIVE and len(self.values(n)) and self.values(n).min() <= 0
         ]
@@ -322,11 +441,18 @@ class Statistics(Result):
 
     def blocks(self, say: Say) -> list[Block]:
         found = [self._described(name, say) for name in self.problem.samples]
-        found += [Block(f"fit.{name}", say("statistics.fits", name=name), self._fit_rows(name, say))
-                  for name in self.problem.samples if self.problem.fit]  # fmt: skip
+        found += [
+            Block(
+                f"fit.{name}",
+                say(_("Distributions of {name}, best first (Akaike's number)", name=name)),
+                self._fit_rows(name, say),
+            )
+            for name in self.problem.samples
+            if self.problem.fit
+        ]
         if self.tests:
             rows = [row for name in self.tests for row in self._test_rows(name, say)]
-            found.append(Block("tests", say("statistics.tests"), rows))
+            found.append(Block("tests", say(_("Tests")), rows))
         found += [self._regressed(name, say) for name in self.regressions]
         found += [self._capable(name, say) for name in self.capabilities]
         return found
@@ -346,7 +472,7 @@ class Statistics(Result):
         rows.append(Row("largest", d.largest, scale=scale))
         if d.count > 2 and d.least < d.largest:
             rows += [Row("skewness", d.skewness), Row("kurtosis", d.kurtosis)]
-        return Block(f"sample.{name}", say("statistics.sample", name=name), rows)
+        return Block(f"sample.{name}", say(_("Sample {name}", name=name)), rows)
 
     def _measured(self, name: str, value: float) -> str:
         """A value of a sample in its own unit, as one sign of a formula."""
@@ -381,7 +507,9 @@ class Statistics(Result):
         for fit in self.fits[name]:
             factor = self.scale(name).factor
             note = ", ".join(f"{k} = {number(_in_units(k, v, factor))}" for k, v in fit.parameters.items())
-            distance = say("statistics.distance", distance=f"{fit.distance:.4f}")
+            distance = say(
+                _("largest distance of the distribution functions {distance}", distance=f"{fit.distance:.4f}")
+            )
             rows.append(Row(fit.name, fit.akaike, "", say(f"statistics.{fit.name}"), f"{note}; {distance}"))
         return rows
 
@@ -390,7 +518,11 @@ class Statistics(Result):
         freedom = f"({', '.join(number(f) for f in outcome.freedom)})" if outcome.freedom else ""
         rejected = outcome.p < 1.0 - self.problem.confidence
         hypothesis = say(f"statistics.h_{test.kind}")
-        verdict = say("statistics.rejected" if rejected else "statistics.kept", hypothesis=hypothesis)
+        verdict = say(
+            (_("rejected: {hypothesis}") if rejected else _("not rejected: {hypothesis}")).format(
+                hypothesis=hypothesis
+            )
+        )
         return [
             Row(f"{name}.{outcome.symbol}", outcome.statistic, "", f"{name}: {outcome.symbol}{freedom}"),
             Row(
@@ -409,11 +541,11 @@ class Statistics(Result):
         for i, (term, scale) in enumerate(zip(r.terms, scales, strict=True)):
             error, low, high = (number(float(each[i]) / scale.factor) for each in (r.errors, r.low, r.high))
             p = _probability(float(r.p[i]))
-            note = say("statistics.coefficient", error=error, low=low, high=high, p=p)
+            note = say(_("± {error}; {low} … {high}; p {p}", error=error, low=low, high=high, p=p))
             rows.append(Row(f"b_{term}", float(r.coefficients[i]), "", f"b({term})", note, scale))
         rows += [Row("determination", r.determination), Row("residual", r.deviation, scale=scales[0])]
         y = self.problem.regressions[name].y
-        return Block(f"regression.{name}", say("statistics.regression", name=name, y=y), rows)
+        return Block(f"regression.{name}", say(_("Regression {name} of {y}", name=name, y=y)), rows)
 
     def _capable(self, name: str, say: Say) -> Block:
         c, rows = self.capabilities[name], []
@@ -422,14 +554,18 @@ class Statistics(Result):
             rows.append(Row("cp", c.cp, "", f"{mark}p", f"{c.cp_interval[0]:.4g} … {c.cp_interval[1]:.4g}"))
         rows.append(Row("cpk", c.cpk, "", f"{mark}pk", f"{c.cpk_interval[0]:.4g} … {c.cpk_interval[1]:.4g}"))
         rows.append(Row("sigma", c.deviation, scale=self.scale(name)))
-        rows.append(Row("outside", c.outside, label=say("statistics.outside"), scale=PARTS_PER_MILLION))
-        remark = say("statistics.within" if c.within else "statistics.overall")
-        return Block(f"capability.{name}", say("statistics.capability", name=name), rows, (remark,))
+        rows.append(Row("outside", c.outside, label=say(_("outside the limits")), scale=PARTS_PER_MILLION))
+        remark = say(
+            _("σ from within the subgroups (Cp, Cpk); share outside for a normal process.")
+            if c.within
+            else _("σ from all values (Pp, Ppk); share outside for a normal process.")
+        )
+        return Block(f"capability.{name}", say(_("Capability of {name}", name=name)), rows, (remark,))
 
     def steps(self, say: Say) -> list[Step]:
         found: list[Step] = []
         for name, d in self.descriptions.items():
-            step = Step(str(len(found) + 1), say("statistics.sample", name=name))
+            step = Step(str(len(found) + 1), say(_("Sample {name}", name=name)))
             step.law(f"n = {d.count}")
             step.law(f"x̄ = Σ x/n = {self._measured(name, d.mean)}")
             if d.count > 1:
@@ -448,7 +584,7 @@ class Statistics(Result):
         for name, r in self.regressions.items():
             step = Step(
                 str(len(found) + 1),
-                say("statistics.regression", name=name, y=self.problem.regressions[name].y),
+                say(_("Regression {name} of {y}", name=name, y=self.problem.regressions[name].y)),
             )
             step.law("b = (Fᵀ·F)⁻¹·Fᵀ·y; s² = Σ e²/(n − p)")
             scales = self._scales(self.problem.regressions[name])
@@ -459,7 +595,7 @@ class Statistics(Result):
             put(step, "R²", "1 − Σ e²/Σ (y − ȳ)²", r.determination)
             found.append(step)
         for name, c in self.capabilities.items():
-            step = Step(str(len(found) + 1), say("statistics.capability", name=name))
+            step = Step(str(len(found) + 1), say(_("Capability of {name}", name=name)))
             mark = "C" if c.within else "P"
             if c.cp is not None:
                 put(step, f"{mark}p", "(U − L)/(6·σ)", c.cp, of=self._limits_of(name), digits=8)

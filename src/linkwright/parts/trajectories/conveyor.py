@@ -22,7 +22,7 @@ from linkwright.parts.base import Result, Value, fault, put
 from linkwright.parts.fields import Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 
 @dataclass(frozen=True)
@@ -52,22 +52,68 @@ class Conveyor(OfMechanism):
     def findings(self) -> list[Finding]:
         if self.link not in self.mechanism.links:
             known = ", ".join(self.mechanism.links)
-            return [fault("trajectory.no_link", "link", link=self.link, known=known)]
+            return [
+                fault(
+                    "no_link",
+                    "link",
+                    _('there is no link "{link}"'),
+                    _("one of: {known}"),
+                    link=self.link,
+                    known=known,
+                )
+            ]
         try:
             motion = self.motion
         except LinkwrightError as error:
-            return [fault("trajectory.thrower", "mechanism", why=error.sentence)]
+            return [
+                fault(
+                    "thrower",
+                    "mechanism",
+                    _("the mechanism cannot be solved: {why}"),
+                    _("mend the model or the names (linkwright check)"),
+                    why=error.sentence,
+                )
+            ]
         found = []
         if not motion.positions.closed or np.ptp(np.diff(motion.time)) > 1e-9 * abs(float(motion.time[1])):
-            found.append(fault("part.uneven", "mechanism"))
+            found.append(
+                fault(
+                    "uneven",
+                    "mechanism",
+                    _("the cycle is not closed or not even in time"),
+                    _("drive the mechanism at constant speed over whole turns"),
+                )
+            )
         turning = np.abs(motion.link(self.link).angular_velocity).max()
         if turning * abs(float(motion.time[-1])) > 1e-6:
-            found.append(fault("trajectory.turns", "link", link=self.link))
+            found.append(
+                fault(
+                    "turns",
+                    "link",
+                    _("the trough {link} turns"),
+                    _("choose a trough that keeps its direction: a slider, or a parallelogram's coupler"),
+                    link=self.link,
+                )
+            )
         gravity = np.hypot(*self.mechanism.gravity)
         if not gravity or self.gravity[1] >= 0:
-            found.append(fault("trajectory.no_gravity", "mechanism"))
+            found.append(
+                fault(
+                    "no_gravity",
+                    "mechanism",
+                    _("no gravity presses the load on the trough"),
+                    _("give the mechanism gravity: [0, -9.81 m/s²], and an incline below 90°"),
+                )
+            )
         if (self.sliding_friction or 0.0) > self.friction:
-            found.append(fault("trajectory.friction_order", "sliding_friction"))
+            found.append(
+                fault(
+                    "friction_order",
+                    "sliding_friction",
+                    _("friction in motion is larger than at rest"),
+                    _("give a sliding_friction of at most friction"),
+                )
+            )
         return found
 
     @property
@@ -150,7 +196,7 @@ class Transport(Result):
 
     def blocks(self, say: Say) -> list[Block]:
         rows = [
-            Row("speed", self.speed, "velocity", say("trajectory.transport_speed")),
+            Row("speed", self.speed, "velocity", say(_("mean speed of transport"))),
             Row("displacement", self.motion.displacement, "length"),
             Row("throw_number", self.throw_number),
         ]
@@ -166,11 +212,15 @@ class Transport(Result):
                 end=self._input(phase.end))
             for i, phase in enumerate(self.motion.phases, 1)
         ]  # fmt: skip
-        remarks = [] if self.motion.repeats else [say("trajectory.irregular")]
+        remarks = (
+            []
+            if self.motion.repeats
+            else [say(_("The motion does not repeat from cycle to cycle; the mean is that of many cycles."))]
+        )
         if self.throw_number <= 1 and self.needed_friction <= self.conveyor.friction:
-            remarks.append(say("trajectory.stays"))
+            remarks.append(say(_("The load stays at rest on the trough.")))
         found = [Block("transport", "", rows, remarks)]
-        return [*found, Block("phases", say("trajectory.phases"), phases[:24])]
+        return [*found, Block("phases", say(_("Phases of one cycle")), phases[:24])]
 
     @property
     def _input_kind(self) -> str:
@@ -188,10 +238,10 @@ class Transport(Result):
     def steps(self, say: Say) -> list[Step]:
         trough, law, found = (
             self.conveyor.trough,
-            Step("1", say("trajectory.law")),
-            Step("2", say("trajectory.phases")),
+            Step("1", say(_("Forces on the load, per mass"))),
+            Step("2", say(_("Phases of one cycle"))),
         )
-        law.say(say("trajectory.per_mass"))
+        law.say(say(_("Per mass of the load: normal force n, friction f that rest would need.")))
         law.law("n = a_n − g_n; f = a_t − g_t")
         law.say(f"{say('trajectory.rest')}:")
         law.law("|f| ≤ μ·n")
@@ -211,5 +261,12 @@ class Transport(Result):
         of: dict[str, Value] = {"Δs": (self.motion.displacement, "length"), "T": (trough.period, "time")}
         put(found, "v", "Δs/T", self.speed, "velocity", of=of)
         if any(phase.mode == FLIGHT for phase in self.motion.phases):
-            found.say(say("trajectory.blow"))
+            found.say(
+                say(
+                    _(
+                        "The load lands without bouncing; the blow of landing rubs as a force of its size "
+                        "would.",
+                    )
+                )
+            )
         return [law, found]

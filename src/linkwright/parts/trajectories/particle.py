@@ -20,7 +20,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem, Result, Value, fault, put
 from linkwright.parts.mechanism_field import load_beside
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 GRAVITY = 9.80665
 #: Accuracy of the integration with quadratic drag, and points of the curve.
@@ -72,13 +72,22 @@ class Particle(Problem):
                 or medium["area"] is None
                 or own.get("quadratic") is not None
             ):
-                found.append(fault("trajectory.drag_form", "drag_coefficient"))
+                found.append(
+                    fault(
+                        "drag_form",
+                        "drag_coefficient",
+                        _("the drag is neither complete nor unique"),
+                        _("give quadratic, or drag_coefficient with area"),
+                    )
+                )
             else:
                 own["quadratic"] = (
                     0.5 * (medium["density"] or 1.225) * medium["drag_coefficient"] * medium["area"]
                 )
         if (own.get("quadratic") or own.get("linear")) and own.get("mass") is None:
-            found.append(fault("trajectory.mass_needed", "mass"))
+            found.append(
+                fault("mass_needed", "mass", _("drag acts on a mass, and there is none"), _("give the mass"))
+            )
         if found:
             raise ModelError(found)
         if thrower["mechanism"] is None:
@@ -89,12 +98,31 @@ class Particle(Problem):
     def thrown(cls, mechanism: Mechanism, by: Mapping[str, Any], own: Mapping[str, Any]) -> Particle:
         """Thrown by the ``point`` of a mechanism when its input is ``at`` an angle, above the ``ground``."""
         if by.get("point") is None or by.get("at") is None or "speed" in own or "angle" in own:
-            raise ModelError([fault("trajectory.thrower_form", "mechanism")])
+            raise ModelError(
+                [
+                    fault(
+                        "thrower_form",
+                        "mechanism",
+                        _("a throw by a mechanism needs point and at, and neither speed nor angle"),
+                        _("write mechanism: FILE, point: bucket.P, at: 40 deg"),
+                    )
+                ]
+            )
         try:
             motion = solve_motion(mechanism, at=[by["at"]])
             place, velocity = motion.point(by["point"]).position[0], motion.point(by["point"]).velocity[0]
         except LinkwrightError as error:
-            raise ModelError([fault("trajectory.thrower", "mechanism", why=error.sentence)]) from None
+            raise ModelError(
+                [
+                    fault(
+                        "thrower",
+                        "mechanism",
+                        _("the mechanism cannot be solved: {why}"),
+                        _("mend the model or the names (linkwright check)"),
+                        why=error.sentence,
+                    )
+                ]
+            ) from None
         speed = float(np.hypot(*velocity))
         angle = math.atan2(velocity[1], velocity[0]) if speed else 0.0
         height = float(place[1]) - (by.get("ground") or 0.0)
@@ -103,11 +131,28 @@ class Particle(Problem):
     def findings(self) -> list[Finding]:
         found = []
         if self.speed is None or self.angle is None:
-            found.append(fault("trajectory.start", "speed"))
+            found.append(
+                fault(
+                    "start",
+                    "speed",
+                    _("the throw has no start"),
+                    _("give speed and angle, or a mechanism with point and at"),
+                )
+            )
         if self.height < 0:
-            found.append(fault("trajectory.below", "height", height=self.height))
+            found.append(
+                fault(
+                    "below",
+                    "height",
+                    _("the start lies {height} m below the ground"),
+                    _("give a height of zero or more, or another ground"),
+                    height=self.height,
+                )
+            )
         if self.linear and self.quadratic:
-            found.append(fault("trajectory.one_drag", "linear"))
+            found.append(
+                fault("one_drag", "linear", _("there are two kinds of drag"), _("give linear or quadratic"))
+            )
         return found
 
     def solve(self) -> Flight:
@@ -186,7 +231,7 @@ class Flight(Result):
         """Time until the ground, s."""
         from scipy.optimize import brentq
 
-        p, (_, v) = self.particle, self.first
+        p, (_unused, v) = self.particle, self.first
         if not p.quadratic and not p.linear:
             return (v + math.sqrt(v * v + 2 * p.gravity * p.height)) / p.gravity
         if p.height == 0.0 and v <= 0.0:
@@ -216,7 +261,7 @@ class Flight(Result):
         """Time of the highest place, s; 0 for a throw downwards."""
         from scipy.optimize import brentq
 
-        p, (_, v) = self.particle, self.first
+        p, (_unused, v) = self.particle, self.first
         if v <= 0.0:
             return 0.0
         if not p.quadratic and not p.linear:
@@ -239,7 +284,7 @@ class Flight(Result):
     @property
     def impact(self) -> tuple[float, float]:
         """Speed (m/s) and direction (rad) at the ground."""
-        _, _, u, v = self.state(np.array([self.duration]))[:, 0]
+        _unused, _unused2, u, v = self.state(np.array([self.duration]))[:, 0]
         return math.hypot(u, v), math.atan2(v, u)
 
     def columns(self) -> dict[str, Floats]:
@@ -258,7 +303,7 @@ class Flight(Result):
         return [Block("flight", "", rows)]
 
     def steps(self, say: Say) -> list[Step]:
-        p, step = self.particle, Step("1", say("trajectory.step"))
+        p, step = self.particle, Step("1", say(_("Equations of motion and their solution")))
         if p.quadratic:
             step.law("m·v̇_x = −k·v·v_x; m·v̇_y = −m·g − k·v·v_y; v = √(v_x² + v_y²)")
             of: dict[str, Value] = {

@@ -27,7 +27,7 @@ from linkwright.laws.program_fields import LawField
 from linkwright.laws.residual import residual
 from linkwright.parts.base import Problem, Result, Value, fault, put
 from linkwright.parts.vibration.linear import Linear, largest_between
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: Points of curves; distance from a break at which a law has the value of its side.
 POINTS, BESIDE = 801, 1e-13
@@ -99,12 +99,52 @@ class FollowerSpring(Problem):
             else:
                 ends = np.asarray(law.curves(np.array([0.0, 1.0]))[0], dtype=float).tolist()
         except QuantityError as error:
-            return [fault("vibration.law", "law", law=self.law, why=error.message, known=known)]
+            return [
+                fault(
+                    "law",
+                    "law",
+                    _('the law "{law}" cannot be read: {why}'),
+                    _("use one of {known}, or an expression of u such as 3*u^2 - 2*u^3"),
+                    law=self.law,
+                    why=error.message,
+                    known=known,
+                )
+            ]
         except RequestError as error:
-            return [fault("vibration.law", "law", law=self.law, why=error.sentence, known=known)]
+            return [
+                fault(
+                    "law",
+                    "law",
+                    _('the law "{law}" cannot be read: {why}'),
+                    _("use one of {known}, or an expression of u such as 3*u^2 - 2*u^3"),
+                    law=self.law,
+                    why=error.sentence,
+                    known=known,
+                )
+            ]
         if abs(ends[0]) > 1e-9 or abs(ends[1] - 1.0) > 1e-9:
-            return [fault("vibration.law_ends", "law", first=ends[0], last=ends[1])]
-        return [fault("vibration.overdamped", "damping_ratio")] if self.damping_ratio >= 1.0 else []
+            return [
+                fault(
+                    "law_ends",
+                    "law",
+                    _("the law goes from {first} to {last}"),
+                    _("a rise goes from 0 at u = 0 to 1 at u = 1"),
+                    first=ends[0],
+                    last=ends[1],
+                )
+            ]
+        return (
+            [
+                fault(
+                    "overdamped",
+                    "damping_ratio",
+                    _("a damping ratio of 1 or more leaves no vibration"),
+                    _("give a value below 1"),
+                )
+            ]
+            if self.damping_ratio >= 1.0
+            else []
+        )
 
     def solve(self) -> FollowerVibration:
         """The vibration. Raises ModelError with all findings."""
@@ -166,12 +206,12 @@ class FollowerVibration(Result):
     @property
     def curves(self) -> tuple[Floats, Floats, Floats]:
         """Times (t,) over the rise and after it, lift s of the cam and of the follower, m."""
-        time, cam, gap, _ = self._swing
+        time, cam, gap, _unused = self._swing
         return time, cam, cam + gap
 
     def _largest_gap(self, after: bool) -> float:
         """Largest size of z during the rise or after it, m."""
-        time, _, gap, rate = self._swing
+        time, _unused, gap, rate = self._swing
         left = int(np.searchsorted(time, self.problem.rise_time, side="right")) - 1
         part = slice(left, None) if after else slice(0, left)
         return abs(largest_between(time[part], gap[part], rate[part])[1])
@@ -192,8 +232,8 @@ class FollowerVibration(Result):
         return [Block("follower", "", rows)]
 
     def steps(self, say: Say) -> list[Step]:
-        step = Step("1", say("vibration.step_follower"))
-        step.say(say("vibration.law_of_rise", law=self.problem.said))
+        step = Step("1", say(_("A mass driven through a spring")))
+        step.say(say(_("Rise s(u) = h·f(u) with u = t/T; law f: {law}.", law=self.problem.said)))
         step.law("z = x − s; z̈ + 2·ζ·ω·ż + ω²·z = −s̈")
         of: dict[str, Value] = {"k": (self.problem.stiffness, "stiffness"), "m": (self.problem.mass, "mass")}
         put(step, "ω", "√(k/m)", self.frequency, "angular_velocity", of=of)
@@ -202,7 +242,14 @@ class FollowerVibration(Result):
         put(step, "A", "|∫ s̈·e^(i·ω·t) dt|/ω", float(self.residual()[0]), "length")
         quiet = self._quiet()
         if quiet:
-            step.say(say("vibration.quiet", ratios=", ".join(number(n, digits=4) for n in quiet)))
+            step.say(
+                say(
+                    _(
+                        "hardly any vibration is left at n = {ratios}",
+                        ratios=", ".join(number(n, digits=4) for n in quiet),
+                    )
+                )
+            )
         return [step]
 
     def _quiet(self) -> list[float]:

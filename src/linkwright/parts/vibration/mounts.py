@@ -23,7 +23,7 @@ from linkwright.parts.base import Result, Value, fault, put
 from linkwright.parts.fields import Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.vibration.linear import largest_between
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: Columns and dimensions of shaking force, motion and force on the ground, by axis.
 TITLES = {
@@ -97,22 +97,77 @@ class Mounts(OfMechanism):
         try:
             time = self.forces.motion.time
         except LinkwrightError as error:
-            return [fault("part.not_passed", "mechanism", why=error.sentence)]
+            return [
+                fault(
+                    "not_passed",
+                    "mechanism",
+                    _("the mechanism does not pass its cycle: {why}"),
+                    _("mend the model first (linkwright check)"),
+                    why=error.sentence,
+                )
+            ]
         gaps = np.diff(time)
         even = len(gaps) and np.ptp(gaps) < 1e-9 * abs(gaps[0]) and self.forces.motion.positions.closed
-        found = [] if even else [fault("part.uneven", "mechanism")]
+        found = (
+            []
+            if even
+            else [
+                fault(
+                    "uneven",
+                    "mechanism",
+                    _("the cycle is not closed or not even in time"),
+                    _("drive the mechanism at constant speed over whole turns"),
+                )
+            ]
+        )
         moving = sum(link.mass for link in self.mechanism.links.values())
         if not moving:
-            found.append(fault("vibration.nothing_shakes", "mechanism"))
+            found.append(
+                fault(
+                    "nothing_shakes",
+                    "mechanism",
+                    _("no moving link of the mechanism has a mass, so nothing shakes the machine"),
+                    _("give the links of the mechanism their masses"),
+                )
+            )
         if self.mass < moving:
-            found.append(fault("vibration.too_light", "mass", moving=moving))
+            found.append(
+                fault(
+                    "too_light",
+                    "mass",
+                    _("the machine is lighter than its moving links ({moving} kg)"),
+                    _("give the mass of the whole machine"),
+                    moving=moving,
+                )
+            )
         together = self.stiffness_x is not None and self.stiffness_y is not None
         if together == bool(self.mounts):
-            found.append(fault("vibration.one_way", "mounts" if self.mounts else "stiffness_x"))
+            found.append(
+                fault(
+                    "one_way",
+                    "mounts" if self.mounts else "stiffness_x",
+                    _("the mounts are given either together or one by one"),
+                    _("give stiffness_x and stiffness_y, or mounts with their places"),
+                )
+            )
         elif self.mounts and (self.inertia is None or self.mass_centre is None):
-            found.append(fault("vibration.rocking", "mounts"))
+            found.append(
+                fault(
+                    "rocking",
+                    "mounts",
+                    _("a machine that rocks needs its inertia and mass centre"),
+                    _("give inertia: 900 kg·m² and mass_centre: [0.4 m, 0.3 m]"),
+                )
+            )
         elif self.mounts and np.linalg.eigvalsh(self.stiffness)[0] <= 1e-12 * self.stiffness[2, 2]:
-            found.append(fault("vibration.tips", "mounts"))
+            found.append(
+                fault(
+                    "tips",
+                    "mounts",
+                    _("the machine can turn freely on these mounts"),
+                    _("give mounts at two places at least"),
+                )
+            )
         return found
 
     @cached_property
@@ -141,7 +196,20 @@ class Mounts(OfMechanism):
                 order = own / shaken.speed
                 near = abs(order - round(order)) < 1e-9 and 0 < round(order) < len(shaken.harmonics)
                 if near and abs(shaken.harmonics[round(order)] @ shape) > 0:
-                    raise ModelError([fault("vibration.resonance", "mass", hertz=own / (2 * math.pi))])
+                    raise ModelError(
+                        [
+                            fault(
+                                "resonance",
+                                "mass",
+                                _(
+                                    "resonance: the excitation has the natural frequency {hertz} Hz, and nothing "
+                                    "damps it; the amplitude grows without end",
+                                ),
+                                _("change the frequency or a stiffness, or give damping"),
+                                hertz=own / (2 * math.pi),
+                            )
+                        ]
+                    )
         return shaken
 
 
@@ -253,14 +321,14 @@ class Shaken(Result):
         found = {"time [s]": self.problem.forces.motion.time}
         curves = (self.shaking, self._curve(self.moved), self._curve(self.passed))
         for i, axis in enumerate(self.axes):
-            found |= {title: each[:, i] for (title, _), each in zip(TITLES[axis], curves, strict=True)}
+            found |= {title: each[:, i] for (title, _unused), each in zip(TITLES[axis], curves, strict=True)}
         return found
 
     def _own_rows(self, say: Say) -> list[Row]:
         """Natural frequencies; of a machine that rocks with what moves most, over the radius of gyration."""
         hertz = self.frequencies / (2 * math.pi)
         if not self.problem.mounts:
-            return [Row(f"own_{axis}", hertz[i], "frequency", say("vibration.own", axis=axis))
+            return [Row(f"own_{axis}", hertz[i], "frequency", say(_("natural frequency along {axis}", axis=axis)))
                     for i, axis in enumerate(self.axes)]  # fmt: skip
         sizes = np.abs(self.modes) * np.sqrt(self.problem.inertias)[:, None]
         most = [self.axes[int(k)] for k in sizes.argmax(axis=0)]
@@ -269,7 +337,13 @@ class Shaken(Result):
                 f"own_{k}",
                 hertz[k],
                 "frequency",
-                say("vibration.own_mode", mode=k + 1, axis=say(f"vibration.way_{most[k]}")),
+                say(
+                    _(
+                        "natural frequency, mode {mode} (mostly {axis})",
+                        mode=k + 1,
+                        axis=say(f"vibration.way_{most[k]}"),
+                    )
+                ),
             )
             for k in range(len(hertz))
         ]
@@ -278,20 +352,30 @@ class Shaken(Result):
         rows = self._own_rows(say)
         curves = {"shaking": self.harmonics, "machine": self.moved, "ground": self.passed}
         for i, axis in enumerate(self.axes):
-            for (key, amplitudes), (_, dimension) in zip(curves.items(), TITLES[axis], strict=True):
+            for (key, amplitudes), (_unused, dimension) in zip(curves.items(), TITLES[axis], strict=True):
                 largest = self._largest(amplitudes[:, i])
                 label = say(f"vibration.{key}_turn") if axis == "turn" else say(f"vibration.{key}", axis=axis)
                 rows.append(Row(f"{key}_{axis}", largest, dimension, label))
-        found = [Block("mounts", say("vibration.largest_values"), rows)]
+        found = [Block("mounts", say(_("Largest values over the cycle")), rows)]
         listed = []
         for k in self.listed():
             for i, axis in enumerate(self.axes):
-                (_, kind), (_, way), _ = TITLES[axis]
+                (_unused2, kind), (_unused3, way), _unused4 = TITLES[axis]
                 hertz = number(float(self.orders[k]) / (2 * math.pi))
-                label = say("vibration.harmonic", order=k, axis=say(f"vibration.way_{axis}"), hertz=hertz)
+                label = say(
+                    _(
+                        "k = {order} ({hertz} Hz) {axis}",
+                        order=k,
+                        axis=say(f"vibration.way_{axis}"),
+                        hertz=hertz,
+                    )
+                )
                 note = f"→ {shown(float(abs(self.moved[k, i])), way)}, {shown(float(abs(self.passed[k, i])), kind)}"
                 listed.append(Row(f"force_{k}_{axis}", float(abs(self.harmonics[k, i])), kind, label, note))
-        return [*found, Block("harmonics", say("vibration.harmonics"), listed)]
+        return [
+            *found,
+            Block("harmonics", say(_("Harmonics: shaking force → motion, force on the ground")), listed),
+        ]
 
     def listed(self) -> list[int]:
         """Harmonics that matter, k from 1."""
@@ -299,7 +383,10 @@ class Shaken(Result):
         return [k + 1 for k in range(len(size)) if size[k] > SMALL * size.max()][:12]
 
     def steps(self, say: Say) -> list[Step]:
-        own, each = Step("1", say("vibration.step_mounts")), Step("2", say("vibration.harmonics"))
+        own, each = (
+            Step("1", say(_("Natural frequencies and speeds to avoid"))),
+            Step("2", say(_("Harmonics: shaking force → motion, force on the ground"))),
+        )
         put(own, "ω", "2·π/T", self.speed, "angular_velocity", of={"T": (2 * math.pi / self.speed, "time")})
         if self.problem.mounts:
             own.law("det(K − ω²·M) = 0")
@@ -316,11 +403,20 @@ class Shaken(Result):
                 number(60 * float(self.frequencies[i]) / (2 * math.pi) / k, digits=4)
                 for k in self.listed()[:4]
             )
-            own.say(say("vibration.critical", axis=way, speeds=speeds))
+            own.say(
+                say(
+                    _(
+                        "speeds at which a harmonic meets the natural frequency along {axis}: {speeds} "
+                        "cycles per minute",
+                        axis=way,
+                        speeds=speeds,
+                    )
+                )
+            )
         each.law("X_k = (K − k²·ω²·M + i·k·ω·C)⁻¹·F_k; G_k = (K + i·k·ω·C)·X_k")
         for k in self.listed():
             for i, axis in enumerate(self.axes):
-                (_, kind), (_, way), _ = TITLES[axis]
+                (_unused, kind), (_unused2, way), _unused3 = TITLES[axis]
                 mark = "θ" if axis == "turn" else axis
                 put(each, f"F{k}{mark}", "", float(abs(self.harmonics[k, i])), kind)
                 put(each, f"X{k}{mark}", "", float(abs(self.moved[k, i])), way)

@@ -34,7 +34,7 @@ from linkwright.parts.vibration.excitation import (
 )
 from linkwright.parts.vibration.linear import Linear, largest_between, tuned
 from linkwright.units import DIMENSIONS, SMALLEST
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 GROUND = "ground"
 #: Curves of frequency and time have so many points.
@@ -139,17 +139,18 @@ class VibratingSystem(Problem):
         given = dict(values)
         discs = given.pop("inertias", None) or {}
         given["masses"] = {**(given.get("masses") or {}), **discs}
-        turning = any(kind == DIMENSIONS["inertia"] for _, kind in given["masses"].values())
+        turning = any(kind == DIMENSIONS["inertia"] for _unused, kind in given["masses"].values())
         wrong = _mixed(given, dict.fromkeys(discs, "inertias"), turning)
         if wrong:
             raise ModelError(wrong)
-        given["masses"] = {name: value for name, (value, _) in given["masses"].items()}
+        given["masses"] = {name: value for name, (value, _unused) in given["masses"].items()}
         for what in ("springs", "dampers"):
             ties = given.get(what, {})
             given[what] = {name: Tie(tie["between"], tie["rate"][0]) for name, tie in ties.items()}
         starts = given.get("start", {})
         given["start"] = {
-            name: Start(**{word: value for word, (value, _) in each.items()}) for name, each in starts.items()
+            name: Start(**{word: value for word, (value, _unused) in each.items()})
+            for name, each in starts.items()
         }
         if given.get("excitation") is not None:
             given["excitation"] = excitation_of(given["excitation"])
@@ -162,25 +163,54 @@ class VibratingSystem(Problem):
     def quieted(self, on: str, mass: float) -> VibratingSystem:
         """The system with the best damped absorber on its one mass; raises ModelError for other systems."""
         if list(self.masses) != [on] or self.dampers or self.turning:
-            raise ModelError([fault("vibration.absorber_alone", "absorber")])
+            raise ModelError(
+                [
+                    fault(
+                        "absorber_alone",
+                        "absorber",
+                        _("the best absorber is known for one mass without dampers"),
+                        _("give one mass with springs to the ground, or write the absorber as a second mass"),
+                    )
+                ]
+            )
         stiffness = sum(spring.rate for spring in self.springs.values())
         spring, damper = tuned(self.masses[on], stiffness, mass)
         between = (on, "absorber")
         return replace(
-            self, masses={**self.masses, "absorber": mass},
-            springs={**self.springs, "absorber": Tie(between, spring)}, dampers={"absorber": Tie(between, damper)},
-        )  # fmt: skip
+            self,
+            masses={**self.masses, "absorber": mass},
+            springs={**self.springs, "absorber": Tie(between, spring)},
+            dampers={"absorber": Tie(between, damper)},
+        )
 
     def findings(self) -> list[Finding]:
-        found = [] if self.masses else [fault("vibration.no_mass", "masses")]
+        found = (
+            []
+            if self.masses
+            else [fault("no_mass", "masses", _("there is no mass"), _("write masses: {{body: 100 kg}}"))]
+        )
         found += [
-            fault("vibration.mass_above_zero", f"masses.{n}") for n, m in self.masses.items() if m <= SMALLEST
+            fault(
+                "mass_above_zero",
+                f"masses.{n}",
+                _("the mass is not above 1e-12 kg (kg·m²)"),
+                _("give a mass above zero"),
+            )
+            for n, m in self.masses.items()
+            if m <= SMALLEST
         ]
         for what, ties in (("springs", self.springs), ("dampers", self.dampers)):
             for name, tie in ties.items():
                 found += self._tie_findings(f"{what}.{name}", tie)
         found += [
-            fault("vibration.no_such_mass", f"start.{name}", name=name, known=tuple(self.masses))
+            fault(
+                "no_such_mass",
+                f"start.{name}",
+                _('there is no mass "{name}"'),
+                _("one of: {known}"),
+                name=name,
+                known=tuple(self.masses),
+            )
             for name in self.start
             if name not in self.masses
         ]
@@ -189,13 +219,39 @@ class VibratingSystem(Problem):
     def _tie_findings(self, key: str, tie: Tie) -> list[Finding]:
         known = [GROUND, *self.masses]
         if len(tie.between) != 2 or tie.between[0] == tie.between[-1]:
-            return [fault("vibration.two_ends", f"{key}.between")]
+            return [
+                fault(
+                    "two_ends",
+                    f"{key}.between",
+                    _("a spring or damper needs two different ends"),
+                    _("write between: [ground, body]"),
+                )
+            ]
         found = [
-            fault("vibration.no_such_mass", f"{key}.between", name=end, known=tuple(known))
+            fault(
+                "no_such_mass",
+                f"{key}.between",
+                _('there is no mass "{name}"'),
+                _("one of: {known}"),
+                name=end,
+                known=tuple(known),
+            )
             for end in tie.between
             if end not in known
         ]
-        return [*found, fault("vibration.rate_negative", key)] if tie.rate < 0 else found
+        return (
+            [
+                *found,
+                fault(
+                    "rate_negative",
+                    key,
+                    _("a negative stiffness or damping"),
+                    _("give a value of zero or more"),
+                ),
+            ]
+            if tie.rate < 0
+            else found
+        )
 
     def _excitation_findings(self) -> list[Finding]:
         given = self.excitation
@@ -204,19 +260,60 @@ class VibratingSystem(Problem):
         forms = [n for n in ("force", "base", "unbalance") if getattr(given, n) is not None]
         forms += ["table"] if given.times else []
         if len(forms) != 1 or (forms[0] != "table" and given.frequency is None):
-            return [fault("vibration.excitation_form", "excitation")]
+            return [
+                fault(
+                    "excitation_form",
+                    "excitation",
+                    _("the excitation is neither complete nor unique"),
+                    _("give one of force, base, unbalance with frequency or speed, or a table"),
+                )
+            ]
         if 0.0 in (given.force, given.base):
-            return [fault("vibration.no_amplitude", f"excitation.{forms[0]}")]
+            return [
+                fault(
+                    "no_amplitude",
+                    f"excitation.{forms[0]}",
+                    _("an amplitude of zero shakes nothing"),
+                    _("give another amplitude, or leave the excitation out"),
+                )
+            ]
         if forms[0] != "base" and given.on not in self.masses:
-            return [fault("vibration.no_such_mass", "excitation.on", name=given.on, known=tuple(self.masses))]
+            return [
+                fault(
+                    "no_such_mass",
+                    "excitation.on",
+                    _('there is no mass "{name}"'),
+                    _("one of: {known}"),
+                    name=given.on,
+                    known=tuple(self.masses),
+                )
+            ]
         if given.times and (len(given.times) != len(given.forces) or len(given.times) < 2 or
                             any(b <= a for a, b in zip(given.times, given.times[1:], strict=False))):  # fmt: skip
-            return [fault("vibration.table", "excitation.table")]
+            return [
+                fault(
+                    "table",
+                    "excitation.table",
+                    _("the measured force is no table of increasing times"),
+                    _("give as many forces as times, two or more, times increasing"),
+                )
+            ]
         linear = self.linear
         for i, own in enumerate(linear.modes[0]):
             near = given.frequency is not None and abs(own - given.frequency) <= RESONANCE * given.frequency
             if near and linear.damping_ratios[i] == 0.0:
-                return [fault("vibration.resonance", "excitation", hertz=own / (2 * math.pi))]
+                return [
+                    fault(
+                        "resonance",
+                        "excitation",
+                        _(
+                            "resonance: the excitation has the natural frequency {hertz} Hz, and nothing damps "
+                            "it; the amplitude grows without end",
+                        ),
+                        _("change the frequency or a stiffness, or give damping"),
+                        hertz=own / (2 * math.pi),
+                    )
+                ]
         return []
 
     @cached_property
@@ -256,22 +353,40 @@ class VibratingSystem(Problem):
 def _mixed(given: Mapping[str, Any], where: Mapping[str, str], turning: bool) -> list[Finding]:
     """Findings where straight and turning motion, or wrong units, come together."""
     kinds = TURNING if turning else STRAIGHT
-    values = {f"{where.get(n, 'masses')}.{n}": (kind, "mass") for n, (_, kind) in given["masses"].items()}
+    values = {
+        f"{where.get(n, 'masses')}.{n}": (kind, "mass") for n, (_unused, kind) in given["masses"].items()
+    }
     for what, key in (("springs", "stiffness"), ("dampers", "damping")):
         values |= {f"{what}.{n}.{key}": (t["rate"][1], key) for n, t in given.get(what, {}).items()}
     for name, start in given.get("start", {}).items():
-        values |= {f"start.{name}.{word}": (kind, word) for word, (_, kind) in start.items()}
+        values |= {f"start.{name}.{word}": (kind, word) for word, (_unused, kind) in start.items()}
     shaken = given.get("excitation") or {}
     values |= {f"excitation.{key}": (shaken[key][1], key) for key in ("force", "base") if key in shaken}
     table = (shaken.get("table") or {}).get("forces", ())
-    values |= {f"excitation.table.force.{i}": (kind, "force") for i, (_, kind) in enumerate(table)}
+    values |= {f"excitation.table.force.{i}": (kind, "force") for i, (_unused, kind) in enumerate(table)}
     found = [
-        fault("vibration.mixed", key, needed=kinds[word].replace("_", " "))
+        fault(
+            "mixed",
+            key,
+            _(
+                "straight and turning motion, or units of another kind, stand together: a {needed} "
+                "is needed here",
+            ),
+            _("give all masses in kg with N/m and N·s/m, or all in kg·m² with N·m/rad and N·m·s/rad"),
+            needed=kinds[word].replace("_", " "),
+        )
         for key, (kind, word) in values.items()
         if kind != DIMENSIONS[kinds[word]]
     ]
     if turning and "unbalance" in shaken:
-        found.append(fault("vibration.turning_unbalance", "excitation.unbalance"))
+        found.append(
+            fault(
+                "turning_unbalance",
+                "excitation.unbalance",
+                _("a rotor's unbalance shakes masses, not discs"),
+                _("give the torque on the disc"),
+            )
+        )
     return found
 
 
@@ -397,27 +512,38 @@ class Vibration(Result):
                 f"{n} {number(float(s), digits=5)}"
                 for n, s in zip(self.system.masses, self.shapes[:, i], strict=True)
             )
-            label = say("vibration.mode", index=i + 1)
+            label = say(_("f{index}", index=i + 1))
             rows.append(
                 Row(
                     f"frequency_{i + 1}",
                     own / (2 * math.pi),
                     "frequency",
                     label,
-                    say("vibration.shape", mode=mode),
+                    say(_("mode: {mode}", mode=mode)),
                 )
             )
             rows.append(Row(f"circular_{i + 1}", float(own), "angular_velocity", f"  ω{i + 1}"))
             if self.linear.damping.any():
                 rows.append(Row(f"damping_{i + 1}", float(self.damping_ratios[i]), "", f"  ζ{i + 1}"))
         loose = int((self.frequencies == 0).sum())
-        remarks = (say("vibration.loose", count=loose),) if loose else ()
-        found = [Block("modes", say("vibration.modes"), rows, remarks)]
+        remarks = (
+            (
+                say(
+                    _(
+                        "{count} of the modes are free motions of the whole: nothing ties it to the ground.",
+                        count=loose,
+                    )
+                ),
+            )
+            if loose
+            else ()
+        )
+        found = [Block("modes", say(_("Natural frequencies and modes")), rows, remarks)]
         for name in ("absorber",):
             if name in self.system.springs and name in self.system.dampers:
                 tied = [Row("absorber_stiffness", self.system.springs[name].rate, "stiffness"),
                         Row("absorber_damping", self.system.dampers[name].rate, "damping")]  # fmt: skip
-                found.append(Block("absorber", say("vibration.absorber"), tied))
+                found.append(Block("absorber", say(_("Best damped absorber (Den Hartog)")), tied))
         if self.harmonic:
             found.append(self._forced(say))
         if self.in_time:
@@ -433,13 +559,17 @@ class Vibration(Result):
         rows = []
         for name, value in zip(self.system.masses, moved, strict=True):
             rows.append(
-                Row(f"{name}.amplitude", float(abs(value)), length, say("vibration.amplitude", name=name))
+                Row(f"{name}.amplitude", float(abs(value)), length, say(_("amplitude of {name}", name=name)))
             )
             rows.append(
-                Row(f"{name}.phase", float(np.angle(value)), "angle", say("vibration.phase", name=name))
+                Row(f"{name}.phase", float(np.angle(value)), "angle", say(_("phase of {name}", name=name)))
             )
         rows.append(Row("transmissibility", float(self.transmissibility(at)[0])))
-        return Block("forced", say("vibration.forced", hertz=number(given.frequency / (2 * math.pi))), rows)
+        return Block(
+            "forced",
+            say(_("Forced vibration at {hertz} Hz", hertz=number(given.frequency / (2 * math.pi)))),
+            rows,
+        )
 
     def _timed(self, say: Say) -> Block:
         time, moved, rate = self._response
@@ -447,9 +577,17 @@ class Vibration(Result):
         rows = []
         for i, name in enumerate(self.system.masses):
             place, value = largest_between(time, moved[:, i], rate[:, i])
-            note = say("vibration.at_time", time=number(place))
-            rows.append(Row(f"{name}.largest", value, length, say("vibration.largest", name=name), note))
-        return Block("response", say("vibration.response"), rows)
+            note = say(_("at t = {time} s", time=number(place)))
+            rows.append(
+                Row(
+                    f"{name}.largest",
+                    value,
+                    length,
+                    say(_("largest displacement of {name}", name=name)),
+                    note,
+                )
+            )
+        return Block("response", say(_("Response in time")), rows)
 
     def _single(self) -> dict[str, Value]:
         """Stiffness, mass and damping of a system of one mass."""
@@ -461,8 +599,11 @@ class Vibration(Result):
         }
 
     def steps(self, say: Say) -> list[Step]:
-        matrices, modes = Step("1", say("vibration.step_matrices")), Step("2", say("vibration.step_modes"))
-        matrices.say(say("vibration.order", names=", ".join(self.system.masses)))
+        matrices, modes = (
+            Step("1", say(_("Equations of motion M·ẍ + C·ẋ + K·x = F"))),
+            Step("2", say(_("det(K − ω²M) = 0"))),
+        )
+        matrices.say(say(_("in the order {names}, SI units:", names=", ".join(self.system.masses))))
         for symbol, matrix in (
             ("M", self.linear.mass),
             ("C", self.linear.damping),
@@ -471,7 +612,7 @@ class Vibration(Result):
             if symbol != "C" or matrix.any():
                 matrices.items.append(named_matrix(symbol, matrix))
         one = len(self.frequencies) == 1
-        modes.say(say("vibration.characteristic"))
+        modes.say(say(_("roots of the characteristic equation, and poles λ of the damped system")))
         modes.law("det(K − ω²·M) = 0")
         of = self._single() if one else {}
         for i, own in enumerate(self.frequencies):
@@ -485,19 +626,19 @@ class Vibration(Result):
                 modes.items.append(named_matrix(f"φ{i + 1}", self.shapes[:, i : i + 1]))
         found = [matrices, modes]
         if self.harmonic:
-            forced = Step("3", say("vibration.step_forced"))
+            forced = Step("3", say(_("Forced vibration")))
             forced.law("(K − ω²·M + i·ω·C)·X = F")
             for row in self._forced(say).rows:
                 put(
                     forced,
-                    row.label or say("vibration.transmissibility"),
+                    row.label or say(_("transmissibility")),
                     "",
                     float(row.value),
                     row.dimension,
                 )
             found.append(forced)
         if self.in_time:
-            timed = Step(str(len(found) + 1), say("vibration.response"))
+            timed = Step(str(len(found) + 1), say(_("Response in time")))
             timed.law("M·ẍ + C·ẋ + K·x = F(t)")
             for row in self._timed(say).rows:
                 put(timed, row.label, "", float(row.value), row.dimension)

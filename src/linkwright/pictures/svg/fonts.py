@@ -11,7 +11,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 _CHINESE_FILES = (
     "notosanscjk", "notosanssc", "notosanstc", "notoserifcjk", "sourcehan", "wqy", "droidsansfallback",
@@ -73,7 +73,13 @@ def font_files(given: Iterable[str | Path]) -> tuple[Path, ...]:
         files = [each] if each.is_file() else sorted(each.rglob("*")) if each.is_dir() else []
         fonts = [file for file in files if file.suffix.lower() in _SUFFIXES]
         if not fonts:
-            raise RequestError("picture.no_font_file", file=each)
+            raise RequestError(
+                _(
+                    "there is no font at {file}; give a TTF, OTF or TTC file, or a folder that holds some",
+                    code="picture.no_font_file",
+                    file=each,
+                )
+            )
         found += fonts
     return tuple(found)
 
@@ -110,10 +116,21 @@ def installed_chinese() -> tuple[Path, ...]:
 
 def check_fonts(text: str, given: Sequence[Path] = ()) -> None:
     """Refuse to draw boxes: raise where no font is found, or none for the Chinese characters in the text."""
-    remedy = Sentence("picture.font_or_file")
+    remedy = _(
+        "install one (Debian: fonts-noto-cjk), or name its file or folder: --fonts FOLDER on "
+        "the command line, fonts=['NotoSansSC-Regular.ttf'] in Python",
+    )
     if given or given_fonts():
         return
     if needs_chinese(text) and not installed_chinese():
-        raise RequestError("picture.no_chinese_font", remedy=remedy)
+        raise RequestError(
+            _(
+                "the picture has Chinese text, and no font that can write it was found; {remedy}",
+                code="picture.no_chinese_font",
+                remedy=remedy,
+            )
+        )
     if "<text" in text and not system_fonts():
-        raise LinkwrightError("picture.no_font", remedy=remedy)
+        raise LinkwrightError(
+            _("the picture has text, and no font was found; {remedy}", code="picture.no_font", remedy=remedy)
+        )

@@ -21,6 +21,7 @@ from linkwright.pictures.svg.fonts import (
     system_fonts,
 )
 from linkwright.whole_files import write_whole
+from linkwright.words import _
 
 Paths = Sequence[str | Path]
 #: Most pixels of one picture, and smallest width.
@@ -37,7 +38,12 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
     try:
         import resvg_py
     except ImportError:
-        raise LinkwrightError("picture.png_needs") from None
+        raise LinkwrightError(
+            _(
+                'PNG pictures need resvg-py; install it with: pip install "linkwright[plot]"',
+                code="picture.png_needs",
+            )
+        ) from None
     files = _font_files(fonts)
     check_fonts(svg, files)
     check_width(width, *natural_size(svg), zoom)
@@ -55,7 +61,13 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
             )
         )
     except ValueError as problem:
-        raise RequestError("picture.cannot_be_made", problem=problem) from None
+        raise RequestError(
+            _(
+                "the picture cannot be made: {problem}; give a smaller size",
+                code="picture.cannot_be_made",
+                problem=problem,
+            )
+        ) from None
 
 
 def _for_chinese(given: list[Path]) -> list[Path]:
@@ -70,7 +82,15 @@ def check_width(width: int | None, wide: float, tall: float, zoom: float = 1.0) 
     across = zoom * wide if width is None else float(width)
     most = math.floor(math.sqrt(MOST_PIXELS * wide / tall))
     if not LEAST_WIDTH <= across <= most:
-        raise RequestError("picture.bad_width", across=across, least=LEAST_WIDTH, most=most)
+        raise RequestError(
+            _(
+                "a picture cannot be {across:.12g} pixels wide; give a width from {least} to {most}",
+                code="picture.bad_width",
+                across=across,
+                least=LEAST_WIDTH,
+                most=most,
+            )
+        )
 
 
 def natural_size(svg: str) -> tuple[float, float]:
@@ -89,7 +109,12 @@ def pdf(svg: str, *, fonts: Paths = (), millimetres: tuple[float, float] | None 
     try:
         typst: Any = importlib.import_module("typst")
     except ImportError:
-        raise LinkwrightError("picture.pdf_needs") from None
+        raise LinkwrightError(
+            _(
+                'PDF pictures need typst; install it with: pip install "linkwright[plot]"',
+                code="picture.pdf_needs",
+            )
+        ) from None
     files = _font_files(fonts)
     check_fonts(svg, files)
     page, size = "width: auto, height: auto", ""
@@ -110,7 +135,14 @@ def save_picture(svg: str, path: str | Path, *, force: bool, **options: Any) -> 
         return write_whole(path, png(svg, **options), force=force)
     if suffix == ".pdf":
         return write_whole(path, pdf(svg, **options), force=force)
-    raise RequestError("picture.no_picture_suffix", path=path, suffix=suffix)
+    raise RequestError(
+        _(
+            '{path}: the suffix "{suffix}" is no kind of picture; use .svg, .png or .pdf',
+            code="picture.no_picture_suffix",
+            path=path,
+            suffix=suffix,
+        )
+    )
 
 
 def _font_files(fonts: Paths) -> list[Path]:

@@ -13,6 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import SHOWN, significant
 from linkwright.pictures.diagram import Axes, Figure
 from linkwright.units import si_unit
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -103,7 +104,7 @@ def angle_ticks(axes: Axes, span: float) -> None:
 def input_label(axis: InputAxis, say: Say) -> str:
     """``input φ (°)``, with the driver's name where there is one."""
     symbols = {"angle": "φ", "length": "s", "time": "t"}
-    word = say("time") if axis.dimension == "time" else say("input")
+    word = say(_("time")) if axis.dimension == "time" else say(_("input"))
     return f"{word} {symbols[axis.dimension]} ({axis.unit.name})"
 
 

@@ -19,7 +19,7 @@ from linkwright.pictures.drawing import Drawing
 from linkwright.plot.diagrams.axes import Legend, wrapped
 from linkwright.plot.diagrams.source import Source
 from linkwright.registry import Registry
-from linkwright.words import Say, say
+from linkwright.words import Message, Say, _, say
 from linkwright.words.characters import printable
 from linkwright.words.sentence import in_language
 
@@ -59,7 +59,11 @@ class Request:
     def titled(self, name: str, subject: str = "") -> str:
         """The title of a diagram, ``Crank-rocker: joint forces``: its subject is its kind unless given."""
         told = subject or self.say(f"kind.{self.kind}")
-        return self.say("titled", name=in_language(name, self.language), subject=told) if name else told
+        return (
+            self.say(_("{name}: {subject}", name=in_language(name, self.language), subject=told))
+            if name
+            else told
+        )
 
 
 def framed(figure: Figure, title: str, request: Request, legend: Legend | None = None) -> None:
@@ -127,4 +131,4 @@ def result_diagram(
 
 
 def _word(key: str, *, language: str, **values: object) -> str:
-    return say(f"plot.{key}", language, **values)
+    return say(key if isinstance(key, Message) else f"plot.{key}", language, **values)

@@ -18,6 +18,7 @@ from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, Request
 from linkwright.plot.diagrams.source import Result, Source
 from linkwright.registry import listed
 from linkwright.units import parse
+from linkwright.words import _
 from linkwright.words.characters import printable
 
 _Solved: TypeAlias = Result | Sequence[Result] | Mapping[str, Result]
@@ -114,7 +115,14 @@ def _require_inches(size: object) -> None:
     """Raises RequestError for what are no width and height of a diagram."""
     given = size if isinstance(size, Sequence) and not isinstance(size, str) else ()
     if len(given) != 2 or not all(1.0 <= real("size", each) <= 100.0 for each in given):
-        raise RequestError("picture.bad_inches", size=repr(size)[:60])
+        raise RequestError(
+            _(
+                "a diagram cannot be {size} inches large; give width and height, 1 to 100 each, as "
+                "in size=(6, 4)",
+                code="picture.bad_inches",
+                size=repr(size)[:60],
+            )
+        )
 
 
 def kinds() -> tuple[str, ...]:
@@ -126,7 +134,14 @@ def require_kind(name: str) -> None:
     """Raises LinkwrightError, with the nearest kind and the list of all, where there is no kind of that name."""
     if name in DIAGRAMS:
         return
-    raise RequestError("picture.no_kind", name=name, hint=listed(name, DIAGRAMS, "one_of"))
+    raise RequestError(
+        _(
+            'there is no kind of diagram "{name}"; {hint}',
+            code="picture.no_kind",
+            name=name,
+            hint=listed(name, DIAGRAMS, "one_of"),
+        )
+    )
 
 
 def require_options(name: str, given: Sequence[str]) -> None:
@@ -135,7 +150,16 @@ def require_options(name: str, given: Sequence[str]) -> None:
     for option in given:
         if option not in known:
             users = tuple(each for each in DIAGRAMS if option in DIAGRAMS[each].options)
-            raise RequestError("picture.no_use", kind=name, option=option, users=users)
+            raise RequestError(
+                _(
+                    'a diagram of the kind {kind} has no use for "{option}"; leave it out, or draw one '
+                    "of {users}",
+                    code="picture.no_use",
+                    kind=name,
+                    option=option,
+                    users=users,
+                )
+            )
 
 
 def _own_kind(result: object, kind: str | None) -> str | None:
@@ -148,7 +172,14 @@ def _own_kind(result: object, kind: str | None) -> str | None:
     if kind is None:
         return next(name for name in own if RESULT_DIAGRAMS[name].usual)
     if kind not in own:
-        raise RequestError("picture.not_of_this", kind=kind, names=tuple(own))
+        raise RequestError(
+            _(
+                'there is no kind of diagram "{kind}" of this result; the kinds are {names}',
+                code="picture.not_of_this",
+                kind=kind,
+                names=tuple(own),
+            )
+        )
     return kind
 
 
@@ -160,13 +191,20 @@ def _sources(result: object, *, static: bool) -> list[Source]:
         given = [(None, each) for each in result]
     else:
         given = [(None, result)]
-    for _, each in given:
+    for _unused, each in given:
         require(each, Mechanism, Motion, Forces, SteadyRunning)
     found = [Source(each, label, static=static) for label, each in given]
     if not found:
-        raise RequestError("picture.nothing_given")
+        raise RequestError(
+            _("there is nothing to draw; give at least one result", code="picture.nothing_given")
+        )
     if len(found) > 1 and len({source.label for source in found}) < len(found):
-        raise RequestError("picture.equal_names")
+        raise RequestError(
+            _(
+                "results of equal names cannot be told apart; give labels: plot({{'a': …, 'b': …}})",
+                code="picture.equal_names",
+            )
+        )
     return found
 
 
@@ -181,6 +219,12 @@ def _place(at: float | str | None, source: Source) -> float | None:
     if not isinstance(at, str):
         return at
     if not source.mechanism.drivers:
-        raise RequestError("picture.no_driver", name=source.mechanism.name)
+        raise RequestError(
+            _(
+                '"{name}" has no driver, so there is no input to set; leave at out',
+                code="picture.no_driver",
+                name=source.mechanism.name,
+            )
+        )
     with about("at"):
         return parse(at, source.input_dimension)

@@ -10,6 +10,7 @@ from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.flow_chart.content import flow_chart_steps
 from linkwright.plot.flow_chart.picture import flow_chart_pages
+from linkwright.words import _
 
 
 @DIAGRAMS.register("flow_chart")
@@ -19,7 +20,12 @@ class FlowChart(Kind):
 
     def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
         if len(sources) > 1:
-            raise RequestError("picture.one_flow_chart")
+            raise RequestError(
+                _(
+                    "a flow chart shows how one mechanism is solved; give one result",
+                    code="picture.one_flow_chart",
+                )
+            )
         (source,) = sources
         nodes = flow_chart_steps(source.motion, range(source.motion.steps), request.language)
         title = request.titled(source.label)

@@ -38,6 +38,7 @@ from linkwright.plot.diagrams.scaled_page import (
 )
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.free_bodies.actions import STYLES, Action, free_bodies
+from linkwright.words import _
 from linkwright.words.sentence import links_said
 
 #: Longest extent of a polygon on the paper, mm, and how many pictures stand in a row.
@@ -80,7 +81,12 @@ class ForcePolygon(Kind):
 
     def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
         if len(sources) > 1:
-            raise RequestError("picture.one_mechanism_forces")
+            raise RequestError(
+                _(
+                    "force polygons show one mechanism at one position; give one result",
+                    code="picture.one_mechanism_forces",
+                )
+            )
         source, say = sources[0], request.say
         forces = source.forces_at(request.at)
         require_forces(forces)

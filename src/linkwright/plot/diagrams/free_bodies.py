@@ -12,6 +12,7 @@ from linkwright.plot.diagrams.outputs import known_link
 from linkwright.plot.diagrams.reactions import require_forces
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.free_bodies.page import free_body_pages
+from linkwright.words import _
 
 
 @DIAGRAMS.register("free_bodies")
@@ -23,7 +24,12 @@ class FreeBodies(Kind):
 
     def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
         if len(sources) > 1:
-            raise RequestError("picture.one_free_bodies")
+            raise RequestError(
+                _(
+                    "free-body diagrams show one mechanism at one position; give one result",
+                    code="picture.one_free_bodies",
+                )
+            )
         (source,) = sources
         forces = source.forces_at(request.at)
         require_forces(forces)

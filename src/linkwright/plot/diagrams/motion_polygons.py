@@ -36,6 +36,7 @@ from linkwright.plot.diagrams.scaled_page import (
     units,
 )
 from linkwright.plot.diagrams.source import Source
+from linkwright.words import _
 
 #: Longest extent of the polygon on the paper, mm.
 POLYGON = 110.0
@@ -73,19 +74,29 @@ class MotionPolygons(Kind):
 
     def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
         if len(sources) > 1:
-            raise RequestError("picture.one_mechanism")
+            raise RequestError(
+                _(
+                    "a polygon shows one mechanism at one position; give one result",
+                    code="picture.one_mechanism",
+                )
+            )
         motion = sources[0].at(request.at)
         polygon = self.polygon(motion)
         images = np.array([np.zeros(2), *polygon.images.values(), *(step.end for step in polygon.steps)])
         if float(np.ptp(images, axis=0).max()) <= 0:
-            raise LinkwrightError("picture.nothing_moves")
+            raise LinkwrightError(
+                _(
+                    "nothing moves at this position, so there is no polygon; choose another input: at=…",
+                    code="picture.nothing_moves",
+                )
+            )
         return self._page(sources[0], motion, polygon, scale_of_picture(images, POLYGON), request)
 
     def _page(
         self, source: Source, motion: Motion, polygon: MotionPolygon, scale: float, request: Request
     ) -> Drawing:
         say = request.say
-        title = scale_title(say("polygon"), self.letter, f"{significant(scale)} {self.unit}/mm")
+        title = scale_title(say(_("polygon")), self.letter, f"{significant(scale)} {self.unit}/mm")
         bar = f"{significant(BAR * MILLIMETRE * scale)} {self.unit}"
         cells = [
             position_cell(motion, say),

@@ -14,6 +14,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.outputs import free_points, mechanism_outputs, output_link
+from linkwright.words import _
 
 
 def main_output(motion: Motion) -> Output:
@@ -110,7 +111,13 @@ def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[s
         if on is not None:
             on_frame = pairs = [p for p in pairs if p[1] == known_link(mechanism, on)]
         if not pairs:
-            raise RequestError("picture.no_force_there", name=mechanism.name)
+            raise RequestError(
+                _(
+                    '"{name}" has no joint that carries a force there; name another joint',
+                    code="picture.no_force_there",
+                    name=mechanism.name,
+                )
+            )
         pairs = on_frame or pairs
         return pairs[first_largest(np.array([largest(forces.reaction(name, on=on)) for name, on in pairs]))]
     if on is None and joint in mechanism.joints:

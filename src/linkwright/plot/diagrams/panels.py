@@ -24,7 +24,7 @@ from linkwright.plot.diagrams.marks import (
     through_peaks,
 )
 from linkwright.plot.diagrams.source import Source
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: A value below this in the unit of the axis has a unit of its own, below that share of the largest it is rounding.
 SMALL, ROUNDING = 0.1, 1e-9
@@ -142,7 +142,7 @@ def _laid_over(parts: list[tuple[Source, InputAxis, list[Panel]]]) -> list[Panel
     """The panels of the first source with the curves of the others, one colour for each source."""
     if len(parts) == 1:
         return parts[0][2]
-    merged: list[list[Curve]] = [[] for _ in parts[0][2]]
+    merged: list[list[Curve]] = [[] for _unused in parts[0][2]]
     for number, (source, axis, panels) in enumerate(parts):
         for into, panel in zip(merged, panels, strict=False):
             for which, curve in enumerate(panel.curves):
@@ -219,13 +219,13 @@ def _draw_marks(axes: list[Axes], source: Source, output: Output | None, legend:
     limits = limit_marks(source, output)
     for phase in phase_marks(source, limits):
         _shade(axes, phase, factor)
-        legend.patch(say("acts", load=phase.name), SHADE)
+        legend.patch(say(_("{load} acts", load=phase.name)), SHADE)
     for limit in limits:
         for one in axes:
             one.axvline(limit.place * factor, color=FAINT, linewidth=0.9, linestyle=(0, (4, 3)), zorder=1.5)
     if limits:
         _name_limits(axes[0], limits, source.axis, say)
-        legend.line(say("limit_of", output=str(output)), FAINT, (0, (4, 3)))
+        legend.line(say(_("limit position of {output}", output=str(output))), FAINT, (0, (4, 3)))
 
 
 def _shade(axes: list[Axes], phase: PhaseMark, factor: float) -> None:

@@ -19,6 +19,7 @@ from linkwright.plot.diagrams.names import Names, write_names
 from linkwright.plot.diagrams.outputs import traced_points
 from linkwright.plot.diagrams.panels import DASHES
 from linkwright.plot.diagrams.source import Source
+from linkwright.words import _
 
 
 @DIAGRAMS.register("paths")
@@ -46,7 +47,7 @@ class Paths(Kind):
             one.margins(0.1)
             one.set_xlabel("x (mm)")
             one.set_ylabel("y (mm)")
-        title = request.say("kind.paths")
+        title = request.say(_("paths of points"))
         framed(figure, request.titled(sources[0].label if single else "", title), request, legend)
         write_names(figure, names)
         return figure
@@ -108,7 +109,13 @@ def _worth_marks(source: Source, curve: Floats) -> bool:
 def _point(source: Source, name: str) -> str:
     found = output_or_point(source.mechanism, name)
     if found.kind != "position" or found.component:
-        raise RequestError("picture.no_path", name=name)
+        raise RequestError(
+            _(
+                '"{name}" is no point of a moving link, so it has no path; name a point, such as jaw.D',
+                code="picture.no_path",
+                name=name,
+            )
+        )
     return found.owner
 
 

@@ -22,6 +22,7 @@ from linkwright.plot.diagrams.names import Names, write_names
 from linkwright.plot.diagrams.outputs import joint_and_link, known_link, loaded, main_output
 from linkwright.plot.diagrams.panels import OverInput, Panel, look
 from linkwright.plot.diagrams.source import Extremes, Source
+from linkwright.words import _
 
 
 @DIAGRAMS.register("reactions")
@@ -38,9 +39,9 @@ class Reactions(OverInput):
 
     def subject(self, sources: Sequence[Source], request: Request) -> str:
         if request.joint is None and request.on is None:
-            return request.say("kind.reactions")
+            return request.say(_("joint forces"))
         joint, link = joint_and_link(sources[0].forces, request.joint, request.on)
-        return request.say("reaction_on", joint=joint, link=link)
+        return request.say(_("force of joint {joint} on {link}", joint=joint, link=link))
 
     def panels(self, source: Source, request: Request) -> list[Panel]:
         require_forces(source.forces)
@@ -52,7 +53,14 @@ class Reactions(OverInput):
 def require_forces(forces: Forces) -> None:
     """Raises LinkwrightError where no joint carries anything."""
     if not loaded(forces):
-        raise RequestError("picture.no_forces", name=forces.mechanism.name)
+        raise RequestError(
+            _(
+                'no joint of "{name}" carries a force: its links have no mass and there are no '
+                "loads; give masses (mass: 5 kg) or loads (loads: …)",
+                code="picture.no_forces",
+                name=forces.mechanism.name,
+            )
+        )
 
 
 def _of_all(source: Source, request: Request) -> Panel:
@@ -86,7 +94,7 @@ def _of_one(source: Source, request: Request) -> list[Panel]:
     ]
     exact_size = source.extremes(magnitude(joint, link), "forces")
     total = Curve("", np.hypot(force[:, 0], force[:, 1]), "max", extremes=exact_size)
-    title = say("components") if axes == "frame" else say("components_in", link=axes)
+    title = say(_("components")) if axes == "frame" else say(_("components in {link}", link=axes))
     return [
         Panel(f"{say('joint_force')} F", "force", (total,)),
         Panel(title, "force", tuple(parts)),
@@ -139,7 +147,7 @@ class Hodograph(Kind):
             draw_hodograph(place, sources, (joint, link, view), request, legend)
             for place, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True)
         ]
-        subject = request.say("hodograph_of", joint=joint, link=link)
+        subject = request.say(_("hodograph of the force of joint {joint} on {link}", joint=joint, link=link))
         framed(
             figure, request.titled(sources[0].label if len(sources) == 1 else "", subject), request, legend
         )
@@ -173,7 +181,10 @@ def draw_hodograph(
             if largest:
                 _largest(axes, source, what, curve, unit, legend, request)
     names = ("x", "y") if view == "frame" else ("ξ", "η")
-    axes.set_title(say("in_frame") if view == "frame" else say("in_link", link=view), color=INK)
+    axes.set_title(
+        say(_("in the axes of the frame")) if view == "frame" else say(_("in the axes of {link}", link=view)),
+        color=INK,
+    )
     axes.set_xlabel(f"F{names[0]} ({unit.name})")
     axes.set_ylabel(f"F{names[1]} ({unit.name})")
     equal(axes)
@@ -213,7 +224,7 @@ def _largest(
     x, y = force * unit.factor
     axes.annotate("", (x, y), (0, 0), arrowprops={"arrowstyle": "-|>", "color": FAINT, "linewidth": 1.1,
                   "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0}, zorder=3)  # fmt: skip
-    legend.line(request.say("largest_force", value=unit.text(length)), FAINT, "-")
+    legend.line(request.say(_("largest force {value}", value=unit.text(length))), FAINT, "-")
 
 
 #: Panels in a row, and inches of one.
@@ -238,10 +249,10 @@ class Hodographs(Kind):
         for place, (joint, link) in zip(places, pairs, strict=False):
             view = (joint, link, "frame")
             names.append(draw_hodograph(place, sources, view, request, legend, largest=False))
-            place.set_title(request.say("force_on", joint=joint, link=link), color=INK)
+            place.set_title(request.say(_("{joint}, force on {link}", joint=joint, link=link)), color=INK)
         for place in places[len(pairs) :]:
             place.set_axis_off()
-        title = request.say("kind.hodographs")
+        title = request.say(_("hodographs of all joint forces"))
         framed(figure, request.titled(sources[0].label if len(sources) == 1 else "", title), request, legend)
         write_names(figure, names)
         return figure

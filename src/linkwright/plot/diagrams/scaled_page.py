@@ -18,7 +18,7 @@ from linkwright.pictures.svg.text import fold
 from linkwright.plot.diagrams.axes import round_up
 from linkwright.plot.drawing.machine import View
 from linkwright.plot.drawing.scene import laid_out, point_labels
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: Printed width of a unit of the paper, mm.
 MILLIMETRE = 0.25
@@ -47,7 +47,7 @@ class Cell:
     @property
     def width(self) -> float:
         """Its width, units."""
-        left, _, right, _ = self.sketch.box
+        left, _unused, right, _unused2 = self.sketch.box
         return max(right - left, NARROWEST) + APART
 
     def put(self, page: Sketch, left: float, top: float, head: int) -> float:
@@ -142,7 +142,7 @@ def position_cell(motion: Motion, say: Say) -> Cell:
         scale = round_up(1.05 * scale)
     sketch.labels += point_labels(scene.machine, 0)
     sketch.write_names()
-    title = scale_title(say("position"), "l", f"{significant(scale * 1e3)} mm/mm")
+    title = scale_title(say(_("position")), "l", f"{significant(scale * 1e3)} mm/mm")
     return Cell(sketch, (title,), f"{significant(scale * BAR * MILLIMETRE * 1e3)} mm")
 
 

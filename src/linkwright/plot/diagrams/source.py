@@ -23,7 +23,7 @@ from linkwright.machine.running import SteadyRunning, steady_running
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Kind
 from linkwright.plot.diagrams.axes import InputAxis, unit_of
-from linkwright.words import Say
+from linkwright.words import Say, _
 from linkwright.words.characters import one_line
 from linkwright.words.sentence import Worded
 
@@ -48,7 +48,9 @@ class Source:
 
     def __init__(self, result: Result, label: str | None = None, *, static: bool = False) -> None:
         if static and isinstance(result, Forces) and not result.static:
-            raise RequestError("picture.with_inertia")
+            raise RequestError(
+                _("these forces hold inertia forces; give the motion instead", code="picture.with_inertia")
+            )
         self.result_running = result if isinstance(result, SteadyRunning) else None
         self._forces = result if isinstance(result, Forces) else None
         self._static = static
@@ -71,7 +73,13 @@ class Source:
     def motion(self) -> Motion:
         """The motion."""
         if isinstance(self._result, SteadyRunning):
-            raise RequestError("picture.no_motion")
+            raise RequestError(
+                _(
+                    "the result of steady running holds no motion; it has the diagrams speed and energy; "
+                    "else give forces",
+                    code="picture.no_motion",
+                )
+            )
         if isinstance(self._result, Forces):
             return self._result.motion
         found = (
@@ -81,7 +89,12 @@ class Source:
         )
         if not found.ok.any():
             raise LinkwrightError(
-                "picture.reaches_none", name=found.mechanism.name, sentence=found.outcomes[0].sentence
+                _(
+                    '"{name}" reaches no position: {sentence}',
+                    code="picture.reaches_none",
+                    name=found.mechanism.name,
+                    sentence=found.outcomes[0].sentence,
+                )
             )
         return found
 
@@ -117,7 +130,7 @@ class Source:
         """Where the one position of a motion is: ``φ = 30°``."""
         dimension = self.input_dimension
         if not self.mechanism.drivers:
-            return say("at_rest")
+            return say(_("at rest"))
         value = float(motion.time[0] if dimension == "time" else motion.input[0])
         symbol = {"angle": "φ", "length": "s", "time": "t"}[dimension]
         return f"{symbol}\u00a0=\u00a0{unit_of(dimension).text(value, 6)}"
@@ -182,9 +195,22 @@ class Source:
         """The input, or the time where drivers follow laws of their own, up to the cycle's end."""
         motion = self.motion
         if not motion.mechanism.drivers:
-            raise RequestError("picture.no_input", name=motion.mechanism.name)
+            raise RequestError(
+                _(
+                    '"{name}" has no driver, so there is no input to draw curves over; draw its '
+                    "force_polygon, or add a driver",
+                    code="picture.no_input",
+                    name=motion.mechanism.name,
+                )
+            )
         if motion.steps < 2:
-            raise RequestError("picture.one_position_only", name=motion.mechanism.name)
+            raise RequestError(
+                _(
+                    '"{name}" is solved at one position only; solve a cycle to draw curves',
+                    code="picture.one_position_only",
+                    name=motion.mechanism.name,
+                )
+            )
         name = next(iter(motion.mechanism.drivers))
         if not motion.mechanism.steady:
             end = [] if self._end is None else [self._end]

@@ -20,7 +20,7 @@ from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.outputs import known_link, main_output, turning_links
 from linkwright.plot.diagrams.panels import DASHES, OverInput, Panel, look
 from linkwright.plot.diagrams.source import TURN, Source
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 ANGULAR = (("angle", "θ", "angle"), ("angular_velocity", "ω", "angular_velocity"),
            ("angular_acceleration", "α", "angular_acceleration"))  # fmt: skip
@@ -43,7 +43,7 @@ class Sva(OverInput):
         return first if first.kind in PLACES and not more else None
 
     def subject(self, sources: Sequence[Source], request: Request) -> str:
-        return request.say("motion_of", output=", ".join(map(str, _asked(sources[0], request))))
+        return request.say(_("motion of {output}", output=", ".join(map(str, _asked(sources[0], request)))))
 
     def panels(self, source: Source, request: Request) -> list[Panel]:
         asked = _asked(source, request)
@@ -132,7 +132,7 @@ def _of_point(source: Source, key: str, say: Say) -> list[Panel]:
         if word != "position":
             length = np.hypot(shown[:, 0], shown[:, 1])
             exact = source.extremes(partial(_size, key=key, word=word))
-            curves.append(Curve(say("magnitude"), length, "max", COLOURS[2], extremes=exact))
+            curves.append(Curve(say(_("magnitude")), length, "max", COLOURS[2], extremes=exact))
         found.append(Panel(f"{say(word)} {symbol}", dimension, tuple(curves)))
     return found
 
@@ -152,7 +152,13 @@ class Angles(OverInput):
         motion, say = source.motion, request.say
         links = [known_link(motion.mechanism, name) for name in request.of] or turning_links(motion)
         if not links:
-            raise RequestError("picture.none_turns", name=motion.mechanism.name)
+            raise RequestError(
+                _(
+                    'no link of "{name}" turns, so there are no angle curves; draw its sva',
+                    code="picture.none_turns",
+                    name=motion.mechanism.name,
+                )
+            )
         shown = [source.closed(motion.link(name).angle, turns=True) for name in links]
         change = _flat(shown)
         omega = [source.closed(motion.link(name).angular_velocity) for name in links]
@@ -161,13 +167,22 @@ class Angles(OverInput):
             values - values[np.isfinite(values)][0] if change else _near_zero(values) for values in shown
         ]
         return [
-            Panel(say("angle_change") if change else f"{say('angle')} θ", "angle",
-                  _curves(source, links, angle, "angle")),
-            Panel(f"{say('angular_velocity')} ω", "angular_velocity",
-                  _curves(source, links, omega, "angular_velocity")),
-            Panel(f"{say('angular_acceleration')} α", "angular_acceleration",
-                  _curves(source, links, alpha, "angular_acceleration")),
-        ]  # fmt: skip
+            Panel(
+                say(_("angle from the start θ − θ₀")) if change else f"{say('angle')} θ",
+                "angle",
+                _curves(source, links, angle, "angle"),
+            ),
+            Panel(
+                f"{say('angular_velocity')} ω",
+                "angular_velocity",
+                _curves(source, links, omega, "angular_velocity"),
+            ),
+            Panel(
+                f"{say('angular_acceleration')} α",
+                "angular_acceleration",
+                _curves(source, links, alpha, "angular_acceleration"),
+            ),
+        ]
 
 
 def _curves(source: Source, links: list[str], values: list[Floats], quantity: str) -> tuple[Curve, ...]:

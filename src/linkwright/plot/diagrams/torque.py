@@ -25,6 +25,7 @@ from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.outputs import main_output
 from linkwright.plot.diagrams.panels import Level, OverInput, Panel, with_mean
 from linkwright.plot.diagrams.source import Extremes, Source
+from linkwright.words import _
 
 
 @DIAGRAMS.register("torque")
@@ -39,7 +40,13 @@ class Torque(OverInput):
     def panels(self, source: Source, request: Request) -> list[Panel]:
         motion, forces, say = source.motion, source.forces, request.say
         if not motion.mechanism.drivers:
-            raise RequestError("picture.no_torque", name=motion.mechanism.name)
+            raise RequestError(
+                _(
+                    '"{name}" has no driver, so it has no input torque',
+                    code="picture.no_torque",
+                    name=motion.mechanism.name,
+                )
+            )
         found = []
         several = len(motion.mechanism.drivers) > 1
         for name in motion.mechanism.drivers:
@@ -96,7 +103,9 @@ class Energy(OverInput):
         mean = reduced.direction * reduced.load.mean
         title = f"{say('input_torque')} T"
         curve = Curve("", torque, x=place, extremes=_of_torque(reduced))
-        change = say("energy_fluctuation", value=unit_of("energy", [found.energy]).text(found.value))
+        change = say(
+            _("energy fluctuation ΔE = {value}", value=unit_of("energy", [found.energy]).text(found.value))
+        )
         return [
             with_mean(title, "torque", curve, mean, request, fill=True),
             Panel(f"{say('energy')} E", "energy", (Curve(change, found.energy),)),
@@ -134,12 +143,14 @@ class Speed(OverInput):
         running = source.once(f"running {request.fluctuation}", lambda: source.running(request.fluctuation))
         say, mean = request.say, running.equivalent.speed
         title = f"{say('input_speed')} ω"
-        level = Level(say("mean", value=f"{significant(mean)} rad/s"), mean)
-        first = _curve(running, running.exact_speed, running.exact_flywheel, say("flywheel"), COLOURS[0])
+        level = Level(say(_("mean {value}", value=f"{significant(mean)} rad/s")), mean)
+        first = _curve(
+            running, running.exact_speed, running.exact_flywheel, say(_("with flywheel")), COLOURS[0]
+        )
         found = [Panel(title, "angular_velocity", (first,), (level,))]
         alone = _alone(running) if running.exact_flywheel > 0 else None
         if alone is not None:
-            bare = _curve(running, alone, 0.0, say("no_flywheel"), COLOURS[4])
+            bare = _curve(running, alone, 0.0, say(_("without flywheel")), COLOURS[4])
             found.append(Panel(title, "angular_velocity", (bare,), (level,)))
         return found
 

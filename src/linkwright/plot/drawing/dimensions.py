@@ -16,6 +16,7 @@ from linkwright.pictures.picture import Vec
 from linkwright.pictures.symbols.base import SYMBOLS, Shape, placed, points, vec, way
 from linkwright.plot.drawing.guides import direction, line_start
 from linkwright.plot.drawing.machine import Machine, moved
+from linkwright.words import _
 
 Dimension = str | tuple[str, str]
 _OFFSETS = (24.0, -24.0, 40.0, -40.0, 58.0, -58.0)
@@ -95,7 +96,13 @@ def _measures(machine: Machine, wanted: Iterable[Dimension] | bool, index: int) 
         if isinstance(each, str):
             found = list(_of_link(machine, each.removesuffix(".length"), index))
             if not found:
-                raise RequestError("picture.no_length", link=each)
+                raise RequestError(
+                    _(
+                        'link "{link}" has one point, so it has no length; name two points instead',
+                        code="picture.no_length",
+                        link=each,
+                    )
+                )
             yield from found
         else:
             start, end = (machine.paper(*find_point(machine.motion.mechanism, name), index) for name in each)
@@ -164,7 +171,7 @@ def _line(machine: Machine, measure: Distance, taken: Obstacles) -> Dimensioned:
         (SYMBOLS["dimension_line"](start=a, end=b, offset=place, rises=rises), offset, place)
         for offset, place in base
     ]
-    shape, _, place = min(shapes, key=lambda each: _crossing(each[0], taken) + 0.3 * abs(each[1]))
+    shape, _unused, place = min(shapes, key=lambda each: _crossing(each[0], taken) + 0.3 * abs(each[1]))
     length, direct = way(a, b)
     ends = a, vec(placed([(length, rises[1])], a, direct)[0])
     first, last = (vec(row) for row in placed([(0.0, place), (length, place)], a, direct))

@@ -33,8 +33,8 @@ from linkwright.plot.drawing.vectors import (
     same_motion,
     scale_of,
 )
-from linkwright.words import say
-from linkwright.words.sentence import Sentence, in_language
+from linkwright.words import _, pgettext, say
+from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
@@ -97,7 +97,13 @@ def draw(
     require(source, Motion, Mechanism)
     require_language(language)
     if not real("diagonal", diagonal) > 0:
-        raise RequestError("picture.bad_diagonal", diagonal=diagonal)
+        raise RequestError(
+            _(
+                "a machine cannot be drawn {diagonal} large; give a diagonal above zero",
+                code="picture.bad_diagonal",
+                diagonal=diagonal,
+            )
+        )
     motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
     shown = _shown(motion, position, at, time)
     ghosts, style = _overlay(motion, overlay)
@@ -116,7 +122,10 @@ def draw(
     sheet.labels(labels)
     sheet.legend(arrows, language)
     return sheet.drawing(
-        say("drawing.title", language, name=in_language(motion.mechanism.name, language)), size
+        _("Kinematic drawing of {name}", name=in_language(motion.mechanism.name, language)).translate(
+            language
+        ),
+        size,
     )
 
 
@@ -190,7 +199,11 @@ class Sheet:
         if any(each.kind == "force" and not each.empty([self.shown]) for each in arrows):
             below.numbers(mechanism, language)
         if missing := unmarked(self.scene.machine, self.index):
-            self.notes.append(Sentence("drawing.unmarked", loads=tuple(missing)).say(language))
+            self.notes.append(
+                _("not drawn, as they name neither a point nor a link: {loads}", loads=tuple(missing)).say(
+                    language
+                )
+            )
             below.text(self.notes[-1])
         for each in arrows:
             if each.empty([self.shown]):
@@ -235,7 +248,9 @@ def laid_out_beside(
 
 def _shown(motion: Motion, position: int | None, at: At | None, time: float | None) -> Shown:
     if sum(each is not None for each in (position, at, time)) > 1:
-        raise RequestError("picture.one_position")
+        raise RequestError(
+            _("a drawing shows one position; give one of position, at and time", code="picture.one_position")
+        )
     if at is not None:
         return at_input(motion, at).checked()
     if time is not None:
@@ -249,11 +264,25 @@ def _index(motion: Motion, position: int) -> int:
     position = whole("position", position)
     if not -motion.steps <= position < motion.steps:
         raise RequestError(
-            "picture.no_position", position=position, name=motion.mechanism.name, last=motion.steps - 1
+            _(
+                'position {position} does not exist; the motion of "{name}" has the positions 0 to {last}',
+                code="picture.no_position",
+                position=position,
+                name=motion.mechanism.name,
+                last=motion.steps - 1,
+            )
         )
     index = int(position) % motion.steps
     if not motion.ok[index]:
-        raise LinkwrightError("picture.not_drawn", position=index, sentence=motion.outcomes[index].sentence)
+        raise LinkwrightError(
+            pgettext(
+                "picture",
+                "position {position} cannot be drawn: {sentence}",
+                code="picture.not_drawn",
+                position=index,
+                sentence=motion.outcomes[index].sentence,
+            )
+        )
     return index
 
 
@@ -261,13 +290,21 @@ def _overlay(motion: Motion, overlay: Sequence[int] | str) -> tuple[list[Shown],
     if not isinstance(overlay, str):
         positions = overlay if isinstance(overlay, Iterable) else [overlay]
         return [Shown(motion, _index(motion, each)) for each in positions], "lw-faded"
-    word, _, rest = overlay.partition(":")
+    word, _unused, rest = overlay.partition(":")
     if word == "limits":
         denser, indices = with_limits(motion, limits_of(motion, rest or None))
         return [Shown(denser, each) for each in indices], "lw-dashed"
     if word == "faded" and rest.isdecimal() and 1 <= int(rest) <= MOST_FADED:
         return [Shown(motion, each) for each in _spread(motion, int(rest))], "lw-faded"
-    raise RequestError("picture.bad_overlay", overlay=overlay, most=MOST_FADED)
+    raise RequestError(
+        _(
+            'overlay "{overlay}" is unknown; give positions, "limits", "limits:LINK" or '
+            '"faded:8" (1 to {most} positions)',
+            code="picture.bad_overlay",
+            overlay=overlay,
+            most=MOST_FADED,
+        )
+    )
 
 
 def _spread(motion: Motion, count: int) -> list[int]:

@@ -13,8 +13,8 @@ from linkwright.pictures.picture import Runs, SvgNode, Text, indexed, joined, li
 from linkwright.pictures.svg.text import fold
 from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.plot.drawing.vectors import Arrows, Torques, Vectors, round_length, scale_of, with_unit
-from linkwright.words import say
-from linkwright.words.sentence import Sentence, links_said
+from linkwright.words import _, say
+from linkwright.words.sentence import links_said
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
@@ -58,7 +58,7 @@ class Legend:
                 entries += [entry for family in each.families for entry in _sizes(family, index)]
         if not entries:
             return
-        column = max(line_width(runs, SIZE) for runs, _ in entries) + 16.0
+        column = max(line_width(runs, SIZE) for runs, _unused in entries) + 16.0
         columns = max(1, int(self._wide // column))
         for number, (runs, style) in enumerate(entries):
             if number % columns == 0:
@@ -68,9 +68,9 @@ class Legend:
     def numbers(self, mechanism: Mechanism, language: str) -> None:
         """What the indices of joint forces mean."""
         links = links_said(link_numbers(mechanism), language)
-        self.text(Sentence("drawing.reaction", links=tuple(links)).say(language))
+        self.text(_("F₁₂: force of link 1 on link 2; {links}", links=tuple(links)).say(language))
         if any(len(joint.joined) > 2 for joint in mechanism.joints.values()):
-            self.text(say("drawing.pin", language))
+            self.text(_("F with a pin's name: force of the pin on the link").translate(language))
 
     def text(self, text: str) -> None:
         """A sentence in as many lines as it takes."""

@@ -19,6 +19,7 @@ from linkwright.mechanism.link import Link
 from linkwright.pictures.picture import Vec
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, points
 from linkwright.plot.drawing.load_marks import Mark, mark_of
+from linkwright.words import _
 
 DIAGONAL = 620.0
 SHORTEST_BAR = 26.0
@@ -63,7 +64,13 @@ def fitted(motion: Motion, placed: Mapping[str, Placement], diagonal: float = DI
     everything = np.concatenate([*cloud, *pins])
     everything = everything[np.isfinite(everything).all(axis=1)]
     if not len(everything):
-        raise LinkwrightError("picture.no_position_reached", name=mechanism.name)
+        raise LinkwrightError(
+            _(
+                'no position of "{name}" was reached, so there is nothing to draw',
+                code="picture.no_position_reached",
+                name=mechanism.name,
+            )
+        )
     low, high = everything.min(axis=0), everything.max(axis=0)
     reach = float(np.hypot(*(high - low))) or 1.0
     scale = diagonal / reach
@@ -145,7 +152,7 @@ def flat(cloud: Floats) -> Floats | None:
     if len(cloud) < 2:
         return cloud
     spread = cloud - cloud.mean(axis=0)
-    _, _, axes = np.linalg.svd(spread)
+    _unused, _unused2, axes = np.linalg.svd(spread)
     along, across = spread @ axes[0], spread @ axes[1]
     if np.ptp(across) > 2.0:
         return None

@@ -19,7 +19,7 @@ from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.plot.diagrams.axes import unit_of
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.drawing.vectors import Torques, Vectors
-from linkwright.words import has, say
+from linkwright.words import _, has
 
 
 def animate_element(attribute: str, values: Sequence[str], seconds: float) -> Element:
@@ -170,7 +170,7 @@ def _caption(output: Output, values: Floats, ends: tuple[float, float], language
     said = output.sentence(alone=alone).say(language) if has(f"quantity.{output.kind}") else output.column
     unit = unit_of(output.dimension, [values])
     low, high = (significant(end * unit.factor) for end in ends)
-    return say("drawing.curve", language, quantity=unit.label(said), low=low, high=high)
+    return _("{quantity}: {low} … {high}", quantity=unit.label(said), low=low, high=high).translate(language)
 
 
 def _row(text: str, values: Floats, left: float, span: float, top: float) -> list[SvgNode]:

@@ -17,6 +17,7 @@ from linkwright.kinematics.solve import solve_motion, with_times
 from linkwright.pictures.picture import Vec
 from linkwright.pictures.symbols.base import LINE
 from linkwright.plot.drawing.machine import Machine
+from linkwright.words import _
 
 At = float | Mapping[str, float]
 
@@ -32,7 +33,9 @@ class Shown:
         """The same; raises LinkwrightError where the position was not reached."""
         if not self.motion.ok[self.index]:
             sentence = self.motion.outcomes[self.index].sentence
-            raise LinkwrightError("picture.the_position", sentence=sentence)
+            raise LinkwrightError(
+                _("the position cannot be drawn: {sentence}", code="picture.the_position", sentence=sentence)
+            )
         return self
 
 
@@ -165,5 +168,10 @@ def _longest_stretch(ok: np.ndarray) -> tuple[int, int]:
     edges = np.flatnonzero(np.diff(np.concatenate([[0], ok.astype(int), [0]])))
     runs = [(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
     if not runs:
-        raise LinkwrightError("picture.nothing_reached")
+        raise LinkwrightError(
+            _(
+                "no position of the motion was reached, so there is nothing to show",
+                code="picture.nothing_reached",
+            )
+        )
     return max(runs, key=lambda run: run[1] - run[0])

@@ -21,6 +21,7 @@ from linkwright.pictures.labels import Label
 from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, joined, vec
 from linkwright.plot.drawing.joint_marks import touching
 from linkwright.plot.drawing.machine import View
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -416,4 +417,10 @@ def _drivers(forces: Forces) -> tuple[Vectors, Torques]:
 def same_motion(motion: Motion, forces: Forces) -> None:
     """Refuse forces that belong to another motion."""
     if forces.motion is not motion:
-        raise RequestError("picture.other_motion")
+        raise RequestError(
+            _(
+                "the forces belong to another motion than the one that is drawn; draw forces.motion, "
+                "or solve the forces of this motion",
+                code="picture.other_motion",
+            )
+        )

@@ -8,6 +8,7 @@ from typing import Any
 
 from linkwright.errors import LinkwrightError
 from linkwright.pictures.drawing import COLOURS
+from linkwright.words import _
 
 
 def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:
@@ -15,7 +16,12 @@ def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:
     try:
         from PIL import Image
     except ImportError:
-        raise LinkwrightError("picture.gif_needs") from None
+        raise LinkwrightError(
+            _(
+                'GIF animations need Pillow; install it with: pip install "linkwright[plot]"',
+                code="picture.gif_needs",
+            )
+        ) from None
     pictures = [Image.open(io.BytesIO(each)).convert("RGB") for each in frames]
     palette = Image.new("P", (1, 1))
     palette.putpalette(_palette())
@@ -46,7 +52,12 @@ def mp4(frames: Iterator[bytes], rate: int) -> bytes:
         import numpy as np
         from PIL import Image
     except ImportError:
-        raise LinkwrightError("picture.mp4_needs") from None
+        raise LinkwrightError(
+            _(
+                'MP4 animations need PyAV and Pillow; install them with: pip install "linkwright[video]"',
+                code="picture.mp4_needs",
+            )
+        ) from None
     stream = io.BytesIO()
     with av.open(stream, "w", format="mp4") as container:
         track: Any = None

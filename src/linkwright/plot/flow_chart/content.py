@@ -19,7 +19,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.wheel_sizes import wheel_sizes
-from linkwright.words import Say, has, say
+from linkwright.words import Message, Say, _, has, say
 from linkwright.words.sentence import link_said
 
 Shape = Literal["terminator", "data", "preparation", "process", "call", "decision"]
@@ -105,52 +105,68 @@ class _Writer:
     def all(self) -> Iterator[Node]:
         """All symbols."""
         moves = bool(self.mechanism.drivers)
-        yield Node("terminator", (self.say("begin"),))
+        yield Node("terminator", (self.say(_("Begin")),))
         yield self._data()
         if moves:
             yield self._loop()
         for number, group in enumerate(self.groups):
             yield self._motion_of(group, LOOP if not number else "")
         if any(group.unknowns for group in self.groups):
-            yield Node("decision", (self.say("assembled"),), jump=NEXT if moves else "end",
-                       down=self.say("yes"), across=self.say("no"),
-                       aside=self.say("mark" if moves else "mark_rest"))  # fmt: skip
+            yield Node(
+                "decision",
+                (self.say(_("All groups assembled?")),),
+                jump=NEXT if moves else "end",
+                down=self.say(_("yes")),
+                across=self.say(_("no")),
+                aside=self.say(
+                    _("Report: position i is not reached") if moves else _("Report: not assembled")
+                ),
+            )
         yield from self._further()
         if self.mechanism.has_loads:
             yield from self._forces()
         yield self._printed()
         if moves:
             yield from self._stepped()
-        yield Node("terminator", (self.say("end"),), name="end")
+        yield Node("terminator", (self.say(_("End")),), name="end")
 
     # beginning --------------------------------------------------------------------------------
     def _data(self) -> Node:
         mechanism, say = self.mechanism, self.say
         count = len(mechanism.links)
-        parts = [say("fixed_points", points=self._listed(mechanism.frame.points))]
-        parts.append(say("links", count=count) if count > 1 else say("one_link"))
+        parts = [say(_("fixed points {points}", points=self._listed(mechanism.frame.points)))]
+        parts.append(say(_("links 1 to {count}", count=count)) if count > 1 else say(_("link 1")))
         if any(wheel_sizes(joint, mechanism) for joint in mechanism.joints.values()):
-            parts.append(say("wheels"))
+            parts.append(say(_("sizes of the wheels")))
         if any(isinstance(joint, CamJoint) for joint in mechanism.joints.values()):
-            parts.append(say("cams"))
+            parts.append(say(_("motion programs of the cams")))
         if mechanism.drivers:
-            parts.append(say("driver_laws" if len(mechanism.drivers) > 1 else "drivers"))
+            parts.append(
+                say(_("laws of the drivers") if len(mechanism.drivers) > 1 else _("law of the driver"))
+            )
         if any(dyad_shape(group) for group in self.groups):
-            parts.append(say("modes"))
+            parts.append(say(_("assembly modes")))
         if mechanism.has_loads:
-            parts.append(say("loads"))
-        return Node("data", (say("data", parts=say("then").join(parts)),))
+            parts.append(say(_("masses and loads")))
+        return Node("data", (say(_("Data: {parts}", parts=say(_("; ")).join(parts))),))
 
     def _loop(self) -> Node:
         loop, say = self._over, self.say
         step, count = self._step, len(loop.values)
         first = loop.text(float(loop.values[0]))
         line = (
-            say("values", symbol=loop.symbol, values=say("and").join(self._values()))
+            say(_("{symbol} = {values}", symbol=loop.symbol, values=say(_(", ")).join(self._values())))
             if step is None
-            else say("step", symbol=loop.symbol, first=first, step=loop.text(step))
+            else say(
+                _(
+                    "{symbol} = {first}; Δ{symbol} = {step}",
+                    symbol=loop.symbol,
+                    first=first,
+                    step=loop.text(step),
+                )
+            )
         )
-        return Node("preparation", (say("loop", count=count), line, self._meaning()))
+        return Node("preparation", (say(_("i = 1; N = {count}", count=count)), line, self._meaning()))
 
     def _values(self) -> list[str]:
         """The positions, of many the first ones and the last."""
@@ -160,9 +176,15 @@ class _Writer:
 
     def _meaning(self) -> str:
         if self._over.symbol == "t":
-            return self.say("time")
+            return self.say(_("t: time"))
         driver = next(iter(self.mechanism.drivers.values()))
-        return self.say("input", symbol=self._over.symbol, driver=link_said(driver.link, self.language))
+        return self.say(
+            _(
+                "{symbol}: coordinate of {driver}",
+                symbol=self._over.symbol,
+                driver=link_said(driver.link, self.language),
+            )
+        )
 
     @property
     def _over(self) -> Loop:
@@ -193,7 +215,7 @@ class _Writer:
 
     def _driven(self, group: Group, name: str) -> Node:
         """A driven link: a bar about its pin, or a slide along its guide."""
-        say, (first, *_) = self.say, group.tree
+        say, (first, *_unused) = self.say, group.tree
         lines = []
         for step in group.tree:
             if step.driver is None:
@@ -203,7 +225,7 @@ class _Writer:
             lines.append(self._law(step.driver))
         found = [each for each in self._points_of(group.links) if each not in {s.joint for s in group.tree}]
         if found:
-            lines.append(say("point_found", points=self._listed(found)))
+            lines.append(say(_("finds {points}", points=self._listed(found))))
         call = "bark" if first.turns and len(group.links) == 1 else ""
         return Node("call" if call else "process", tuple(lines), call, name)
 
@@ -212,33 +234,41 @@ class _Writer:
         if law.constant_speed is not None:
             unit = "rad/s" if law.rotary else "m/s"
             speed = f"{law.constant_speed:.6g}\u00a0{unit}".replace("-", "−")
-            return self.say("law_speed", speed=speed)
+            return self.say(_("constant speed {speed}", speed=speed))
         key = f"report.kind_{law.key}"
-        return self.say("law_other", law=say(key, self.language) if has(key) else law.key)
+        return self.say(
+            _("coordinate and rates at t: {law}", law=say(key, self.language) if has(key) else law.key)
+        )
 
     def _driven_within(self, group: Group) -> list[str]:
         """Drivers inside a group that is closed by other joints."""
         if not group.drivers:
             return []
         joints = [self.mechanism.drivers[each].joint for each in group.drivers]
-        laws = self.say("and").join(dict.fromkeys(map(self._law, group.drivers)))
-        return [self.say("driven_within", joints=self._listed(joints), laws=laws)]
+        laws = self.say(_(", ")).join(dict.fromkeys(map(self._law, group.drivers)))
+        return [self.say(_("driven along {joints}: {laws}", joints=self._listed(joints), laws=laws))]
 
     def _closure(self, group: Group) -> Iterator[str]:
         """How a group that is no dyad is closed."""
         say, joints = self.say, self._listed([cut.joint for cut in group.cuts])
         cams = [c.joint for c in group.cuts if isinstance(self.mechanism.joints[c.joint], CamJoint)]
         if cams:
-            yield say("cam_lift", cams=self._listed(cams))
+            yield say(_("lift and its derivatives from the profile of {cams}", cams=self._listed(cams)))
         if whole_form(group) is not None or dyad_shape(group) is not None:
-            yield say("closed_form")
+            yield say(_("closure in closed form"))
             return
         if in_one_step(group):
-            yield say("one_step", joints=joints)
+            yield say(_("positions and rates: linear closure of {joints}", joints=joints))
             return
-        yield say("iterated" if self.mechanism.drivers else "iterated_once", joints=joints)
+        yield say(
+            (
+                _("positions: Newton's method on the closure of {joints}, from position i − 1")
+                if self.mechanism.drivers
+                else _("positions: Newton's method on the closure of {joints}")
+            ).format(joints=joints)
+        )
         if self.mechanism.drivers:
-            yield say("rates")
+            yield say(_("velocities, accelerations: linear equations"))
 
     def _call(self, group: Group, ending: str) -> str:
         """The teaching texts' name of what solves a dyad; empty for others, and for one driven inside."""
@@ -266,26 +296,49 @@ class _Writer:
             key = "mass_centres" if len(heavy) > 1 else "mass_centre"
             parts.append(self.say(key, links=self._listed(heavy)))
         if parts:
-            yield Node("call", (self.say("further", points=self._listed(parts)),), "bark")
+            yield Node(
+                "call",
+                (
+                    self.say(
+                        _("Further points by link angle and base point: {points}", points=self._listed(parts))
+                    ),
+                ),
+                "bark",
+            )
 
     # forces -----------------------------------------------------------------------------------
     def _forces(self) -> Iterator[Node]:
         say, mechanism = self.say, self.mechanism
-        parts = [say("weights")] if any(mechanism.gravity) and self._heavy else []
+        parts = [say(_("weights"))] if any(mechanism.gravity) and self._heavy else []
         if self._heavy and mechanism.drivers:
-            parts.append(say("inertia"))
+            parts.append(say(_("inertia forces −m·a and couples −J·α")))
         if mechanism.loads:
             key = "load_names" if len(mechanism.loads) > 1 else "load_name"
             parts.append(say(key, names=self._listed(mechanism.loads)))
         rubbing = self._rubbing()
         if rubbing:
-            parts.append(say("friction", joints=self._listed(rubbing)))
-        yield Node("process", (say("known_forces", parts=say("then").join(parts)),))
+            parts.append(say(_("friction of {joints}", joints=self._listed(rubbing))))
+        yield Node("process", (say(_("Known forces: {parts}", parts=say(_("; ")).join(parts))),))
         for number, group in enumerate(reversed(self.groups)):
             yield self._forces_of(group, FORCES if not number and rubbing else "")
         if rubbing:
-            yield Node("decision", (say("settled"),), jump=FORCES, down=say("yes"), across=say("no"))
-        yield Node("process", (say("power" if mechanism.drivers else "equilibrium"),))
+            yield Node(
+                "decision",
+                (say(_("Friction settled?")),),
+                jump=FORCES,
+                down=say(_("yes")),
+                across=say(_("no")),
+            )
+        yield Node(
+            "process",
+            (
+                say(
+                    _("Check: power of the drivers = power of all forces")
+                    if mechanism.drivers
+                    else _("Check: balance of every link")
+                ),
+            ),
+        )
 
     @property
     def _heavy(self) -> bool:
@@ -300,30 +353,40 @@ class _Writer:
         say, mechanism = self.say, self.mechanism
         joints = dict.fromkeys(c.joint for c in (*group.inner_joints, *group.outer_joints))
         alone = not group.unknowns and bool(group.drivers)
-        heading = say("driven_link", link=self._numbered(group.links)) if alone else self._heading(group)
-        lines = [heading, say("forces_at", joints=self._listed(joints))]
+        heading = (
+            say(_("driven link {link}", link=self._numbered(group.links))) if alone else self._heading(group)
+        )
+        lines = [heading, say(_("forces at {joints}", joints=self._listed(joints)))]
         for driver in group.drivers:
             turns = mechanism.joints[mechanism.drivers[driver].joint].coordinate == "turn"
             letter = "M" if turns else "F"
             symbol = f"{letter}_d" if len(mechanism.drivers) == 1 else f"{letter}_d,{driver}"
-            lines.append(say("driver_torque" if turns else "driver_force", symbol=symbol))
+            lines.append(
+                say(
+                    (_("balancing torque {symbol}") if turns else _("driving force {symbol}")).format(
+                        symbol=symbol
+                    )
+                )
+            )
         call = self._call(group, "f")
         if alone and len(group.links) == 1:
             call = "barf"
         if not call:
-            lines.insert(1, say("balance"))
+            lines.insert(1, say(_("balance of the links")))
         return Node("call" if call else "process", tuple(lines), call, name)
 
     # end --------------------------------------------------------------------------------------
     def _printed(self) -> Node:
         say, mechanism = self.say, self.mechanism
         parts = [self._over.symbol] if mechanism.drivers else []
-        parts.append(say("motion_results" if mechanism.drivers else "positions"))
+        parts.append(
+            say(_("angles, points and their rates") if mechanism.drivers else _("angles and points"))
+        )
         if mechanism.has_loads:
-            parts.append(say("force_results"))
+            parts.append(say(_("joint forces")))
             parts += dict.fromkeys("M_d" if turns else "F_d" for turns in self._efforts())
         key = "print" if mechanism.drivers else "print_rest"
-        return Node("data", (say(key, parts=say("then").join(parts)),))
+        return Node("data", (say(key, parts=say(_("; ")).join(parts)),))
 
     def _efforts(self) -> list[bool]:
         joints = self.mechanism.joints
@@ -333,8 +396,8 @@ class _Writer:
         say, symbol = self.say, self._over.symbol
         key = "next_uneven" if self._step is None else "next"
         yield Node("process", (say(key, symbol=symbol),), name=NEXT)
-        yield Node("decision", (say("last"),), jump=LOOP, down=say("yes"), across=say("no"))
-        yield Node("data", (say("after"),))
+        yield Node("decision", (say(_("i > N?")),), jump=LOOP, down=say(_("yes")), across=say(_("no")))
+        yield Node("data", (say(_("Peak values, limit positions, diagrams")),))
 
     # names ------------------------------------------------------------------------------------
     def _heading(self, group: Group) -> str:
@@ -342,7 +405,7 @@ class _Writer:
         return self.say(key, signature=group.signature, links=self._numbered(group.links))
 
     def _numbered(self, links: Sequence[str]) -> str:
-        return self.say("and").join(
+        return self.say(_(", ")).join(
             f"{self.numbers[name]} {link_said(name, self.language)}" for name in links
         )
 
@@ -357,8 +420,8 @@ class _Writer:
         shown = list(dict.fromkeys(map(str, names)))
         if len(shown) > LONGEST:
             shown = [*shown[: LONGEST - 2], "…", shown[-1]]
-        return self.say("and").join(shown)
+        return self.say(_(", ")).join(shown)
 
 
 def _word(key: str, *, language: str, **values: object) -> str:
-    return say(f"flow.{key}", language, **values)
+    return say(key if isinstance(key, Message) else f"flow.{key}", language, **values)

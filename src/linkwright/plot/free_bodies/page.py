@@ -20,7 +20,7 @@ from linkwright.plot.drawing.vectors import with_unit
 from linkwright.plot.free_bodies.actions import STYLES, Action, FreeBody, free_bodies
 from linkwright.plot.free_bodies.arrows import MILLIMETRE, SHORT, STUB
 from linkwright.plot.free_bodies.picture import BodyPicture, LinkShapes, body_picture, round_scale
-from linkwright.words import Say
+from linkwright.words import Say, _
 from linkwright.words.sentence import link_said
 
 #: Width of a cell, space between cells, height of a page's pictures, mm.
@@ -64,7 +64,9 @@ def free_body_pages(
     """
     bodies = [body for body in free_bodies(forces, index) if not of or body.link in of]
     if not bodies:
-        raise LinkwrightError("free_bodies.none")
+        raise LinkwrightError(
+            _("no forces act on the moving links at this position", code="free_bodies.none")
+        )
     shapes = LinkShapes(forces.motion, index)
     reach = max(shapes.reach(body.link) for body in bodies) or 1.0
     usual = round_scale(reach, 46.0)
@@ -76,7 +78,7 @@ def free_body_pages(
 # one link -------------------------------------------------------------------------------------
 def _cell(drawn: BodyPicture, say: Say, language: str) -> Cell:
     body = drawn.body
-    named = say("free_bodies.title", number=body.number, link=link_said(body.link, language))
+    named = say(_("{number} {link}", number=body.number, link=link_said(body.link, language)))
     content: list[SvgNode] = [Text((0.0, TITLE), sentence_runs(named), "lw-legend lw-flow-call", TITLE)]
     content.append(Text((0.0, TITLE_LINE + SIZE + 2.0), sentence_runs(_scales(drawn)), "lw-legend", SIZE))
     left, top, right, bottom = drawn.box
@@ -118,7 +120,7 @@ def _table(body: FreeBody, say: Say, top: float) -> tuple[list[SvgNode], float]:
             )
             y = _row(found, y, each, cells)
         total = np.sum([each.force for each in body.forces], axis=0) * factor
-        y = _line(found, y, say("free_bodies.sum"), tuple(fixed(float(part), place) for part in total))
+        y = _line(found, y, say(_("sum")), tuple(fixed(float(part), place) for part in total))
     if body.couples:
         y = _head(found, y, ("M / N·m",))
         place = _places(max(abs(each.torque) for each in body.couples))
@@ -136,7 +138,7 @@ def _moments(found: list[SvgNode], y: float, body: FreeBody, say: Say) -> float:
     if largest <= 0.0:
         return y
     value = f"{fixed(sum(moments), _places(largest))} N·m"
-    text = say("free_bodies.moment_sum", value=value)
+    text = say(_("sum of moments: {value}", value=value))
     found.append(Text((0.0, y + SIZE), sentence_runs(text), "lw-legend", SIZE))
     return y + LINE
 
@@ -211,10 +213,12 @@ def _document(rows: Sequence[Sequence[Cell]], say: Say, heading: str) -> str:
             content.append(group(cell.elements, None, transform=shift))
         y += max(cell.height for cell in row) + apart
     cells = [cell for row in rows for cell in row]
-    for line in fold(say("free_bodies.apart").join(_key(cells, say)), wide, SIZE):
+    for line in fold(say(_("; ")).join(_key(cells, say)), wide, SIZE):
         content.append(Text((0.0, y + SIZE), sentence_runs(line), "lw-legend", SIZE))
         y += LINE
-    return document(content, (0.0, 0.0, wide, y), say("free_bodies.caption"), None, millimetre=MILLIMETRE)
+    return document(
+        content, (0.0, 0.0, wide, y), say(_("Free-body diagrams of the links")), None, millimetre=MILLIMETRE
+    )
 
 
 def _key(cells: Sequence[Cell], say: Say) -> Iterator[str]:
@@ -224,4 +228,10 @@ def _key(cells: Sequence[Cell], say: Say) -> Iterator[str]:
         if role in roles:
             yield say(f"free_bodies.{role}")
     if any(cell.shortened for cell in cells):
-        yield say("free_bodies.shortened", least=f"{SHORT:g}", drawn=f"{STUB:g}")
+        yield say(
+            _(
+                "dashed arrows are shorter than {least} mm to scale and drawn {drawn} mm long",
+                least=f"{SHORT:g}",
+                drawn=f"{STUB:g}",
+            )
+        )

@@ -13,6 +13,7 @@ from linkwright.errors import RequestError
 from linkwright.pictures.diagram import FAINT, INK, Figure
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, fitted, panes, plane
+from linkwright.words import _
 
 #: Points of the coloured profile, and speeds of the vibration's diagram.
 _POINTS, _SPEEDS = 1440, 240
@@ -35,7 +36,7 @@ def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
         peaks = tuple((each.place, each.value * (speed**order if speed else 1.0)) for each in ends)
         title = request.say(f"cam_{symbol}")
         given.append(Pane(title, kinds[order], (Line(result.angles, values, peaks=peaks),)))
-    return panes(result.title, (request.say("cam_angle"), "angle"), given, request)
+    return panes(result.title, (request.say(_("cam angle φ")), "angle"), given, request)
 
 
 @result_diagram("cam_checks", CamDesign, usual=False)
@@ -44,23 +45,25 @@ def draw_cam_checks(result: CamDesign, request: Request) -> Figure:
     phi, contact = result.angles, result.contact
     steepest = _peaks(result.pressure_angle_rise, result.pressure_angle_fall)
     pressed = Line(phi, contact.pressure_angle, peaks=steepest if contact.pressure_angle.any() else ())
-    given = [Pane(request.say("cam_pressure_angle"), "angle", (pressed,))]
+    given = [Pane(request.say(_("pressure angle α")), "angle", (pressed,))]
     largest = 5.0 * result.size
     with np.errstate(divide="ignore"):
         radius = 1.0 / contact.bend
     bent = np.where(np.abs(radius) < largest, radius, np.nan)
-    given.append(Pane(request.say("cam_curvature"), "length", (Line(phi, bent),)))
+    given.append(Pane(request.say(_("radius of curvature ρ")), "length", (Line(phi, bent),)))
     if result.loaded and result.cam.barrel_radius is None:
         force, torque = (
             _peaks(extreme("max"), extreme("min"))
             for extreme in (result.extreme_force, result.extreme_torque)
         )
-        given.append(Pane(request.say("cam_force"), "force", (Line(phi, result.contact_force, peaks=force),)))
+        given.append(
+            Pane(request.say(_("contact force N")), "force", (Line(phi, result.contact_force, peaks=force),))
+        )
         if result.pressure is not None and result.largest_pressure is not None:
             line = Line(phi, result.pressure, peaks=_peaks(result.largest_pressure))
-            given.append(Pane(request.say("cam_pressure"), "pressure", (line,)))
-        given.append(Pane(request.say("cam_torque"), "torque", (Line(phi, result.torque, peaks=torque),)))
-    return panes(result.title, (request.say("cam_angle"), "angle"), given, request)
+            given.append(Pane(request.say(_("contact pressure p")), "pressure", (line,)))
+        given.append(Pane(request.say(_("torque T")), "torque", (Line(phi, result.torque, peaks=torque),)))
+    return panes(result.title, (request.say(_("cam angle φ")), "angle"), given, request)
 
 
 def _peaks(*found: Extreme) -> tuple[tuple[float, float], ...]:
@@ -118,19 +121,22 @@ def _coloured(result: CamDesign, request: Request) -> tuple[np.ndarray, str]:
 def draw_cam_vibration(result: CamDesign, request: Request) -> Figure:
     """What the follower does beside the cam's motion, over the speed."""
     if result.cam.elasticity is None:
-        raise RequestError("cams.no_elasticity")
+        raise RequestError(
+            _("the vibration needs elasticity and mass of the follower; give both", code="cams.no_elasticity")
+        )
     top = 2.0 * (result.loading.speed or 0.25 * result.own_frequency)
     speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
     left = result.residual_vibration(speeds)
     kind = result.cam.follower.lift_dimension
     given = [
-        Pane(request.say("cam_deviation"), kind, (Line(speeds, result.steady_deviation(speeds)),)),
+        Pane(request.say(_("deviation z")), kind, (Line(speeds, result.steady_deviation(speeds)),)),
         Pane(
-            request.say("cam_residual"),
+            request.say(_("amplitude left A")),
             kind,
             tuple(
-                Line(speeds, column, request.say("cam_after", number=k)) for k, column in enumerate(left.T, 1)
+                Line(speeds, column, request.say(_("after rise or fall {number}", number=k)))
+                for k, column in enumerate(left.T, 1)
             ),
         ),
     ]
-    return panes(result.title, (request.say("cam_speed"), "angular_velocity"), given, request)
+    return panes(result.title, (request.say(_("speed of the cam")), "angular_velocity"), given, request)

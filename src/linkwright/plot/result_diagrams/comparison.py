@@ -23,8 +23,7 @@ from linkwright.plot.diagrams.panels import Panel, look, stacked
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.result_diagrams.design_space import DesignTable, chosen, draw_designs, measure, varied
 from linkwright.registry import offered
-from linkwright.words import say
-from linkwright.words.sentence import Sentence
+from linkwright.words import _, say
 
 HODOGRAPH = "hodograph"
 #: What a motion is called and measured in, for an output that turns and for one that slides.
@@ -55,7 +54,7 @@ def draw_comparison(result: Comparison, request: Request) -> Figure:
         for panel in _panels(result, overlay, sources, request)
     ]
     figure, axes = stacked(panels, axis, request, " – ".join(result.labels))
-    passed = say("compare.curve.input", request.language)
+    passed = _("input passed").translate(request.language)
     axes[-1].set_xlabel(axis.unit.label(f"{passed} {'φ' if axis.dimension == 'angle' else 's'}"))
     return figure
 
@@ -65,7 +64,12 @@ def draw_pivot_hodograph(result: Comparison, request: Request) -> Figure:
     """Hodographs of the reaction at the output's pivot, all alternatives from one origin, in the frame's axes."""
     overlay = next((each for each in result.curves if each.name == HODOGRAPH), None)
     if overlay is None:
-        raise RequestError("picture.no_pivot_reactions")
+        raise RequestError(
+            _(
+                "the alternatives carry no loads or masses, so no pivot has a reaction; give some",
+                code="picture.no_pivot_reactions",
+            )
+        )
     unit = unit_of("force", [values for line in overlay.lines.values() for values in line])
     figure = new_figure(request.size or (6.4, 5.4))
     axes, legend = figure.subplots(), Legend()
@@ -89,7 +93,14 @@ def _chosen(result: Comparison, names: Sequence[str]) -> list[Overlay]:
     known = {each.name: each for each in result.curves if each.name != HODOGRAPH}
     for name in names:
         if name not in known:
-            raise RequestError("picture.no_curve", name=name, hint=offered(name, known))
+            raise RequestError(
+                _(
+                    'there is no curve "{name}" of this comparison; {hint}',
+                    code="picture.no_curve",
+                    name=name,
+                    hint=offered(name, known),
+                )
+            )
     return [known[name] for name in names or known]
 
 
@@ -97,7 +108,13 @@ def _axis(sources: Mapping[str, Source]) -> InputAxis:
     """The input passed; raises LinkwrightError where one input turns and another slides."""
     turning = {next(iter(each.motion.positions.rotary.values())) for each in sources.values()}
     if len(turning) > 1:
-        raise RequestError("picture.turn_and_slide")
+        raise RequestError(
+            _(
+                "one alternative has an input that turns and another one that slides, so their "
+                "curves have no common axis; draw the pivot_hodograph",
+                code="picture.turn_and_slide",
+            )
+        )
     longest = max(map(_passed, sources.values()), key=lambda x: float(np.nanmax(x)))
     return InputAxis("", "angle" if turning.pop() else "length", longest)
 
@@ -150,7 +167,7 @@ def draw_metrics(result: MetricsTable, request: Request) -> Figure:
     The side on which the limit is not kept is shaded. Without ``of``: the metrics that have a limit.
     """
     groups = _groups(result, request)
-    heights = [AXIS + ROW * len(rows) for _, rows in groups]
+    heights = [AXIS + ROW * len(rows) for _unused, rows in groups]
     figure = new_figure(request.size or (7.2, 0.7 + sum(heights)))
     places = figure.subplots(len(groups), 1, squeeze=False, gridspec_kw={"height_ratios": heights})[:, 0]
     legend = Legend()
@@ -165,16 +182,24 @@ def _groups(result: MetricsTable, request: Request) -> list[Group]:
     names = request.of or tuple(name for name in result.names if METRICS[name].limit is not None)
     if not names:
         first = result.names[:1]
-        hint = Sentence("picture.name_one", name=first[0]) if first else Sentence("picture.no_numbers")
-        raise RequestError("picture.no_limit", hint=hint)
+        hint = _('name what to draw: of="{name}"', name=first[0]) if first else _("it has no numbers")
+        raise RequestError(
+            _(
+                "nothing in this table has a recommended limit to be drawn against; {hint}",
+                code="picture.no_limit",
+                hint=hint,
+            )
+        )
     found: dict[tuple[str, str, float | None], list[MetricValue]] = {}
     for name in names:
         for row in result[name]:
             if np.isfinite(row.value):
                 found.setdefault((name, row.dimension, row.limit), []).append(row)
     if not found:
-        raise RequestError("picture.not_finite", names=names)
-    return [(name, tuple(rows)) for (name, *_), rows in found.items()]
+        raise RequestError(
+            _("there is no number to draw: {names} are not finite", code="picture.not_finite", names=names)
+        )
+    return [(name, tuple(rows)) for (name, *_unused), rows in found.items()]
 
 
 def _draw(axes: Axes, name: str, rows: tuple[MetricValue, ...], request: Request, legend: Legend) -> None:
@@ -200,13 +225,13 @@ def _draw(axes: Axes, name: str, rows: tuple[MetricValue, ...], request: Request
 
 def _limit(axes: Axes, place: float, better: str | None, request: Request, legend: Legend) -> None:
     line = axes.axvline(place, color=COLOURS[1], linewidth=1.1, linestyle=(0, (6, 3)), zorder=3)
-    legend.add(request.say("recommended"), line)
+    legend.add(request.say(_("recommended limit")), line)
     if better is None:
         return
     low, high = axes.get_xlim()
     wrong = (low, place) if better == "higher" else (place, high)
     axes.axvspan(*wrong, color=WRONG, linewidth=0, zorder=0.5)
-    legend.patch(request.say("outside"), WRONG)
+    legend.patch(request.say(_("outside the limit")), WRONG)
 
 
 def _number(axes: Axes, value: float, place: float, unit: Unit) -> None:

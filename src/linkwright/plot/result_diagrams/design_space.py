@@ -18,6 +18,7 @@ from linkwright.pictures.diagram import COLOURS, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, Unit, unit_of
 from linkwright.plot.diagrams.base import Request, framed
 from linkwright.registry import offered
+from linkwright.words import _
 
 FAILED = "#c0392b"
 #: From so many designs on, points would hide each other, and their number in cells is shown.
@@ -34,7 +35,12 @@ def draw_designs(table: DesignTable, request: Request) -> Figure:
     Raises LinkwrightError where nothing varies.
     """
     if not table.moving:
-        raise RequestError("picture.same_designs")
+        raise RequestError(
+            _(
+                "all designs are the same, so there is nothing to draw; vary a dimension",
+                code="picture.same_designs",
+            )
+        )
     legend = Legend()
     if len(table.moving) == 1:
         figure = _over_one(table, request, legend)
@@ -88,14 +94,14 @@ def _failed(axes: Axes, x: Floats, legend: Legend, request: Request) -> None:
         x = np.unique(np.round((x - x.min()) / (np.ptp(x) or 1.0) * RUG)) / RUG * np.ptp(x) + x.min()
     (line,) = axes.plot(x, np.full(len(x), 0.02), "|" if many else "x", color=FAILED, markersize=4.5,
                         transform=axes.get_xaxis_transform(), clip_on=False, zorder=4)  # fmt: skip
-    legend.add(request.say("fails"), line)
+    legend.add(request.say(_("design fails")), line)
 
 
 def _best(axes: Axes, x: float, measure: Column, legend: Legend, request: Request) -> None:
     assert measure.best is not None
     y = float(measure.values[measure.best])
     (line,) = axes.plot([x], [y], "o", color=COLOURS[1], markersize=8, fillstyle="none", zorder=5)
-    legend.add(request.say("best_design"), line)
+    legend.add(request.say(_("best")), line)
 
 
 def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
@@ -115,12 +121,12 @@ def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
         failed = ~table.ok
         if failed.any():
             (line,) = one.plot(across.values[failed], up.values[failed], "x", color=FAILED, markersize=4.5)
-            legend.add(request.say("fails"), line)
+            legend.add(request.say(_("design fails")), line)
         if request.marks and measure.best is not None:
             place = (across.values[measure.best], up.values[measure.best])
             (ring,) = one.plot(*[[each] for each in place], "o", color=COLOURS[1], markersize=8,
                                fillstyle="none", markeredgewidth=1.8, zorder=5)  # fmt: skip
-            legend.add(request.say("best_design"), ring)
+            legend.add(request.say(_("best")), ring)
         one.set_xlabel(across.label)
         one.set_ylabel(up.label)
     for spare in places[count:]:
@@ -237,7 +243,14 @@ def chosen(asked: tuple[str, ...], known: Mapping[str, object]) -> list[str]:
     """The metrics that are asked for, all by default; raises LinkwrightError for one that is not there."""
     for name in asked:
         if name not in known:
-            raise RequestError("picture.no_metric", name=name, hint=offered(name, known))
+            raise RequestError(
+                _(
+                    'there is no metric "{name}" here; {hint}',
+                    code="picture.no_metric",
+                    name=name,
+                    hint=offered(name, known),
+                )
+            )
     return list(asked or known)
 
 

@@ -13,6 +13,7 @@ from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.panels import DASHES, Panel, draw_panel, stacked, with_mean
 from linkwright.plot.diagrams.source import Source
+from linkwright.words import _
 
 #: A shaking force of this share of the one before is zero but for rounding.
 VANISHED = 1e-9
@@ -23,7 +24,7 @@ def draw_balancing(result: Balancing, request: Request) -> Figure:
     """Left the hodograph of the shaking force, right shaking moment and input torque over the input."""
     say = request.say
     before, after = Source(result.before), Source(result.after)
-    names, legend = (say("without_weights"), say("with_weights")), Legend()
+    names, legend = (say(_("without counterweights")), say(_("with counterweights"))), Legend()
     figure = new_figure(request.size or (9.6, 4.9))
     places = figure.subplot_mosaic([["force", "moment"], ["force", "torque"]])
     loops = [each.closed(each.forces.shaking_force) for each in (before, after)]
@@ -62,7 +63,7 @@ def _hodograph(
         legend.add(name, line)
         if largest(loop) <= VANISHED * widest:
             axes.plot([0], [0], "o", color=colour, markersize=6, zorder=4)
-    axes.set_title(request.say("shaking_force"), color=INK)
+    axes.set_title(request.say(_("shaking force")), color=INK)
     axes.set_xlabel(unit.label("Fx"))
     axes.set_ylabel(unit.label("Fy"))
     equal(axes)

@@ -22,7 +22,7 @@ from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.panels import Panel, look, stacked
 from linkwright.plot.result_diagrams.design_space import chosen
-from linkwright.words import say
+from linkwright.words import _, say
 from linkwright.words.sentence import in_language
 
 #: A front of less than this share of the way to the start would be a dot beside it; the start stays outside then.
@@ -40,11 +40,9 @@ def draw_optimisation(result: Optimum, request: Request) -> Figure:
         _progress(axes[0], result, request.language)
     for one, goal in zip(axes, goals[1:], strict=False):
         _front(one, result, goal.text, request.language)
-    title = say(
-        "optimize.picture",
-        request.language,
-        name=in_language(result.problem.mechanism.name, request.language),
-    )
+    title = _(
+        "Optimisation of {name}", name=in_language(result.problem.mechanism.name, request.language)
+    ).translate(request.language)
     figure.suptitle(title if request.title is None else request.title)
     return figure
 
@@ -58,7 +56,7 @@ def _front(axes: Any, result: Optimum, text: str, language: str) -> None:
         title = label(result, name, language)
         columns.append((values, result.start[name] * factor, f"{title}, {symbol}" if symbol else title))
     (x, x0, x_label), (y, y0, y_label) = columns
-    axes.plot(x, y, "o-", ms=4.5, color=COLOURS[0], lw=1, label=say("optimize.legend.front", language))
+    axes.plot(x, y, "o-", ms=4.5, color=COLOURS[0], lw=1, label=_("front").translate(language))
     if np.isfinite([x0, y0]).all():
         wide, high = max(np.ptp([*x, x0]), 1e-300), max(np.ptp([*y, y0]), 1e-300)
         near = len(x) == 1 or (np.ptp(x) > NEAR * wide and np.ptp(y) > NEAR * high)
@@ -80,7 +78,7 @@ def _progress(axes: Any, result: Optimum, language: str) -> None:
     if met and np.isfinite(result.start[goal.text]):
         generations = np.arange(len(history) + 1)
         history = np.append(result.start[goal.text] * factor, history)
-    said = say("optimize.legend.search", language)
+    said = _("best of the search").translate(language)
     axes.step(generations, history, where="post", color=COLOURS[0], label=said)
     best = result.best.numbers[goal.text] * factor
     axes.plot(
@@ -88,13 +86,13 @@ def _progress(axes: Any, result: Optimum, language: str) -> None:
         [best],
         "o",
         color=COLOURS[1],
-        label=say("optimize.legend.polished", language),
+        label=_("after the last steps").translate(language),
     )
     if np.isfinite(result.start[goal.text]):
         start = result.start[goal.text] * factor
-        axes.axhline(start, ls="--", lw=1, color=INK, label=say("optimize.legend.start", language))
+        axes.axhline(start, ls="--", lw=1, color=INK, label=_("start").translate(language))
     axes.margins(0.03)
-    axes.set_xlabel(say("optimize.axis.generation", language))
+    axes.set_xlabel(_("generation").translate(language))
     title = label(result, goal.text, language)
     axes.set_ylabel(f"{title}, {symbol}" if symbol else title)
     axes.legend()
@@ -114,7 +112,12 @@ def draw_sensitivity(result: Sensitivity, request: Request) -> Figure:
     names = chosen(request.of, known)
     table = {name: result.relative(known[name].output, known[name].kind) for name in names}
     if not any(np.isfinite(row).any() for row in table.values()):
-        raise RequestError("picture.zero_summaries")
+        raise RequestError(
+            _(
+                "all of these summaries are zero, so they have no relative sensitivity to draw",
+                code="picture.zero_summaries",
+            )
+        )
     figure = new_figure(request.size or (7.2, 1.3 + len(result.by) * (0.22 + 0.16 * len(names))))
     axes, legend = figure.subplots(), Legend()
     places, thick = np.arange(len(result.by)), 0.8 / len(names)
@@ -126,7 +129,7 @@ def draw_sensitivity(result: Sensitivity, request: Request) -> Figure:
     axes.set_yticks(places, list(result.by))
     axes.set_ylim(len(result.by) - 0.4, -0.6)
     axes.margins(x=0.06)
-    axes.set_xlabel(request.say("relative_change"))
+    axes.set_xlabel(request.say(_("change per 1 % of the dimension (%)")))
     framed(figure, request.titled(result.mechanism.name), request, legend)
     return figure
 
@@ -146,7 +149,13 @@ def _axis(result: Sensitivity) -> InputAxis:
     from linkwright.kinematics.cycle import over_cycle
 
     if len(result.input) < 2:
-        raise RequestError("picture.no_curves_here", name=result.mechanism.name)
+        raise RequestError(
+            _(
+                '"{name}" was solved at one position only, so there are no curves; ask for summaries',
+                code="picture.no_curves_here",
+                name=result.mechanism.name,
+            )
+        )
     turning = next(iter(over_cycle(result.mechanism, 1).rotary.values()))
     return InputAxis("", "angle" if turning else "length", result.input)
 
@@ -155,10 +164,12 @@ def _panel(result: Sensitivity, name: str, request: Request) -> Panel:
     curves = []
     for number, by in enumerate(result.by):
         step, text = _step(result.mechanism, by)
-        label = request.say("step", dimension=by, step=text)
+        label = request.say(_("{dimension} + {step}", dimension=by, step=text))
         values: Floats = step * result.slope(name, by)
         curves.append(Curve(label, values, "", *look(number)))
-    return Panel(request.say("change_by", output=name), result.quantities[name].dimension, tuple(curves))
+    return Panel(
+        request.say(_("change of {output}", output=name)), result.quantities[name].dimension, tuple(curves)
+    )
 
 
 def _step(mechanism: Mechanism, by: str) -> tuple[float, str]:

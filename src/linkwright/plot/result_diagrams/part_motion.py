@@ -14,6 +14,7 @@ from linkwright.parts.vibration.system import Vibration
 from linkwright.pictures.diagram import COLOURS, Figure
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, fitted, panes, plane
+from linkwright.words import _
 
 
 @result_diagram("flight", Flight)
@@ -39,7 +40,7 @@ def draw_transport(result: Transport, request: Request) -> Figure:
     ]
     if height.any():
         given.append(Pane("n", "length", (Line(time, height),)))
-    return panes(result.title, (request.say("time"), "time"), given, request)
+    return panes(result.title, (request.say(_("time")), "time"), given, request)
 
 
 @result_diagram("vibration_response", Vibration)
@@ -50,7 +51,7 @@ def draw_vibration_response(result: Vibration, request: Request) -> Figure:
     if result.in_time:
         time, moved = result.response()
         lines = tuple(Line(time, moved[:, i], name) for i, name in enumerate(names))
-        return panes(result.title, (request.say("time"), "time"), [Pane("x", length, lines)], request)
+        return panes(result.title, (request.say(_("time")), "time"), [Pane("x", length, lines)], request)
     if result.harmonic:
         frequency, amplitudes = result.sweep()
         hertz = frequency / (2 * math.pi)
@@ -62,7 +63,7 @@ def draw_vibration_response(result: Vibration, request: Request) -> Figure:
             Pane("∠X", "angle", turn),
             Pane("T", "", passed, log=True),
         ]
-        return panes(result.title, (request.say("frequency"), "frequency"), given, request, logx=True)
+        return panes(result.title, (request.say(_("frequency")), "frequency"), given, request, logx=True)
     place = np.arange(1.0, len(names) + 1)
     shapes = tuple(
         Line(place, result.shapes[:, i], f"{f / (2 * math.pi):.4g} Hz")
@@ -79,7 +80,7 @@ def draw_follower_vibration(result: FollowerVibration, request: Request) -> Figu
         Pane("s, x", "length", (Line(time, cam, "s"), Line(time, follower, "x", dash="--"))),
         Pane("x − s", "length", (Line(time, follower - cam),)),
     ]
-    return panes(result.title, (request.say("time"), "time"), given, request)
+    return panes(result.title, (request.say(_("time")), "time"), given, request)
 
 
 @result_diagram("residual_spectrum", FollowerVibration, usual=False)
@@ -105,4 +106,4 @@ def draw_mounts(result: Shaken, request: Request) -> Figure:
     ]
     for symbol, (name, dimension) in zip("MθG", TITLES["turn"], strict=True) if "turn" in result.axes else ():
         given.append(Pane(symbol, dimension, (Line(time, columns[name]),)))
-    return panes(result.title, (request.say("time"), "time"), given, request)
+    return panes(result.title, (request.say(_("time")), "time"), given, request)

@@ -12,6 +12,7 @@ from linkwright.parts.programs.problem import Variable
 from linkwright.parts.programs.program import Optimum
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
+from linkwright.words import _
 
 GRID = 241
 
@@ -72,5 +73,5 @@ def _bars(axes: Axes, result: Optimum, request: Request) -> None:
     axes.barh([c.name for c in limits], 100 * np.array(used), color=colours)
     axes.set_xlim(0.0, 105.0)
     axes.axvline(100.0, color=INK, linewidth=0.9)
-    axes.set_xlabel(request.say("used"))
+    axes.set_xlabel(request.say(_("share of the limit that is used (%)")))
     axes.invert_yaxis()

@@ -20,7 +20,7 @@ from linkwright.parts.statics.wedge import WedgeForces
 from linkwright.pictures.diagram import COLOURS, INK, Axes, Figure
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.result_diagrams.part_axes import Line, Pane, arrow, fitted, line_of, panes, plane, point
-from linkwright.words import say
+from linkwright.words import _
 
 #: Longest arrow as a share of the picture's size.
 LONGEST = 0.4
@@ -110,16 +110,18 @@ def draw_structure_reactions(result: StructureForces, request: Request) -> Figur
 def draw_belt_tension(result: BeltTensions, request: Request) -> Figure:
     """Tension along the contact."""
     angle, tension = result.columns().values()
-    pane = Pane(request.say("tension"), "force", (Line(angle, tension, marks=(0, len(angle) - 1)),))
-    return panes(result.title, (request.say("wrap"), "angle"), [pane], request)
+    pane = Pane(request.say(_("tension")), "force", (Line(angle, tension, marks=(0, len(angle) - 1)),))
+    return panes(result.title, (request.say(_("angle of contact")), "angle"), [pane], request)
 
 
 @result_diagram("wedge_push", WedgeForces)
 def draw_wedge_push(result: WedgeForces, request: Request) -> Figure:
     """Push over the wedge's angle."""
     angle, up, down = result.columns().values()
-    lines = (Line(angle, up, request.say("raising")), Line(angle, down, request.say("lowering")))
-    return panes(result.title, (request.say("wedge_angle"), "angle"), [Pane("P", "force", lines)], request)
+    lines = (Line(angle, up, request.say(_("raising"))), Line(angle, down, request.say(_("lowering"))))
+    return panes(
+        result.title, (request.say(_("angle of the wedge")), "angle"), [Pane("P", "force", lines)], request
+    )
 
 
 @result_diagram("rotor_balance", RotorBalance)
@@ -130,12 +132,12 @@ def draw_rotor_balance(result: RotorBalance, request: Request) -> Figure:
         masses = result.rotor.masses.items()
         sides = [(mass, each.product * result.share(name, each.at), COLOURS[0]) for mass, each in masses]
         sides.append(("m_b·r_b", -unbalance, COLOURS[1]))
-        corners = np.cumsum([0j, *(side for _, side, _ in sides)])
+        corners = np.cumsum([0j, *(side for _unused, side, _unused2 in sides)])
         for start, (label, side, colour) in zip(corners, sides, strict=False):
             away = start + 0.5 * side - corners[:-1].mean()
             outside = 1.0 if (side.conjugate() * away).imag >= 0 else -1.0
             arrow(one, _xy(start), _xy(side), colour, label, middle=outside)
-        one.set_title(say("statics.balancing_plane", request.language, name=name))
+        one.set_title(_("Plane {name}", name=name).translate(request.language))
         one.set_xlabel("m·r·cos θ (kg·m)")
         one.set_ylabel("m·r·sin θ (kg·m)")
     fitted(figure, axes, request)
@@ -173,9 +175,9 @@ def _reaction(result: Reactions, support: str) -> Floats:
 
 def _arrows(axes: Axes, arrows: list[tuple[Floats, Floats, str, str]]) -> None:
     """Arrows of one scale, each named with its size."""
-    places = np.array([place for place, *_ in arrows])
+    places = np.array([place for place, *_unused in arrows])
     size = float(np.ptp(places, axis=0).max()) or 1.0
-    largest = max(float(np.hypot(*vector)) for _, vector, *_ in arrows) or 1.0
+    largest = max(float(np.hypot(*vector)) for _unused, vector, *_unused2 in arrows) or 1.0
     for place, vector, colour, name in arrows:
         text = f"{name}: {shown(float(np.hypot(*vector)), 'force', 4)}"
         arrow(axes, place, vector * LONGEST * size / largest, colour, text)

@@ -12,6 +12,7 @@ from linkwright.pictures.diagram import COLOURS, FAINT, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import unit_of
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.panels import DASHES
+from linkwright.words import _, pgettext
 
 
 @result_diagram("samples", Statistics)
@@ -54,7 +55,7 @@ def _histogram(
         if limit is not None:
             axes.axvline(limit / scale.factor, color=COLOURS[1], linestyle="--", linewidth=1.1)
     axes.set_xlabel(f"{name} ({scale.unit})" if scale.unit else name)
-    density = request.say("density")
+    density = request.say(pgettext("plot", "density"))
     axes.set_ylabel(f"{density} (1/{scale.unit})" if scale.unit else density)
     if axes.get_legend_handles_labels()[0]:
         axes.legend()
@@ -102,12 +103,12 @@ def _machines(axes: Axes, result: Spread, text: str, request: Request) -> None:
         if np.isfinite(end):
             axes.axvline(end * shown.factor, color=COLOURS[1], linestyle="--", linewidth=1.1)
     axes.set_xlabel(shown.label(text))
-    axes.set_ylabel(request.say("machines"))
+    axes.set_ylabel(request.say(_("machines")))
 
 
 def _band(axes: Axes, result: Spread, output: str) -> None:
     """±3σ about the shift by pressed pins, over the input, and between which values 99.73 % of the machines lie."""
-    place, _, deviation = result.curve(output)
+    place, _unused, deviation = result.curve(output)
     shift, shown = result.pressed(output), unit_of(result.dimension(output))
     turning = unit_of("angle" if result.turning else "length")
     x = place * turning.factor

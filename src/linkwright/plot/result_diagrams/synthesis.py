@@ -14,7 +14,7 @@ from linkwright.plot.diagrams.axes import Legend, unit_of
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.machine_in_axes import draw_support
 from linkwright.synthesis.result import Candidate, Synthesis, title_said
-from linkwright.words import say
+from linkwright.words import _, say
 
 SHOWN = 4
 #: What the output of a task's curve is, where it is not that of a function; factors to the unit of its axis.
@@ -45,7 +45,7 @@ def _plane(axes: Axes, result: Synthesis, language: str, legend: Legend) -> None
         legend.add(say(f"synthesize.legend.{name}", language), dots)
     for number, each in enumerate(result.candidates[:SHOWN]):
         colour = COLOURS[number % len(COLOURS)]
-        label = say("synthesize.legend.candidate", language, number=number + 1)
+        label = _("candidate {number}", number=number + 1).translate(language)
         if each.curve is not None and each.curve.ndim == 1:
             (line,) = axes.plot(*_places(each.curve), color=colour, lw=1)
             legend.add(label, line)
@@ -56,7 +56,7 @@ def _plane(axes: Axes, result: Synthesis, language: str, legend: Legend) -> None
         places = _places(target if target.ndim == 1 else target[0])
         mark = "--" if result.task == "free_curve" else "o"
         (marks,) = axes.plot(*places, mark, ms=4, mfc="none", color=INK)
-        legend.add(say("synthesize.legend.target", language), marks)
+        legend.add(_("target").translate(language), marks)
         if target.ndim == 2:
             axes.quiver(*places, target[1].real, target[1].imag, color=INK, width=0.003)
     axes.set_aspect("equal", adjustable="datalim")
@@ -80,7 +80,7 @@ def _function(axes: Axes, result: Synthesis, language: str) -> None:
     target = result.target
     if target is not None and not np.iscomplexobj(target):
         axes.plot(*(factors * target), "o", ms=4, mfc="none", color=INK)
-    axes.set_xlabel(say("synthesize.axis.input", language))
+    axes.set_xlabel(_("input (°)").translate(language))
     axes.set_ylabel(say(f"synthesize.axis.{kind}", language))
 
 
@@ -137,8 +137,8 @@ def _abscissa(result: Synthesis, language: str) -> tuple[Floats, str]:
     """Where the deviations are drawn, and the label of that axis."""
     target = result.target
     if target is not None and not np.iscomplexobj(target):
-        return np.degrees(target[0]), say("synthesize.axis.input", language)
-    return np.arange(1.0, len(result.best.deviations) + 1), say("synthesis_steps.axis.position", language)
+        return np.degrees(target[0]), _("input (°)").translate(language)
+    return np.arange(1.0, len(result.best.deviations) + 1), _("position").translate(language)
 
 
 @result_diagram("coupler_curve", CouplerCurve)
@@ -149,8 +149,8 @@ def draw_coupler_curve(result: CouplerCurve, request: Request) -> Figure:
     axes = figure.subplots()
     x, y = (np.concatenate([result.path, result.path[:1]]) * unit.factor).T
     axes.plot(x, y, color=COLOURS[0])
-    doubles = [spot for spot, _ in result.double_points]
-    cusps = [spot for spot, _ in result.cusps]
+    doubles = [spot for spot, _unused in result.double_points]
+    cusps = [spot for spot, _unused in result.cusps]
     if request.marks:
         for name, spots, sign in (("double_point", doubles, "o"), ("cusp", cusps, "D")):
             if spots:
@@ -162,5 +162,17 @@ def draw_coupler_curve(result: CouplerCurve, request: Request) -> Figure:
     axes.set_xlabel(unit.label("x"))
     axes.set_ylabel(unit.label("y"))
     length, area = unit.text(result.length, 6), unit_of("area").text(result.area, 6)
-    framed(figure, request.say("curve_of", point=result.point, length=length, area=area), request, legend)
+    framed(
+        figure,
+        request.say(
+            _(
+                "coupler curve of {point}, length {length}, area {area}",
+                point=result.point,
+                length=length,
+                area=area,
+            )
+        ),
+        request,
+        legend,
+    )
     return figure

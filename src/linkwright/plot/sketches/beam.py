@@ -9,7 +9,7 @@ from linkwright.parts.beams.beam import Beam, BeamLoad, BeamSupport
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.sketch import Sketch
 from linkwright.plot.sketches.base import WIDE, roller_support, sketched
-from linkwright.words import say as words
+from linkwright.words import _
 
 #: Half the height of the beam, longest arrow of a force, highest line load, places of both rows of dimensions.
 HALF, ARROW, LOAD, ROWS = 4.0, 62.0, 40.0, (78.0, 106.0)
@@ -29,7 +29,7 @@ def draw_beam(beam: Beam, language: str) -> Drawing:
         _load(paper, name, load, beam, scale, max(lines, default=1.0) or 1.0)
     if beam.own_weight:
         paper.arrow((0.62 * WIDE, HALF), (0.62 * WIDE, 34.0), "lw-load")
-        paper.name(words("given_data.own_weight", language), (0.62 * WIDE, 34.0), style="lw-load-name")
+        paper.name(_("own weight").translate(language), (0.62 * WIDE, 34.0), style="lw-load-name")
     _dimensions(paper, beam, scale)
     return paper.drawing(beam.name)
 

@@ -12,6 +12,7 @@ from linkwright.report.machine_results import Case
 from linkwright.report.numbers import without_rounding
 from linkwright.report.section import section
 from linkwright.report.sections.cycle_tables import varying
+from linkwright.words import _
 
 
 @section("appendix", 30.0)
@@ -22,7 +23,14 @@ def blocks(case: Case) -> Iterator[Block]:
         columns = without_rounding(force_results(case.numbered_forces))
     except LinkwrightError:
         columns = without_rounding(motion_results(case.numbered.motion))
-    yield Paragraph(say("report.appendix_text"))
+    yield Paragraph(
+        say(
+            _(
+                "All results at the numbered positions; $\\Delta P$ and $\\Delta F$ are what is left "
+                "over in the balance of powers and of forces.",
+            )
+        )
+    )
     alone = len(case.mechanism.drivers) < 2
     names = [each for each in columns if each.kind != "input" or not alone]
     yield from varying(case, "report.appendix_table", columns, names)

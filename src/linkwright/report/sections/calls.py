@@ -10,6 +10,7 @@ from linkwright.report.document import Block, Code, Heading, Paragraph, Table, l
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import typeset
 from linkwright.report.section import section
+from linkwright.words import _
 
 
 @section("calls", 14.0, optional=True)
@@ -21,7 +22,17 @@ def blocks(case: Case) -> Iterator[Block]:
     made = calls(plan(numbered.motion, numbered.rows), case.heads.numbers, forces=forces)
     if not made.motion:
         raise Missing("calls.none")
-    yield Paragraph(say("calls.intro"))
+    yield Paragraph(
+        say(
+            _(
+                "The machine in the subprograms of the teaching texts (bark for a bar, rrrk to rppk "
+                "for the motion of the five dyads, barf and rrrf to rppf for their joint forces). "
+                "Points have the numbers n and links the numbers k of the tables below; $p$, $v_p$, "
+                "$a_p$ are the motion of the points, $t$, $w$, $e$ the directions of the links with "
+                "their rates. Lengths in m, angles in rad, 0: not used.",
+            )
+        )
+    )
     yield _points(case, made.points)
     yield _links(case, made)
     yield from _others(case, made)
@@ -39,11 +50,11 @@ def _points(case: Case, points: Sequence[NumberedPoint]) -> Table:
     say = case.say
     rows = []
     for point in points:
-        links = ", ".join(say("calls.frame") if link == "frame" else link for link in point.links)
+        links = ", ".join(say(_("frame")) if link == "frame" else link for link in point.links)
         place = "–" if point.place is None else f"({length(point.place.real)}, {length(point.place.imag)})"
         rows.append((str(point.number), literal(case.sentence(point.name)), literal(links), literal(place)))
     head = tuple(say(f"calls.head_{key}") for key in ("n", "point", "links", "place"))
-    return Table(say("calls.points"), head, tuple(rows), "><<<")
+    return Table(say(_("Numbers of the points")), head, tuple(rows), "><<<")
 
 
 def _links(case: Case, made: Calls) -> Table:
@@ -53,22 +64,22 @@ def _links(case: Case, made: Calls) -> Table:
     for link in sorted(made.links, key=lambda each: each.number):
         part = case.mechanism.links.get(link.name)
         mass, inertia = (length(part.mass), length(part.inertia)) if part else ("–", "–")
-        name = link.name if part else say("calls.guide", guide=link.name)
+        name = link.name if part else say(_("direction of guide {guide}", guide=link.name))
         cells = (str(link.number), literal(name), literal(_direction(case, link)), mass, inertia)
         rows.append(tuple(map(typeset, cells[:width])))
     head = tuple(say(f"calls.head_{key}") for key in ("k", "link", "direction", "mass", "inertia")[:width])
-    return Table(say("calls.numbers"), head, tuple(rows), "><<>>"[:width])
+    return Table(say(_("Numbers of the links")), head, tuple(rows), "><<>>"[:width])
 
 
 def _direction(case: Case, link: NumberedLink) -> str:
     """What t(k) of a link is."""
     say = case.say
     if link.line is not None:
-        return say("calls.line", first=link.line[0], second=link.line[1])
+        return say(_("from point {first} to {second}", first=link.line[0], second=link.line[1]))
     if link.along:
-        return say("calls.along", guide=link.along)
+        return say(_("along guide {guide}", guide=link.along))
     if link.name in case.mechanism.links:
-        return say("calls.axis")
+        return say(_("x axis of the link"))
     key = "calls.fixed" if not link.against else "calls.against"
     return say(key, angle=length(link.angle), link=link.against)
 
@@ -80,13 +91,27 @@ def _others(case: Case, made: Calls) -> Iterator[Paragraph]:
     for step in made.others:
         reason: str = say(f"calls.{step.kind}") if step.kind else case.sentence(step.reason)
         groups.setdefault(reason, []).append(
-            say("calls.group", signature=step.group.signature, links=", ".join(step.group.links))
+            say(_("{signature} ({links})", signature=step.group.signature, links=", ".join(step.group.links)))
         )
     for reason, named in groups.items():
-        said = say("calls.no_call", groups=say("calls.and").join(named), reason=reason)
+        said = say(
+            _(
+                "No subprogram of these texts for {groups}: {reason}.",
+                groups=say(_(", ")).join(named),
+                reason=reason,
+            )
+        )
         yield Paragraph(literal(said), "note")
     if made.forces and any(not step.kind for step in made.others):
-        yield Paragraph(say("calls.others_load"), "note")
+        yield Paragraph(
+            say(
+                _(
+                    "What groups without a subprogram exert on the links of the others is not in the "
+                    "calls for the joint forces; it is added as a force at a point (nn).",
+                )
+            ),
+            "note",
+        )
 
 
 def _program(group: Sequence[Call]) -> str:
@@ -99,6 +124,11 @@ def _tables(case: Case, group: Sequence[Call]) -> Iterator[Table]:
     for name in FORMAL:
         mine = [call for call in group if call.name == name]
         if mine:
-            head = (say("calls.head_call"), *FORMAL[name])
+            head = (say(_("formal:")), *FORMAL[name])
             rows = tuple((literal(", ".join(call.links)), *map(typeset, call.actual)) for call in mine)
-            yield Table(say("calls.table", name=name), head, rows, "<" + "^" * len(FORMAL[name]))
+            yield Table(
+                say(_("{name}: formal arguments (head) and actual ones", name=name)),
+                head,
+                rows,
+                "<" + "^" * len(FORMAL[name]),
+            )

@@ -17,7 +17,7 @@ from linkwright.report.calculation import numbers_and_way
 from linkwright.report.document import Block, Heading, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
-from linkwright.words import has
+from linkwright.words import _, has
 
 
 @section("cams", 8.6, optional=True)
@@ -43,9 +43,14 @@ def _about(case: Case, joint: CamJoint) -> str:
     motion = say(f"report.cam_{'oscillating' if joint.side else 'translating'}")
     key = "report.cam_law" if joint.program is not None else "report.cam_table"
     return say(
-        "report.cam_about", cam=literal(joint.cam), follower=literal(joint.follower), motion=motion,
-        touch=say(f"report.cam_{joint.touch}"),
-    ) + say(key, count=len(joint.angles))  # fmt: skip
+        _(
+            "{cam} moves {follower}, which is {motion}, through {touch}. ",
+            cam=literal(joint.cam),
+            follower=literal(joint.follower),
+            motion=motion,
+            touch=say(f"report.cam_{joint.touch}"),
+        )
+    ) + say(key, count=len(joint.angles))
 
 
 def _speed(case: Case, joint: CamJoint) -> float:
@@ -68,7 +73,7 @@ def _program(case: Case, program: MotionProgram, lift_unit: str) -> Table:
         for index, (place, lift, law) in enumerate(zip(ends, lifts, program.law_names, strict=True), 1)
     )  # fmt: skip
     head = (
-        say("report.position_number"), say("report.from_angle"), say("report.to_angle"),
-        f"{say('report.from_lift')} / {lift_unit}", f"{say('report.to_lift')} / {lift_unit}", say("report.law"),
+        say(_("no.")), say(_("from $\\varphi$ / °")), say(_("to $\\varphi$ / °")),
+        f"{say('report.from_lift')} / {lift_unit}", f"{say('report.to_lift')} / {lift_unit}", say(_("law")),
     )  # fmt: skip
-    return Table(say("report.program"), head, rows, ">>>>><")
+    return Table(say(_("Motion program")), head, rows, ">>>>><")

@@ -9,6 +9,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.report.document import Block, Figure, Heading, Paragraph, literal, printed
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
+from linkwright.words import _
 
 
 @section("comparison", 20.0, optional=True, common=True)
@@ -26,12 +27,14 @@ def blocks(cases: Sequence[Case]) -> Iterator[Block]:
         if error.code == "study.no_common_output":
             raise Missing(error.sentence) from None
         raise
-    yield printed(table(found, say), say("report.comparison_table"), first.language, "comparison")
-    yield Paragraph(literal(say("compare.marked")))
-    yield Heading(say("report.ranking"), 2)
+    yield printed(
+        table(found, say), say(_("Design numbers of the alternatives")), first.language, "comparison"
+    )
+    yield Paragraph(literal(say(_("* best of the alternatives"))))
+    yield Heading(say(_("Ranking")), 2)
     for line in ranking(found, say):
         yield Paragraph(literal(line.strip()), "bullet" if line.startswith(" ") else "")
-    yield Heading(say("compare.evaluation"), 2)
+    yield Heading(say(_("Evaluation")), 2)
     for line in sentences(found, first.language):
         yield Paragraph(literal(line))
     for kind in ("comparison", "pivot_hodograph"):

@@ -22,7 +22,7 @@ from linkwright.report.improvements import EFFORT, broken, improvements
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import typeset
 from linkwright.report.section import section
-from linkwright.words import Say
+from linkwright.words import Message, Say, _
 from linkwright.words.sentence import in_words
 
 #: Joint forces nearer to each other than this share are equal; a mean below this share of the peak is zero.
@@ -70,7 +70,7 @@ class _Conclusion:
         """Sentences of one paragraph; between Chinese ones there is no space."""
 
         def together(first: str, second: str) -> str:
-            return self.say("between", first=first, second=second)
+            return self.say(_("{first} {second}", first=first, second=second))
 
         return reduce(together, sentences) if sentences else ""
 
@@ -88,7 +88,12 @@ class _Conclusion:
         for output in main_outputs(self.case.motion)[:MOST]:
             yield from self._rates(output)
         if not self.case.motion.whole:
-            yield say("partly")
+            yield say(
+                _(
+                    "The values hold for the part of the input's range in which the machine can be "
+                    "assembled.",
+                )
+            )
 
     def _rates(self, output: Output) -> Iterator[str]:
         """The largest velocity and acceleration of an output or of a point, with their places."""
@@ -98,12 +103,23 @@ class _Conclusion:
             return
         places = [typeset(shown(each.input, analysis.input_dimension)) for each in (first, second)]
         yield self.say(
-            "rates_turning" if output.kind == "angle" else "rates",
-            subject=literal(str(output)),
-            velocity=typeset(shown(first.value, rates[0].dimension)),
-            acceleration=typeset(shown(second.value, rates[1].dimension)),
-            first=places[0],
-            second=places[1],
+            (
+                _(
+                    "The angular velocity of {subject} is at most {velocity} (at q = {first}), its "
+                    "angular acceleration at most {acceleration} (at q = {second}).",
+                )
+                if output.kind == "angle"
+                else _(
+                    "The velocity of {subject} is at most {velocity} (at q = {first}), its acceleration "
+                    "at most {acceleration} (at q = {second}).",
+                )
+            ).format(
+                subject=literal(str(output)),
+                velocity=typeset(shown(first.value, rates[0].dimension)),
+                acceleration=typeset(shown(second.value, rates[1].dimension)),
+                first=places[0],
+                second=places[1],
+            )
         )
 
     # transmission -----------------------------------------------------------------------------
@@ -113,7 +129,19 @@ class _Conclusion:
             key = "angle_below" if broken(row) else "angle_above"
             yield say(key, **_told(row), limit=typeset(shown(row.limit, row.dimension)))
         if (row := _lowest(self._rows("singularity"))) is not None:
-            yield say("close" if broken(row) else "away", **_told(row))
+            yield say(
+                (
+                    _(
+                        "Group {subject} comes close to a singular position at q = {at} (distance from it "
+                        "{value}; 1 at best, 0 where singular): forces grow very large there.",
+                    )
+                    if broken(row)
+                    else _(
+                        "No group comes close to a singular position: the distance from it is at least "
+                        "{value} (group {subject}, at q = {at}; 1 at best, 0 where singular).",
+                    )
+                ).format(**_told(row))
+            )
 
     def _limits(self) -> Iterator[Block]:
         say, rows = self.say, [row for row in self.case.metrics if row.limit is not None]
@@ -121,9 +149,25 @@ class _Conclusion:
             return
         count = sum(map(broken, rows))
         if not count:
-            yield Paragraph(self._joined(say("limits"), say("all_met", count=len(rows))))
+            yield Paragraph(
+                self._joined(
+                    say(_("**Recommended limits.**")),
+                    say(_("All {count} values that have a recommended limit keep it.", count=len(rows))),
+                )
+            )
             return
-        yield Paragraph(self._joined(say("limits"), say("not_met", count=len(rows), broken=count)))
+        yield Paragraph(
+            self._joined(
+                say(_("**Recommended limits.**")),
+                say(
+                    _(
+                        "Of {count} values that have a recommended limit {broken} do not keep it:",
+                        count=len(rows),
+                        broken=count,
+                    )
+                ),
+            )
+        )
         for sentence in self.case.metrics.warnings_in(self.case.language):
             yield Paragraph(literal(sentence), "bullet")
 
@@ -134,7 +178,7 @@ class _Conclusion:
         if peaks:
             top = max(peaks, key=lambda row: row.value)
             equal = [row for row in peaks if abs(row.value - top.value) <= EQUAL * abs(top.value)]
-            joints = say("joint_list").join(literal(in_words(row.subject, case.language)) for row in equal)
+            joints = say(_(", ")).join(literal(in_words(row.subject, case.language)) for row in equal)
             key = "largest_reaction_rest" if top.at is None or not self.moves else "largest_reaction"
             yield say(key, value=_value(top), joints=joints, at=_at(top))
         if not self.moves:
@@ -142,7 +186,13 @@ class _Conclusion:
         for row in self._rows("peak_input_torque"):
             yield from self._effort(row)
         for row in self._rows("peak_shaking_force"):
-            yield say("shaking", value=_value(row), at=_at(row))
+            yield say(
+                _(
+                    "The largest shaking force on the frame is {value} (at q = {at}).",
+                    value=_value(row),
+                    at=_at(row),
+                )
+            )
 
     def _effort(self, peak: MetricValue) -> Iterator[str]:
         """Peak, mean and root mean square of what a driver supplies."""
@@ -162,7 +212,12 @@ class _Conclusion:
         )
         if not small and abs(peak.value) > WORTH * abs(mean):
             ratio = abs(peak.value / mean)
-            yield self.say("peak_to_mean", ratio=f"{ratio:.0f}" if ratio >= 100.0 else f"{ratio:.3g}")
+            yield self.say(
+                _(
+                    "The peak is {ratio} times the mean.",
+                    ratio=f"{ratio:.0f}" if ratio >= 100.0 else f"{ratio:.3g}",
+                )
+            )
 
     # flywheel ---------------------------------------------------------------------------------
     def _flywheel(self) -> Iterator[str]:
@@ -174,16 +229,38 @@ class _Conclusion:
         at, excess = running.equivalent.input_at, running.energy
         low, high = (typeset(shown(at(end), "angle")) for end in (excess.low, excess.high))
         energy = typeset(shown(excess.value, "energy"))
-        yield say("stretch", low=low, high=high, energy=energy)
+        yield say(
+            _(
+                "What governs the flywheel is the stretch from q = {low}, where the input turns "
+                "slowest, on to q = {high}, where it turns fastest: there the energy excess grows by "
+                "{energy}.",
+                low=low,
+                high=high,
+                energy=energy,
+            )
+        )
         fluctuation = f"{running.required:g}"
         if not running.exact_flywheel:
-            yield say("none_needed", fluctuation=fluctuation)
+            yield say(
+                _(
+                    "For δ = {fluctuation} no flywheel is needed: the machine's own inertia is enough.",
+                    fluctuation=fluctuation,
+                )
+            )
             return
         inertia, formula = (
             typeset(shown(each, "inertia")) for each in (running.exact_flywheel, running.flywheel)
         )
-        yield say("needed", fluctuation=fluctuation, inertia=inertia, formula=formula)
-        yield say("own", own=typeset(f"{running.own:.4g}"))
+        yield say(
+            _(
+                "For δ = {fluctuation} the input shaft needs a flywheel of {inertia} ({formula} by "
+                "the formula).",
+                fluctuation=fluctuation,
+                inertia=inertia,
+                formula=formula,
+            )
+        )
+        yield say(_("Without a flywheel δ would be {own} by the formula.", own=typeset(f"{running.own:.4g}")))
 
     # changes ----------------------------------------------------------------------------------
     def _changes(self) -> Iterator[str]:
@@ -191,17 +268,39 @@ class _Conclusion:
         for each in found:
             metric = METRICS[each.row.metric]().label_in(self.case.language, each.row.dimension)
             yield self.say(
-                "torque_change" if each.row.metric == EFFORT else "limit_change",
-                metric=literal(metric),
-                dimension=literal(each.dimension),
-                way=self.say("longer" if each.longer else "shorter"),
-                value=_value(each.row),
-                better=typeset(told(each.better, each.row.dimension)),
+                (
+                    _(
+                        "Among the link lengths {dimension} has most influence on the {metric}: 1 % {way} "
+                        "would lower it from {value} to about {better}.",
+                    )
+                    if each.row.metric == EFFORT
+                    else _(
+                        "Among the link lengths {dimension} has most influence on the {metric}: 1 % {way} "
+                        "would bring it from {value} to about {better}.",
+                    )
+                ).format(
+                    metric=literal(metric),
+                    dimension=literal(each.dimension),
+                    way=self.say(_("longer") if each.longer else _("shorter")),
+                    value=_value(each.row),
+                    better=typeset(told(each.better, each.row.dimension)),
+                )
             )
             percent = typeset(f"{each.side_effect:.2g}") if abs(each.side_effect) > SMALLEST else "0"
-            yield self.say("side_effect", output=literal(each.output), percent=percent)
+            yield self.say(
+                _(
+                    "The travel of {output} would then change by {percent} %.",
+                    output=literal(each.output),
+                    percent=percent,
+                )
+            )
         if found:
-            yield self.say("first_order")
+            yield self.say(
+                _(
+                    "These figures are of first order, from the exact derivatives at the present "
+                    "dimensions; what else is asked of the machine is to be checked anew.",
+                )
+            )
 
 
 def _lowest(rows: Sequence[MetricValue]) -> MetricValue | None:
@@ -223,4 +322,4 @@ def _at(row: MetricValue) -> str:
 
 
 def _word(case: Case, key: str, **values: object) -> str:
-    return case.say(f"conclusion.{key}", **values)
+    return case.say(key if isinstance(key, Message) else f"conclusion.{key}", **values)

@@ -9,6 +9,7 @@ from linkwright.plot.diagrams.outputs import main_outputs
 from linkwright.report.document import Block, Figure, Paragraph, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
+from linkwright.words import _
 
 KINDS = ("sva", "angles", "paths")
 #: What is no fault of a machine: none of its links turns.
@@ -22,12 +23,14 @@ def blocks(case: Case) -> Iterator[Block]:
     """Diagrams of the motion."""
     if not case.mechanism.drivers:
         raise Missing("report.no_motion")
-    yield Paragraph(case.say("report.curves_text"))
+    yield Paragraph(case.say(_("The marks on the curves are limit positions and peaks.")))
     outputs = main_outputs(case.motion)
     if len(outputs) == 1:
         outputs = []
     for output in outputs:
-        caption = case.say("report.caption_sva_of", output=str(output))
+        caption = case.say(
+            _("Displacement, velocity and acceleration of {output} over the input", output=str(output))
+        )
         if (shown := _figure(case, "sva", caption, of=(str(output),))) is not None:
             yield shown
     yield from pictures(case, KINDS[bool(outputs) :])

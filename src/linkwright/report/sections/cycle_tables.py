@@ -15,6 +15,7 @@ from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import column, faded, residual, typeset, without_rounding
 from linkwright.report.section import section
+from linkwright.words import _
 
 
 @section("tables", 6.0)
@@ -23,13 +24,37 @@ def blocks(case: Case) -> Iterator[Block]:
     say, numbered = case.say, case.numbered
     count = str(len(numbered.rows))
     if numbered.listed:
-        yield Paragraph(say("report.numbered_listed", count=count))
+        yield Paragraph(
+            say(
+                _(
+                    "The {count} positions are those that the task asks for, in its order; limit "
+                    "positions among them are exact.",
+                    count=count,
+                )
+            )
+        )
         yield from _unreached(case)
     elif numbered.start is not None:
         place = f"{case.input_text(numbered.start.input)}{case.input_unit}"
-        yield Paragraph(say("report.numbered_limit", count=count, input=place))
+        yield Paragraph(
+            say(
+                _(
+                    "The {count} positions are equally spaced in time and numbered from the limit "
+                    "position at the input {input} on.",
+                    count=count,
+                    input=place,
+                )
+            )
+        )
     elif case.mechanism.drivers:
-        yield Paragraph(say("report.numbered_start", count=count))
+        yield Paragraph(
+            say(
+                _(
+                    "The {count} positions are equally spaced over the motion and numbered from its start.",
+                    count=count,
+                )
+            )
+        )
     if case.unnumbered:
         yield Paragraph(literal(case.unnumbered), "note")
     for note in case.motion.notes:
@@ -37,7 +62,7 @@ def blocks(case: Case) -> Iterator[Block]:
     yield Paragraph(literal(case.links_text))
     columns = without_rounding(motion_results(numbered.motion))
     if len(inputs := _of(columns, "input")) > 1:
-        yield table(case, say("report.inputs_table"), columns, inputs)
+        yield table(case, say(_("Inputs of the drivers")), columns, inputs)
     for title, wanted in _motion_tables(case, columns):
         yield table(case, say(title), columns, wanted)
     try:
@@ -83,7 +108,11 @@ def _unreached(case: Case) -> Iterator[Block]:
             reasons.setdefault(outcome.say(case.language), []).append(str(number))
     for reason, numbers in reasons.items():
         said = case.say(
-            "report.listed_unreached", numbers=case.say("finding.comma").join(numbers), reason=reason
+            _(
+                "No numbers at position {numbers}: {reason}",
+                numbers=case.say(_(", ")).join(numbers),
+                reason=reason,
+            )
         )
         yield Paragraph(literal(said), "missing")
 
@@ -96,7 +125,12 @@ def varying(
     still = [name for name in names if name not in moving and np.isfinite(columns[name]).any()]
     if still:
         yield Paragraph(
-            case.say("report.constant", values=", ".join(_equal(case, columns, each) for each in still))
+            case.say(
+                _(
+                    "Constant over the cycle: {values}.",
+                    values=", ".join(_equal(case, columns, each) for each in still),
+                )
+            )
         )
     if moving:
         yield table(case, case.say(title), columns, moving)
@@ -105,7 +139,7 @@ def varying(
 def _equal(case: Case, columns: Mapping[Output, Floats], name: Output) -> str:
     """What a result that does not change is equal to."""
     head, factor = case.heads.head(name)
-    quantity, _, unit = head.rpartition("\u00a0/\u00a0")
+    quantity, _unused, unit = head.rpartition("\u00a0/\u00a0")
     known = columns[name][np.isfinite(columns[name])]
     value = typeset(f"{faded(float(known[0])) * factor:.6g}")
     return f"{quantity} = {value} {unit}".replace(" °", "°")
@@ -118,10 +152,10 @@ def table(case: Case, title: str, columns: Mapping[Output, Floats], names: Seque
     shown = [case.heads.head(name) for name in names]
     printed = [
         (residual if name.kind in RESIDUALS else column)(columns[name][rows] * factor)
-        for name, (_, factor) in zip(names, shown, strict=True)
+        for name, (_unused, factor) in zip(names, shown, strict=True)
     ]
     body = tuple((*first[k], *(each[k] for each in printed)) for k in range(len(rows)))
-    head = (*key, *(head for head, _ in shown))
+    head = (*key, *(head for head, _unused in shown))
     return Table(title, head, body, ">" * len(head), "", len(key))
 
 
@@ -129,7 +163,7 @@ def leading(case: Case) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Heads and cells of what every table begins with: numbers of the positions, the time where drivers follow laws
     of their own, the input; of several drivers the first one's, or the time alone."""
     motion, rows = case.numbered.motion, list(case.numbered.rows)
-    heads, columns = [case.say("report.position_number")], [[str(k + 1) for k in range(len(rows))]]
+    heads, columns = [case.say(_("no."))], [[str(k + 1) for k in range(len(rows))]]
     if not case.mechanism.drivers:
         return (*heads, f"$q$ / {case.input_unit}"), [(number, "–") for number in columns[0]]
     if not case.mechanism.steady:

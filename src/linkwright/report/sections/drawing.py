@@ -10,6 +10,7 @@ from linkwright.report.document import Block, Figure, Paragraph
 from linkwright.report.legible import legible
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
+from linkwright.words import _
 
 #: Share of the width and height, mm, of a drawing: two of them share a page.
 WIDE, TALLEST = 0.85, 104.0
@@ -20,7 +21,15 @@ def blocks(case: Case) -> Iterator[Block]:
     """The machine at the worked position, and its limit positions."""
     say = case.say
     motion, index = case.worked_motion
-    yield Paragraph(say("report.drawing_text", figure="[[drawing]]"))
+    yield Paragraph(
+        say(
+            _(
+                "The machine in the standard symbols is shown in {figure}, at the position that is "
+                "worked out below.",
+                figure="[[drawing]]",
+            )
+        )
+    )
     language = case.language
 
     def shown(diagonal: float) -> str:
@@ -31,10 +40,10 @@ def blocks(case: Case) -> Iterator[Block]:
         return limits.svg
 
     loaded = any(link.mass for link in case.mechanism.links.values()) or bool(case.mechanism.loads)
-    caption = say("report.drawing_caption" if loaded else "report.drawing_plain_caption")
+    caption = say(_("Kinematic drawing with mass centres and loads") if loaded else _("Kinematic drawing"))
     yield Figure(caption, ((legible(shown, WIDE, TALLEST), WIDE),), "drawing", TALLEST)
     try:
         limits = legible(faded, WIDE, TALLEST)
     except LinkwrightError:
         return
-    yield Figure(say("report.limits_caption"), ((limits, WIDE),), "limit-drawing", TALLEST)
+    yield Figure(say(_("Limit positions of the output, dashed")), ((limits, WIDE),), "limit-drawing", TALLEST)

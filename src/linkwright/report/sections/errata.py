@@ -8,7 +8,7 @@ from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.report.settings import Erratum
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 
 @section("errata", 13.0, optional=True)
@@ -22,7 +22,15 @@ def blocks(case: Case) -> Iterator[Block]:
 
 def errata_blocks(found: Sequence[Erratum], source: str, say: Say) -> Iterator[Block]:
     """The mistakes of a source as a table."""
-    yield Paragraph(say("report.errata_text", source=literal(source or "–")))
+    yield Paragraph(
+        say(
+            _(
+                "The numbers of the source ({source}) were compared with those of this report. Where "
+                "they differ:",
+                source=literal(source or "–"),
+            )
+        )
+    )
     head = tuple(say(f"report.{key}") for key in ("where", "printed", "right", "why"))
     rows = tuple(tuple(map(literal, (e.where, e.printed, e.right, e.why))) for e in found)
-    yield Table(say("report.errata_table"), head, rows, "<<<<", "errata")
+    yield Table(say(_("Mistakes of the source")), head, rows, "<<<<", "errata")

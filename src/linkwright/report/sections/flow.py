@@ -10,6 +10,7 @@ from linkwright.report.document import Block, Figure, Paragraph
 from linkwright.report.machine_results import Case
 from linkwright.report.own_size import own_share
 from linkwright.report.section import section
+from linkwright.words import _
 
 
 @section("flow", 3.5)
@@ -19,10 +20,12 @@ def blocks(case: Case) -> Iterator[Block]:
     nodes = flow_chart_steps(numbered.motion, numbered.rows, case.language)
     key = "flow.text" if case.mechanism.drivers else "flow.text_rest"
     yield Paragraph(say(key, figure="[[flow]]"))
-    caption = say("flow.caption")
+    caption = say(_("Flow chart of the solution"))
     pages = flow_chart_pages(nodes, caption)
     for number, svg in enumerate(pages, 1):
         shown = (
-            caption if len(pages) == 1 else say("flow.page", caption=caption, number=number, count=len(pages))
+            caption
+            if len(pages) == 1
+            else say(_("{caption} ({number} of {count})", caption=caption, number=number, count=len(pages)))
         )
         yield Figure(shown, ((svg, own_share(svg)),), "flow" if number == 1 else "", TALLEST)

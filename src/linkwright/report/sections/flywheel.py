@@ -12,6 +12,7 @@ from linkwright.report.document import Block, Figure, Formula, Paragraph, Table,
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.report.sections.curves import pictures
+from linkwright.words import _
 
 #: Why machines have neither motor nor flywheel: another drive, no work over whole turns.
 WITHOUT = ("running.one_driver", "running.not_constant", "running.not_whole_turns", "running.no_work")
@@ -21,7 +22,16 @@ WITHOUT = ("running.one_driver", "running.not_constant", "running.not_whole_turn
 def blocks(case: Case) -> Iterator[Block]:
     """Mean torque, motor, energy fluctuation, flywheel by the formula and exactly."""
     say, running = case.say, _running(case)
-    yield Paragraph(say("report.flywheel_text", fluctuation=f"{running.required:g}"))
+    yield Paragraph(
+        say(
+            _(
+                "For a coefficient of speed fluctuation $\\delta = {fluctuation}$, with the energy "
+                "fluctuation $\\Delta E$, the mean speed $\\omega_{{\\mathrm{{m}}}}$ and the machine's "
+                "own mean equivalent inertia:",
+                fluctuation=f"{running.required:g}",
+            )
+        )
+    )
     for remark in running.remarks:
         yield Paragraph(literal(remark.say(case.language)))
     speed, energy, mean = running.equivalent.speed, running.energy.value, running.equivalent.mean_inertia
@@ -31,11 +41,19 @@ def blocks(case: Case) -> Iterator[Block]:
         shown += [read(numbers), row(quantity(f"{running.flywheel:.6g}", "kg·m²"))]
     yield Formula(tuple(shown), "flywheel-formula")
     if not running.flywheel:
-        yield Paragraph(say("report.flywheel_none", most=f"{running.required:g}"))
+        yield Paragraph(
+            say(
+                _(
+                    "The machine's own inertia is enough: it runs more evenly than {most} without a "
+                    "flywheel.",
+                    most=f"{running.required:g}",
+                )
+            )
+        )
     cells = (row.cells("machine", say) for block in running.blocks(say) for row in block.rows)
     rows = tuple(tuple(literal(cell.strip()) for cell in each) for each in cells)
     head = tuple(say(f"report.{key}") for key in ("number", "value", "unit", "at_input"))
-    yield Table(say("report.flywheel_table"), head, rows, "<><>", "flywheel")
+    yield Table(say(_("Motor, energy fluctuation and flywheel")), head, rows, "<><>", "flywheel")
     yield from _speed(case)
     yield from pictures(case, ("energy",))
 
@@ -56,4 +74,4 @@ def _speed(case: Case) -> Iterator[Block]:
     except LinkwrightError as error:
         yield Paragraph(literal(case.told(error)), "missing")
         return
-    yield Figure(case.say("report.caption_speed"), ((shown, 0.92),), "speed")
+    yield Figure(case.say(_("True speed over the cycle with the flywheel")), ((shown, 0.92),), "speed")

@@ -11,6 +11,7 @@ from linkwright.report.document import Block, Figure, Paragraph, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.own_size import own_share
 from linkwright.report.section import section
+from linkwright.words import _
 
 #: Height of a figure, mm, that a page has room for, and of the pictures below the text that begins the section.
 TALLEST, FIRST = 228.0, 178.0
@@ -28,12 +29,14 @@ def blocks(case: Case) -> Iterator[Block]:
     key = "free_bodies.text" if place else "free_bodies.text_rest"
     yield Paragraph(say(key, figure="[[free-bodies]]", place=place))
     if idle := idle_loads(forces, index):
-        yield Paragraph(literal(say("free_bodies.idle", names=", ".join(idle))), "note")
-    caption = say("free_bodies.caption")
+        yield Paragraph(
+            literal(say(_("Not acting at this position: {names}.", names=", ".join(idle)))), "note"
+        )
+    caption = say(_("Free-body diagrams of the links"))
     for number, svg in enumerate(pages, 1):
         shown = (
             caption
             if len(pages) == 1
-            else say("free_bodies.page", caption=caption, number=number, count=len(pages))
+            else say(_("{caption} ({number} of {count})", caption=caption, number=number, count=len(pages)))
         )
         yield Figure(shown, ((svg, own_share(svg)),), "free-bodies" if number == 1 else "", TALLEST)

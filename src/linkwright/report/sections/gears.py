@@ -16,6 +16,7 @@ from linkwright.report.document import Block, Figure, Formula, Heading, Paragrap
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.structure.trains import GearTrain, written
+from linkwright.words import _, pgettext
 from linkwright.words.sentence import link_said
 
 
@@ -27,7 +28,15 @@ def blocks(case: Case) -> Iterator[Block]:
     pairs = {name: sizes for name, sizes in found.items() if sizes is not None}
     if not pairs:
         raise Missing("report.no_gears")
-    yield Paragraph(case.say("report.gears_text"))
+    yield Paragraph(
+        case.say(
+            _(
+                "$z$: numbers of teeth, $m$: module, $r$: pitch radii, $a$: centre distance, "
+                "$\\alpha$: pressure angle, $i$: ratio of the second wheel to the first with the "
+                "carrier stopped.",
+            )
+        )
+    )
     yield _sizes(case, pairs)
     for train in case.structure.trains:
         yield from _train(case, train)
@@ -39,10 +48,10 @@ def _sizes(case: Case, pairs: Mapping[str, WheelSizes]) -> Table:
     say = case.say
     rows = tuple(tuple(map(literal, _row(case, name, sizes))) for name, sizes in pairs.items())
     head = (
-        say("report.joint"), say("report.kind"), say("report.wheels"), "$z$", "$m$ / mm", "$r$ / mm",
+        say(_("joint")), say(_("kind")), say(_("wheels")), "$z$", "$m$ / mm", "$r$ / mm",
         "$a$ / mm", r"$\alpha$ / °", "$i$",
     )  # fmt: skip
-    return Table(say("report.wheels_table"), head, rows, "<<<>>>>>>", "wheels")
+    return Table(say(_("Pairs of wheels and racks")), head, rows, "<<<>>>>>>", "wheels")
 
 
 def _row(case: Case, name: str, sizes: WheelSizes) -> tuple[str, ...]:
@@ -67,14 +76,20 @@ def _train(case: Case, train: GearTrain) -> Iterator[Block]:
     say, wheels = case.say, list(train.ratios)
     carrier = [train.carrier] if train.planetary else []
     held, frame = (link_said(name, case.language) for name in (train.carrier, "frame"))
-    stopped = [say("structure_text.stopped", carrier=held), *map(written, train.ratios.values())]
+    stopped = [say(_("{carrier} stopped", carrier=held)), *map(written, train.ratios.values())]
     rows = [(*stopped, "0") if carrier else tuple(stopped)]
     if carrier:
-        rows.append((say("structure_text.as_one"), *["1"] * (len(wheels) + 1)))
+        rows.append((say(_("all as one")), *["1"] * (len(wheels) + 1)))
     if speeds := train.speeds:
-        rows.append((say("structure_text.stopped", carrier=frame), *map(written, speeds.values())))
-    caption = say("report.train_table", pairs=", ".join(train.pairs), carrier=held)
-    head = (say("report.motion"), *wheels, *carrier)
+        rows.append((say(_("{carrier} stopped", carrier=frame)), *map(written, speeds.values())))
+    caption = say(
+        _(
+            "Speeds of the train {pairs} with the carrier ({carrier}) stopped, as shares of the first one",
+            pairs=", ".join(train.pairs),
+            carrier=held,
+        )
+    )
+    head = (say(pgettext("report", "motion")), *wheels, *carrier)
     yield Table(literal(caption), tuple(map(literal, head)),
                 tuple(tuple(map(literal, row)) for row in rows), "<" + ">" * (len(head) - 1))  # fmt: skip
     omega = {name: read_name(f"ω{number}") for name, number in case.heads.numbers.items()}
@@ -87,7 +102,18 @@ def _train(case: Case, train: GearTrain) -> Iterator[Block]:
         else:
             yield Formula((read_name(f"i_{wheel}"), Row((Fraction(own, first),)), read(written(ratio))))
     if train.blocked:
-        yield Paragraph(literal(say("report.blocked", pairs=", ".join(train.blocked))), "note")
+        yield Paragraph(
+            literal(
+                say(
+                    _(
+                        "{pairs} would give a wheel another ratio: the wheels cannot turn against the "
+                        "carrier.",
+                        pairs=", ".join(train.blocked),
+                    )
+                )
+            ),
+            "note",
+        )
 
 
 def _alike(pairs: Mapping[str, WheelSizes]) -> list[list[str]]:
@@ -119,15 +145,28 @@ def _teeth(case: Case, same: Sequence[str], sizes: WheelSizes) -> Iterator[Block
     except LinkwrightError as error:
         yield Paragraph(literal(case.told(error)), "missing")
         return
-    yield Paragraph(say("report.teeth_text"))
+    yield Paragraph(
+        say(
+            _(
+                "Standard involute teeth (addendum 1 module, dedendum 1.25 modules), no profile "
+                "shift; $d$, $d_{b}$, $d_{a}$, $d_{f}$: diameters of the pitch, base, tip and root "
+                "circles, $s$: thickness of a tooth (of a ring: of a space) on the pitch circle.",
+            )
+        )
+    )
     yield _diameters(case, mesh, names)
     yield Paragraph(
-        say("report.contact", ratio=f"{mesh.contact_ratio:.4g}", distance=number(mesh.centre_distance, "length"),
-            angle=number(mesh.working_pressure_angle, "angle"))
+        say(_(
+"Contact ratio {ratio}, centre distance {distance} mm, pressure angle in mesh "
+"{angle}°.",
+ratio=f"{mesh.contact_ratio:.4g}",
+distance=number(mesh.centre_distance, "length"),
+angle=number(mesh.working_pressure_angle, "angle"),
+))
     )  # fmt: skip
     for sentence in mesh.findings:
         yield Paragraph(literal(case.sentence(sentence)), "note")
-    yield Figure(say("report.caption_teeth", pair=literal(", ".join(same))),
+    yield Figure(say(_("Teeth of {pair} in mesh", pair=literal(", ".join(same)))),
                  ((mesh.draw(language=case.language).svg, 0.7),), tallest=110.0)  # fmt: skip
 
 
@@ -137,8 +176,8 @@ def _diameters(case: Case, mesh: GearPair, names: list[str]) -> Table:
         (literal(name), str(gear.teeth), *(number(each, "length") for each in _circles(gear)))
         for name, gear in zip(names, (mesh.pinion, mesh.wheel), strict=True)
     )
-    head = (say("report.link"), "$z$", "$d$ / mm", "$d_{b}$ / mm", "$d_{a}$ / mm", "$d_{f}$ / mm", "$s$ / mm")
-    return Table(say("report.diameters"), head, rows, "<>>>>>>")
+    head = (say(_("link")), "$z$", "$d$ / mm", "$d_{b}$ / mm", "$d_{a}$ / mm", "$d_{f}$ / mm", "$s$ / mm")
+    return Table(say(_("Circles and teeth")), head, rows, "<>>>>>>")
 
 
 def _circles(gear: Gear) -> tuple[float, ...]:

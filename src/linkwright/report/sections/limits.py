@@ -11,6 +11,7 @@ from linkwright.metrics.table import told
 from linkwright.report.document import Block, Formula, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
+from linkwright.words import _
 
 #: Numbers that other sections print.
 ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")
@@ -23,15 +24,15 @@ def blocks(case: Case) -> Iterator[Block]:
     rows = [row for row in case.metrics if row.metric not in ELSEWHERE]
     if not rows:
         raise Missing("report.no_numbers")
-    yield Paragraph(say("report.limits_text"))
+    yield Paragraph(say(_("Largest and smallest values are exact, found between the solved positions.")))
     yield from _quick_return(case, rows)
     for metric in dict.fromkeys(row.metric for row in rows):
         case.used[metric] = None
     head = tuple(
         say(f"report.{key}") for key in ("number", "subject", "value", "unit", "at_input", "recommended")
     )
-    body = tuple(tuple(map(literal, cells)) for cells, _ in told(rows, case.language))
-    yield Table(say("report.numbers_table"), head, body, "<<><>>", "numbers")
+    body = tuple(tuple(map(literal, cells)) for cells, _unused in told(rows, case.language))
+    yield Table(say(_("Design numbers")), head, body, "<<><>>", "numbers")
     for sentence in case.metrics.warnings_in(case.language):
         yield Paragraph(literal(sentence), "note")
 
@@ -46,5 +47,13 @@ def _quick_return(case: Case, rows: list[MetricValue]) -> Iterator[Block]:
             continue
         fraction = "(180° + {0})/(180° − {0})"
         symbols, numbers = fraction.format("θ"), fraction.format(f"{number(row.value, 'angle')}°")
-        yield Paragraph(case.say("report.quick_return", subject=literal(row.subject)))
+        yield Paragraph(
+            case.say(
+                _(
+                    "Quick-return ratio of {subject}, with the angle $\\theta$ of the crank between the "
+                    "limits:",
+                    subject=literal(row.subject),
+                )
+            )
+        )
         yield Formula(sides(f"K = {symbols} = {numbers} = {ratio.value:.5g}"))

@@ -38,6 +38,7 @@ from linkwright.report.document import (
 from linkwright.report.formula_lines import width
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
+from linkwright.words import _
 from linkwright.worked.chains import Chain, chain_closures
 from linkwright.worked.symbols import Book
 
@@ -54,14 +55,29 @@ def blocks(case: Case) -> Iterator[Block]:
     try:
         solution = case.worked
     except LinkwrightError as error:
-        yield Paragraph(say("report.only_loops", sentence=literal(case.told(error))), "missing")
+        yield Paragraph(
+            say(
+                _(
+                    "The equations of the groups cannot be written here, their loops can: {sentence}",
+                    sentence=literal(case.told(error)),
+                )
+            ),
+            "missing",
+        )
     else:
         steps = list(solution.steps)
         for line in solution.legend[:2]:
             yield Paragraph(symbols(line))
     for number, group in enumerate(case.structure.groups, 1):
         links = literal(", ".join(group.links))
-        title = say("report.method_group", number=number, signature=group.signature, links=links)
+        title = say(
+            _(
+                "Step {number}: {signature}, links {links}",
+                number=number,
+                signature=group.signature,
+                links=links,
+            )
+        )
         own = (formulas(step) for step in steps if step.group == group.name)
         found = [*_loops(case, group), *chain.from_iterable(own)]
         if found:
@@ -76,7 +92,7 @@ def blocks(case: Case) -> Iterator[Block]:
 def _loops(case: Case, group: Group) -> Iterator[Block]:
     found = loops(case, group)
     if found:
-        yield Paragraph(case.say("report.loops_vector"))
+        yield Paragraph(case.say(_("Closure of its loops:")))
     for left, right in found:
         yield Formula((left, right))
 
@@ -161,7 +177,7 @@ def _sum(chain: Chain) -> Row:
         if piece.start.key != piece.end.key:
             ends = Row((label(piece.start.label), label(piece.end.label)))
             found += [sign("+"), Accent("overrightarrow", ends)]
-        for step, _, way in piece.slides:
+        for step, _unused, way in piece.slides:
             at = label(step.joint)
             found += [sign("+" if way > 0 else "-"), Script(letter("s"), at), THIN, Script(VECTOR_N, at)]
     return Row(tuple(found))

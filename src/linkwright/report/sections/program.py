@@ -10,6 +10,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.report.document import Block, Code, Paragraph
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
+from linkwright.words import _
 
 
 @section("program", 14.5, optional=True)
@@ -24,7 +25,25 @@ def blocks(case: Case) -> Iterator[Block]:
         numbered.motion, forces, say, rows=numbered.rows, source=case.source, language=case.language
     )
     text = listing.text()
-    yield Paragraph(say("calls.program", count=len(listing.rows)))
+    yield Paragraph(
+        say(
+            _(
+                "The program solves the machine at the {count} positions of the tables, group by "
+                "group in solving order, with the functions of linkwright.dyads, and prints every "
+                "column as comma-separated values in SI units. `linkwright export FILE --to "
+                "solution.py` writes it as a file, over the whole cycle.",
+                count=len(listing.rows),
+            )
+        )
+    )
     if listing.plan.others:
-        yield Paragraph(say("calls.program_library"), "note")
-    yield Code(text, "python", say("calls.program_caption"), "program")
+        yield Paragraph(
+            say(
+                _(
+                    "Groups of which there is no such function are solved by the library; the model file "
+                    "has to be where the program runs.",
+                )
+            ),
+            "note",
+        )
+    yield Code(text, "python", say(_("the machine solved with linkwright.dyads")), "program")

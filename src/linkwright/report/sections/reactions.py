@@ -16,6 +16,7 @@ from linkwright.report.numbers import ROUNDING, faded
 from linkwright.report.section import section
 from linkwright.report.sections.curves import SHARE
 from linkwright.report.sections.curves import TALLEST as SHORT
+from linkwright.words import _
 from linkwright.words.sentence import in_words
 
 #: Joint forces in one figure; hodographs in one where there are more, two rows, of which a page has room for two
@@ -26,8 +27,15 @@ MOST, IN_ROWS, TALLEST = 12, 6, 225.0
 @section("reactions", 8.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Sizes of all joint forces, the largest of each, and their hodographs."""
-    say, _ = case.say, case.forces
-    yield Paragraph(say("report.reactions_text"))
+    say, _unused = case.say, case.forces
+    yield Paragraph(
+        say(
+            _(
+                "The force of every joint, found group by group in reverse order; the other link "
+                "feels the reverse.",
+            )
+        )
+    )
     peaks = [row for row in case.metrics if row.metric == "peak_reaction"]
     rows = tuple(
         (literal(in_words(row.subject, case.language)), shown(row.value, row.dimension),
@@ -35,9 +43,19 @@ def blocks(case: Case) -> Iterator[Block]:
     )  # fmt: skip
     if rows:
         head = tuple(say(f"report.{key}") for key in ("joint", "largest_force", "at_input"))
-        yield Table(say("report.peaks"), head, rows, "<>>", "peaks")
+        yield Table(say(_("Largest force in every joint")), head, rows, "<>>", "peaks")
     if rubbing := rubbing_guides(case.mechanism):
-        yield Paragraph(literal(say("forces.friction_apart", names=", ".join(rubbing))))
+        yield Paragraph(
+            literal(
+                say(
+                    _(
+                        "The force in a guide is what presses its parts together; its friction, μ times "
+                        "that, along the guide, comes on top: {names}",
+                        names=", ".join(rubbing),
+                    )
+                )
+            )
+        )
     for note in case.forces.notes:
         yield Paragraph(literal(case.sentence(note)), "note")
     if not case.mechanism.drivers:
@@ -45,13 +63,13 @@ def blocks(case: Case) -> Iterator[Block]:
     parts = _parts(case, MOST)
     yield from _figures(case, "reactions", parts, [SHARE] * len(parts), SHORT)
     parts = parts if len(parts) == 1 else _parts(case, IN_ROWS)
-    panels = [sum(joint in part for joint, _ in loaded_joints(case)) for part in parts]
+    panels = [sum(joint in part for joint, _unused in loaded_joints(case)) for part in parts]
     yield from _figures(case, "hodographs", parts, [min(1.0, 0.34 * min(3, n)) for n in panels], TALLEST)
 
 
 def _parts(case: Case, most: int) -> list[list[str]]:
     """The joints that carry something, as many together as have no more forces than ``most``."""
-    forces = Counter(joint for joint, _ in loaded_joints(case))
+    forces = Counter(joint for joint, _unused in loaded_joints(case))
     parts: list[list[str]] = [[]] if forces else []
     for joint, count in forces.items():
         if parts[-1] and sum(forces[each] for each in parts[-1]) + count > most:
@@ -65,7 +83,7 @@ def loaded_joints(case: Case) -> list[tuple[str, str]]:
     peaks = {pair: float(np.nanmax(np.abs(case.forces.reaction(pair[0], on=pair[1])), initial=0.0))
              for pair in reaction_pairs(case.mechanism)}  # fmt: skip
     least = ROUNDING * max(peaks.values(), default=0.0)
-    carrying = {joint for (joint, _), peak in peaks.items() if peak > least}
+    carrying = {joint for (joint, _unused), peak in peaks.items() if peak > least}
     return [pair for pair in peaks if pair[0] in carrying]
 
 
@@ -80,5 +98,5 @@ def _figures(
         except LinkwrightError as error:
             yield Paragraph(f"{case.say(f'plot.kind.{kind}')}: {literal(case.told(error))}", "missing")
             continue
-        title = case.say("report.continued", caption=caption) if number else caption
+        title = case.say(_("{caption} (continued)", caption=caption)) if number else caption
         yield Figure(title, ((picture, share),), "" if number else kind, tallest)

@@ -15,6 +15,7 @@ from linkwright.report.machine_results import Case
 from linkwright.report.markdown import own_words
 from linkwright.report.section import section
 from linkwright.report.settings import Settings
+from linkwright.words import _
 
 
 @section("references", 31.0, common=True)
@@ -58,8 +59,8 @@ def _definitions(cases: Sequence[Case]) -> Iterator[Block]:
         for name in names
     )
     if rows:
-        head = (say("report.number"), say("report.defined_in"))
-        yield Table(say("report.definitions"), head, rows, "<<")
+        head = (say(_("design number")), say(_("defined in")))
+        yield Table(say(_("Definitions of the design numbers")), head, rows, "<<")
 
 
 def _titles(source: str, case: Case) -> str:
@@ -67,7 +68,7 @@ def _titles(source: str, case: Case) -> str:
     if case.language == "en":
         return source
     titles = [part.partition(": ")[0] for part in source.split("; ") if part[0].isupper()]
-    return "; ".join(titles) or case.say("report.own_method")
+    return "; ".join(titles) or case.say(_("derived in this report"))
 
 
 def _of_group(signature: str) -> list[str]:

@@ -14,6 +14,7 @@ from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.structure.analysis import numeral
 from linkwright.structure.mobility import lower_pairs
+from linkwright.words import _
 
 
 @section("structure", 3.0)
@@ -21,23 +22,25 @@ def blocks(case: Case) -> Iterator[Block]:
     """Mobility, Assur groups in solving order, class of the mechanism."""
     say, built = case.say, case.structure
     first, *rest = [line for line in built.text(case.language).split("\n\n")[0].splitlines() if line.strip()]
-    yield Paragraph(symbols(first) + say("report.stop"))
+    yield Paragraph(symbols(first) + say(_(".")))
     yield _mobility(case)
     for line in rest[1:]:
         yield Paragraph(literal(line))
     sentence = rank_sentence(case.mechanism, case.language)
     if sentence:
-        yield Paragraph(say("structure.rank", sentence=literal(sentence)))
+        yield Paragraph(say(_("{sentence}.", sentence=literal(sentence))))
     yield _groups(case)
     if len(built.groups) > 1:
         yield _pictures(case)
     chain = " + ".join(group.signature for group in built.groups)
     yield Paragraph(
         say(
-            "report.chain",
-            chain=literal(chain),
-            level=numeral(built.mechanism_class, say),
-            table="[[groups]]",
+            _(
+                "The mechanism is the frame with {chain} ({table}); it is a mechanism of class {level}.",
+                chain=literal(chain),
+                level=numeral(built.mechanism_class, say),
+                table="[[groups]]",
+            )
         )
     )
 
@@ -49,7 +52,9 @@ def _pictures(case: Case) -> Block:
     except LinkwrightError as error:
         return Paragraph(literal(case.told(error)), "missing")
     names = ", ".join(f"{n} {group.signature}" for n, group in enumerate(case.structure.groups, 1))
-    caption = case.say("report.groups_caption", names=literal(names))
+    caption = case.say(
+        _("The groups apart from the machine, in solving order: {names}", names=literal(names))
+    )
     return Figure(caption, pictures, "group-pictures")
 
 
@@ -72,11 +77,11 @@ def _groups(case: Case) -> Table:
         outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))
         inner = ", ".join(dict.fromkeys(c.joint for c in group.inner_joints))
         level = numeral(group.assur_class, say)
-        kind = say("report.driven_link") if group.assur_class == 1 and group.drivers else group.signature
+        kind = say(_("driven link")) if group.assur_class == 1 and group.drivers else group.signature
         rows.append(tuple(map(literal, (
             str(number), kind, ", ".join(group.links), level, str(group.assur_order), outer, inner or "–",
         ))))  # fmt: skip
     head = tuple(
         say(f"report.{key}") for key in ("step", "group", "of_links", "class", "order", "outer", "inner")
     )
-    return Table(say("report.groups"), head, tuple(rows), "<<<<<<<", "groups")
+    return Table(say(_("Assur groups in solving order")), head, tuple(rows), "<<<<<<<", "groups")

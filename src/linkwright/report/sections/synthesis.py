@@ -13,7 +13,7 @@ from linkwright.report.sections.method import printed
 from linkwright.report.settings import Settings
 from linkwright.synthesis.result import Synthesis, SynthesisError
 from linkwright.synthesis.task_file import TaskFile
-from linkwright.words import Say
+from linkwright.words import Say, _
 from linkwright.words.sentence import in_language
 
 #: Share of the page's width that a diagram takes, and one with a function beside the linkages.
@@ -34,7 +34,7 @@ def task_chapter(task: TaskFile, own: Settings, say: Say, language: str) -> Iter
     if purpose := own.purpose or task.purpose:
         yield Paragraph(literal(purpose))
     if source := own.source or task.source:
-        yield Paragraph(say("report.source", source=literal(source)))
+        yield Paragraph(say(_("Source: {source}.", source=literal(source))))
     if "synthesis" in own.text:
         yield OwnText(own.text["synthesis"])
     yield from of_task(task.file, language)

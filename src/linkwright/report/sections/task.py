@@ -14,7 +14,7 @@ from linkwright.files.write import to_data
 from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
-from linkwright.words import Say, has
+from linkwright.words import Say, _, has, pgettext
 
 #: Entries of a list that is printed whole.
 LONGEST = 12
@@ -35,7 +35,7 @@ def blocks(case: Case) -> Iterator[Block]:
     if case.purpose:
         yield Paragraph(literal(case.purpose))
     if case.origin:
-        yield Paragraph(say("report.source", source=literal(case.origin)))
+        yield Paragraph(say(_("Source: {source}.", source=literal(case.origin))))
     data = to_data(mechanism)
     yield _points(case)
     yield _links(case)
@@ -43,7 +43,7 @@ def blocks(case: Case) -> Iterator[Block]:
         rows = tuple(
             (literal(name), literal(written(value, say))) for name, value in data["parameters"].items()
         )
-        yield Table(say("report.parameters"), (say("report.name"), say("report.value")), rows, "<>")
+        yield Table(say(_("Parameters")), (say(_("name")), say(_("value"))), rows, "<>")
     drivers = {"driver": data["driver"]} if "driver" in data else data.get("drivers", {})
     for title, part in (
         ("joints", data.get("joints", {})),
@@ -57,7 +57,7 @@ def blocks(case: Case) -> Iterator[Block]:
             yield Table(say(f"report.{title}"), head, body, "<<<")
     if any(mechanism.gravity):
         x, y = (f"{value:g}" for value in mechanism.gravity)
-        yield Paragraph(say("report.gravity", x=x, y=y))
+        yield Paragraph(say(_("Gravity acts with ({x}; {y}) m/s².", x=x, y=y)))
 
 
 def _points(case: Case) -> Table:
@@ -67,7 +67,7 @@ def _points(case: Case) -> Table:
         for name, (x, y) in case.mechanism.frame.points.items()
     )
     return Table(
-        say("report.frame_points"), (say("report.point"), "$x$ / mm", "$y$ / mm"), rows, "<>>", "frame"
+        say(_("Points of the frame")), (say(_("point")), "$x$ / mm", "$y$ / mm"), rows, "<>>", "frame"
     )
 
 
@@ -86,10 +86,10 @@ def _links(case: Case) -> Table:
              _or_dash(link.inertia), centre)
         )  # fmt: skip
     head = (
-        say("report.link_number"), say("report.link"), say("report.link_points"), "$l$ / mm", "$m$ / kg",
-        "$J_G$ / kg·m²", say("report.mass_centre"),
+        say(_("no.")), say(_("link")), say(_("points in the link's axes, mm")), "$l$ / mm", "$m$ / kg",
+        "$J_G$ / kg·m²", say(_("mass centre, mm")),
     )  # fmt: skip
-    return Table(say("report.links"), head, tuple(rows), "<<<>>><", "links")
+    return Table(say(_("Moving links")), head, tuple(rows), "<<<>>><", "links")
 
 
 def _place(x: float, y: float) -> str:
@@ -119,11 +119,13 @@ def written(value: Any, say: Say, key: str = "") -> str:
     their ends."""
     if isinstance(value, Mapping):
         parts = [
-            say("given.pair", name=say(f"given.{name}") if has(f"given.{name}") else name, value=told)
+            say(_("{name}: {value}", name=say(f"given.{name}") if has(f"given.{name}") else name, value=told))
             for name, told in ((name, written(each, say, name)) for name, each in value.items())
         ]
         return (
-            say("given.within", parts=say("given.comma").join(parts)) if key else say("given.and").join(parts)
+            say(_("({parts})", parts=say(pgettext("given", ", ")).join(parts)))
+            if key
+            else say(_("; ")).join(parts)
         )
     if isinstance(value, list | tuple):
         shown = [written(each, say, key) for each in value]

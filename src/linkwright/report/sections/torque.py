@@ -15,6 +15,7 @@ from linkwright.report.numbers import column, small, typeset
 from linkwright.report.section import section
 from linkwright.report.sections.curves import pictures
 from linkwright.report.sections.cycle_tables import leading
+from linkwright.words import _
 
 
 @section("torque", 9.0, optional=True)
@@ -25,7 +26,15 @@ def blocks(case: Case) -> Iterator[Block]:
     say, forces, numbered = case.say, case.forces, case.numbered
     unit = "N·m" if case.rotary else "N"
     letter = "M" if case.rotary else "F"
-    yield Paragraph(say("report.torque_text"))
+    yield Paragraph(
+        say(
+            _(
+                "The effort of the driver is found twice: from the equilibrium of the driven link "
+                "with all joint forces, and from the sum of the powers of weight, inertia and loads, "
+                "which with the driver's own must be zero.",
+            )
+        )
+    )
     if len(case.mechanism.drivers) == 1:
         virtual = f"{letter}_d q\u0307 + Σ(K\u20d7·v\u20d7_G + M_J ω) + ΣF\u20d7·v\u20d7 = 0"
         yield Formula(sides(virtual), "virtual-power")
@@ -40,15 +49,29 @@ def blocks(case: Case) -> Iterator[Block]:
             *key, f"{say('report.from_joints')} / {unit}",
             f"{say('report.from_power')} / {unit}", f"{say('report.difference')} / {unit}",
         )  # fmt: skip
-        yield Table(say("report.torque_table"), head, body, ">" * len(head), "torque-both", len(key))
+        yield Table(
+            say(_("Driving effort from the joint forces and from the powers")),
+            head,
+            body,
+            ">" * len(head),
+            "torque-both",
+            len(key),
+        )
         known = forces.input_torque - forces.input_torque_from_power
         largest = float(np.nanmax(np.abs(known)))
         (driver,) = case.mechanism.drivers
         top = Analysis.of(forces).part(Summary(f"{driver}.effort", "peak")).value
         yield Paragraph(
-            say("report.torque_gap", gap=f"{_number(largest, 2)} {unit}", top=f"{_number(top, 6)} {unit}",
-                table="[[torque-both]]")
-        )  # fmt: skip
+            say(
+                _(
+                    "The largest difference of both methods over the cycle is {gap}, against an effort "
+                    "of up to {top} ({table}).",
+                    gap=f"{_number(largest, 2)} {unit}",
+                    top=f"{_number(top, 6)} {unit}",
+                    table="[[torque-both]]",
+                )
+            )
+        )
     yield from pictures(case, ("torque",))
 
 

@@ -20,6 +20,7 @@ from linkwright.report.document import (
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.report.sections.method import printed
+from linkwright.words import _
 from linkwright.worked.solution import Worked
 
 #: A point, the width of the text and the tallest polygon, mm.
@@ -34,12 +35,23 @@ def blocks(case: Case) -> Iterator[Block]:
     say = case.say
     case.require_position()
     if case.worked_text:
-        yield Paragraph(say("report.worked_at", input=literal(case.worked_text)))
+        yield Paragraph(
+            say(_("The position {input} is worked out in full.", input=literal(case.worked_text)))
+        )
     try:
         yield from _solution(case.worked)
     except LinkwrightError as error:
-        yield Paragraph(say("report.only_polygons", sentence=literal(case.told(error))), "missing")
-    yield Heading(say("report.polygons"), 2)
+        yield Paragraph(
+            say(
+                _(
+                    "The equations with their numbers cannot be written here, the polygons can be drawn: "
+                    "{sentence}",
+                    sentence=literal(case.told(error)),
+                )
+            ),
+            "missing",
+        )
+    yield Heading(say(_("Polygons of this position")), 2)
     yield from _polygons(case)
 
 
@@ -100,7 +112,13 @@ def to_scale(case: Case, kind: str, picture: str, *, again: bool = False) -> Fig
     wide, share = natural_size(picture)[0] / PIXELS, share_of(picture)
     caption = case.say(f"report.caption_{kind}")
     if again:
-        caption = case.say("report.continued", caption=caption)
+        caption = case.say(_("{caption} (continued)", caption=caption))
     if share < 0.995:
-        caption = case.say("report.reduced", caption=caption, percent=f"{100 * share:.0f}")
+        caption = case.say(
+            _(
+                "{caption} (printed at {percent} % of the scale that it states)",
+                caption=caption,
+                percent=f"{100 * share:.0f}",
+            )
+        )
     return Figure(caption, ((picture, share * wide / TEXT),), "" if again else kind, TALLEST)

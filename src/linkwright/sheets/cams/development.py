@@ -15,7 +15,7 @@ from linkwright.sheets.cams.division import divided
 from linkwright.sheets.cams.geometry import Paper, pitch_of, sharpest
 from linkwright.sheets.cams.marks import angle_between, graphical, said
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 _DENSE = 1440
 #: Room beside the developed cylinder for numbers and names, and how far its edges lie beyond the groove, mm.
@@ -101,7 +101,7 @@ class DevelopmentPanel(Panel):
         return names
 
     def _caption(self, reduction: float) -> Sequence[Runs]:
-        lines = [as_runs(self.say("cam_sheet.development"))]
+        lines = [as_runs(self.say(_("Groove of the barrel cam, developed")))]
         lines.append(joined(graphical("l", 1e-3 * reduction, "m"), f"  ({scale_text(reduction)})"))
         if checks := said(self.design):
             lines.append(checks)

@@ -16,7 +16,7 @@ from linkwright.pictures.picture import LEAST, TEXT, Picture, Runs, as_runs, ind
 from linkwright.sheets.cams.division import Phase, divided, phases
 from linkwright.sheets.cams.marks import graphical
 from linkwright.sheets.panel import Drawn, Panel, preferred
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: Shares of the height for lift, velocity and acceleration; space above and below each strip, mm.
 _SHARES, _ABOVE, _BELOW = (0.42, 0.29, 0.29), 11.0, 3.0
@@ -79,7 +79,7 @@ class MotionPanel(Panel):
             scales.append(graphical(strip.symbol + strip.index, each, strip.unit))
             top = below
         self._boundaries(picture, wide, between, top)
-        lines = [as_runs(self.say("cam_sheet.motion"))]
+        lines = [as_runs(self.say(_("Follower motion with divided angles")))]
         lines += list(_in_lines([graphical("δ", mu, "°"), *scales], 1.15 * wide))
         return Drawn(picture, tuple(lines))
 
@@ -145,7 +145,7 @@ class MotionPanel(Panel):
         levels: list[int] = []
         taken: list[float] = []
         for phase, name in zip(self.phases, self._names(wide), strict=True):
-            left, right, _ = self._span(phase, name, wide)
+            left, right, _unused = self._span(phase, name, wide)
             level = next((k for k, end in enumerate(taken) if left > end + 1.0), len(taken))
             if level == len(taken):
                 taken.append(right)
@@ -181,7 +181,7 @@ class MotionPanel(Panel):
 def strips(design: CamDesign) -> tuple[Strip, Strip, Strip]:
     """Lift, velocity and acceleration: over time where the cam's speed is known, else over its angle in rad."""
     speed = design.loading.speed
-    s, v, a, _ = design.motion
+    s, v, a, _unused = design.motion
     if design.cam.follower.oscillating:
         first = Strip("ψ", "°", np.degrees(s))
         if speed:

@@ -19,7 +19,7 @@ from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of
 from linkwright.sheets.cams.marks import graphical, marked, said
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.sheets.scene import frame_pin, guide
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 _DENSE = 1440
 #: Paper, mm: how far followers' lines go on beyond the outermost point, and room for numbers and names beyond them.
@@ -181,12 +181,12 @@ class ProfilePanel(Panel):
             picture.circle(paper.point(trace), 0.8, "thin", fill="paper")
 
     def _caption(self, reduction: float) -> Sequence[Runs]:
-        lines = [as_runs(self.say("cam_sheet.profile"))]
+        lines = [as_runs(self.say(_("Cam profile by inversion")))]
         lines.append(joined(graphical("l", 1e-3 * reduction, "m"), f"  ({scale_text(reduction)})"))
         if checks := said(self.design):
             lines.append(checks)
         if self.design.cam.conjugate is not None:
-            lines.append(as_runs(self.say("cam_sheet.second_cam")))
+            lines.append(as_runs(self.say(_("dashed: second cam of the pair"))))
         return lines
 
 

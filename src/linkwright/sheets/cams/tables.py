@@ -15,7 +15,7 @@ from linkwright.pictures.picture import Runs, Words, as_runs, indexed, joined
 from linkwright.sheets.cams.division import Phase, divided, phases
 from linkwright.sheets.cams.geometry import pitch_of
 from linkwright.sheets.panel import Drawn, TablePanel
-from linkwright.words import Say, has
+from linkwright.words import Say, _, has
 
 Row = list[Words]
 #: Most parts of the table of points side by side.
@@ -26,7 +26,7 @@ def data_table(design: CamDesign, say: Say, parts: int) -> TablePanel:
     """Motion, sizes and checks of a cam: name, symbol, value; in so many parts side by side."""
     head = [say(f"cam_sheet.{key}") for key in ("quantity", "symbol", "value")]
     rows = [*_motion(design, say), *_sizes(design, say), *_checks(design, say)]
-    return TablePanel("table_data", 2.0, head, rows, say("cam_sheet.data"), parts=parts)
+    return TablePanel("table_data", 2.0, head, rows, say(_("Data of the cam")), parts=parts)
 
 
 def _row(say: Say, key: str, symbol: Words, value: float, unit: str) -> Row:
@@ -44,13 +44,13 @@ def _motion(design: CamDesign, say: Say) -> Iterator[Row]:
     for number, phase in enumerate(phases(cam.program), 1):
         yield _phase(phase, number, say)
     if isinstance(cam.program, FoundProgram):
-        yield [say("cam_sheet.law"), "", say("cam_sheet.found")]
+        yield [say(_("motion")), "", say(_("found from points and windows"))]
     sense = say(f"cam_sheet.{'counterclockwise' if cam.turn > 0 else 'clockwise'}")
     if design.loading.speed:
         speed = f"{significant(design.loading.speed * 30 / math.pi, 5)} r/min"
-        yield [say("cam_sheet.speed"), "n", f"{speed}, {sense}"]
+        yield [say(_("speed of the cam")), "n", f"{speed}, {sense}"]
     else:
-        yield [say("cam_sheet.turn"), "", sense]
+        yield [say(_("cam turns")), "", sense]
 
 
 def _phase(phase: Phase, number: int, say: Say) -> Row:
@@ -127,11 +127,13 @@ def points_table(design: CamDesign, say: Say, letters: float, tall: int) -> Poin
     ``tall`` rows, as far as the paper is wide enough; ``letters``: their height, mm."""
     head, rows = _points(design)
     parts = min(_PARTS, math.ceil(len(rows) / tall))
-    found = PointsTable("table_points", 3.0, head, rows, say("cam_sheet.points"), parts=parts)
+    found = PointsTable(
+        "table_points", 3.0, head, rows, say(_("Divided angles, axes of the cam")), parts=parts
+    )
     found.letters = letters
-    found.note = joined("x, y ", say("cam_sheet.profile_curve"))
+    found.note = joined("x, y ", say(_("profile")))
     if design.cam.follower.kind == "roller":
-        pitch = joined(indexed("x", "0"), ", ", indexed("y", "0"), " ", say("cam_sheet.pitch_curve"))
+        pitch = joined(indexed("x", "0"), ", ", indexed("y", "0"), " ", say(_("pitch curve")))
         found.note = joined(pitch, ";  ", found.note)
     return found
 

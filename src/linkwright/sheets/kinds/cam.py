@@ -19,6 +19,7 @@ from linkwright.sheets.cams.motion import MotionPanel
 from linkwright.sheets.cams.profile import ProfilePanel
 from linkwright.sheets.cams.tables import data_table, points_table
 from linkwright.sheets.kind import SHEETS, Content, Subject
+from linkwright.words import _
 
 #: Share of the paper's shorter side that the diagrams of the motion take at most.
 _MOTION = 0.42
@@ -50,14 +51,41 @@ def _design(subject: Subject) -> CamDesign:
     if isinstance(drawn, Cam):
         return drawn.solve()
     if not isinstance(drawn, Mechanism):
-        raise RequestError("cam_sheet.no_cam", name=drawn.name)
+        raise RequestError(
+            _(
+                '"{name}" has no cam to draw; give a file of kind: cam, or a mechanism with a joint '
+                "of kind: cam",
+                code="cam_sheet.no_cam",
+                name=drawn.name,
+            )
+        )
     names = [joint.name for joint in drawn.joints.values() if isinstance(joint, CamJoint)]
     if not names:
-        raise RequestError("cam_sheet.no_cam", name=drawn.name)
+        raise RequestError(
+            _(
+                '"{name}" has no cam to draw; give a file of kind: cam, or a mechanism with a joint '
+                "of kind: cam",
+                code="cam_sheet.no_cam",
+                name=drawn.name,
+            )
+        )
     if subject.of and subject.of not in names:
-        raise RequestError("cam_sheet.no_such_cam", name=subject.of, hint=listed(subject.of, names))
+        raise RequestError(
+            _(
+                'the mechanism has no cam "{name}"; {hint}',
+                code="cam_sheet.no_such_cam",
+                name=subject.of,
+                hint=listed(subject.of, names),
+            )
+        )
     if not subject.of and len(names) > 1:
-        raise RequestError("cam_sheet.which_cam", names=tuple(names))
+        raise RequestError(
+            _(
+                "the mechanism has several cams: {names}; name one with --of",
+                code="cam_sheet.which_cam",
+                names=tuple(names),
+            )
+        )
     chosen = subject.of or names[0]
     found = cam_of(drawn, chosen, speed=_speed(drawn, chosen))
     found.require()

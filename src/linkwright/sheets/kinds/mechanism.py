@@ -27,6 +27,7 @@ from linkwright.sheets.machine_tables import data_table, force_table, motion_tab
 from linkwright.sheets.panel import Panel
 from linkwright.sheets.polygons import AccelerationPanel, ForcePanel, VelocityPanel
 from linkwright.sheets.positions import Positions
+from linkwright.words import _
 
 #: Names of the diagrams of an output, with their ranks: where it is, its velocity, its acceleration.
 _MOTION = (("displacement", 3.0), ("velocity", 3.5), ("acceleration", 4.0))
@@ -38,10 +39,22 @@ def mechanism(subject: Subject) -> Content:
     """Mechanism, polygons of the positions, force polygons, diagrams, tables; what a machine does not have is left
     out."""
     if not isinstance(subject.drawn, Mechanism):
-        raise RequestError("sheet.no_mechanism")
+        raise RequestError(
+            _(
+                "a sheet of the kind mechanism needs a mechanism; this file holds a calculation",
+                code="sheet.no_mechanism",
+            )
+        )
     positions = Positions(subject)
     if not positions.shown:
-        raise LinkwrightError("sheet.nothing_reached", name=subject.drawn.name)
+        raise LinkwrightError(
+            _(
+                "{name}: none of the positions of the sheet is reached; choose others with `sheet: "
+                "positions`",
+                code="sheet.nothing_reached",
+                name=subject.drawn.name,
+            )
+        )
     machine = MachinePanel("mechanism", positions)
     panels: list[Panel] = [machine]
     if subject.drawn.drivers:

@@ -22,7 +22,7 @@ from linkwright.synthesis.free_curve.target import Target
 from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.requirements.slider_crank import not_negative, positive
 from linkwright.synthesis.result import Candidate, Derivation, Synthesis, note, refuse, whole
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: Positions of a candidate's curve.
 SHOWN = 721
@@ -150,14 +150,20 @@ def _ranked(
     if search.stopped and not within:
         raise KeyboardInterrupt
     if search.stopped and kept is not None:
-        notes.append(Sentence("study.interrupted", path=kept.left()))
+        notes.append(
+            _(
+                "Interrupted; run the same command with --state {path} to go on.",
+                code="study.interrupted",
+                path=kept.left(),
+            )
+        )
     counts = {"attempts": search.attempts, "designs": len(found)}
     derivation = FreeCurveDerivation(
         curve, target.closed, target.centre, target.radius, target.least, target.largest, target.turning,
         search.seconds, search.attempts, len(found),
     )  # fmt: skip
     if not within:
-        nearest = [_candidate(each, target) for each, _ in _front(found)[:count]]
+        nearest = [_candidate(each, target) for each, _unused in _front(found)[:count]]
         near = (
             Synthesis(
                 "free_curve", tuple(nearest), "curve", curve, counts, tuple(notes), derivation=derivation
@@ -172,7 +178,7 @@ def _ranked(
     )
     rest = [each for each in front if each[1][0] > error]
     chosen = _spread(good + rest, count)
-    made = tuple(_candidate(each, target) for each, _ in chosen)
+    made = tuple(_candidate(each, target) for each, _unused in chosen)
     result = Synthesis(
         "free_curve", made, "curve", _shown(curve, target.closed), counts, tuple(notes), derivation=derivation
     )
@@ -196,14 +202,14 @@ def _front(found: list[tuple[Design, Facts]]) -> list[tuple[Design, Facts]]:
     kept: list[tuple[Design, Facts]] = []
     for each in found:
         worse = np.array(each[1]) * (1 + ALIKE[0], 1, 1, 1) + (0.0, 0.0, ALIKE[1], ALIKE[2])
-        if not any((np.array(facts) <= worse).all() for _, facts in kept):
+        if not any((np.array(facts) <= worse).all() for _unused, facts in kept):
             kept.append(each)
     return kept
 
 
 def _spread(front: list[tuple[Design, Facts]], count: int) -> list[tuple[Design, Facts]]:
     """The first, the first of every other number of links, then the next in order."""
-    firsts = {facts[1]: k for k, (_, facts) in reversed(list(enumerate(front)))}
+    firsts = {facts[1]: k for k, (_unused, facts) in reversed(list(enumerate(front)))}
     order = sorted(firsts.values()) + [k for k in range(len(front)) if k not in firsts.values()]
     return [front[k] for k in sorted(order[:count])]
 

@@ -7,6 +7,7 @@ import math
 from linkwright.equations.steps import Step
 from linkwright.synthesis.result import defects_text, error_texts, merits, name_said
 from linkwright.synthesis.steps.writing import Writer, decimals, numbers
+from linkwright.words import _, pgettext
 
 #: Tasks whose demands leave one linkage.
 DETERMINED = ("slider_crank", "quick_return", "toggle")
@@ -29,20 +30,20 @@ def _facts(w: Writer, step: Step) -> None:
     each = found.candidates
     errors, worst = zip(*(error_texts(one) for one in each), strict=True)
     columns = [
-        (say("synthesize.column.number"), numbers(len(each))),
-        (say("synthesize.column.type"), [say(f"synthesize.type.{one.grashof_type}") for one in each]),
-        (say("synthesize.column.error"), errors),
-        (say("synthesize.column.worst"), worst),
-        (say("synthesize.column.defects"), [defects_text(one, say) for one in each]),
-        (say("synthesize.column.input"),
-         [say("synthesize.turns" if one.turns else "synthesize.swings") for one in each]),
+        (say(_("no.")), numbers(len(each))),
+        (say(_("type")), [say(f"synthesize.type.{one.grashof_type}") for one in each]),
+        (say(pgettext("synthesize", "error")), errors),
+        (say(_("worst")), worst),
+        (say(_("defects")), [defects_text(one, say) for one in each]),
+        (say(pgettext("synthesize", "input")),
+         [say(pgettext("synthesize", "turns") if one.turns else _("swings")) for one in each]),
         ("μ_min / °", decimals([math.degrees(one.transmission_angle) for one in each], 2)),
-        (say("synthesize.column.ratio"), decimals([one.link_ratio for one in each], 3)),
-        (w.over(say("synthesize.column.longest")), w.lengths([one.linkage.longest() for one in each])),
+        (say(_("l max/min")), decimals([one.link_ratio for one in each], 3)),
+        (w.over(say(_("l max"))), w.lengths([one.linkage.longest() for one in each])),
     ]  # fmt: skip
     align = "><>><<>>>"
     if found.task in RANKED and len(each) > 1:
-        columns.append((w.words("merit"), decimals(merits(each, found.extent), 4)))
+        columns.append((w.words(_("merit")), decimals(merits(each, found.extent), 4)))
         align += ">"
     w.table(step, "table.candidates", columns, align)
     step.say(say(f"synthesize.error.{found.error_name}"))
@@ -55,9 +56,9 @@ def _lengths(w: Writer, step: Step) -> None:
         lengths = each.linkage.lengths()
         groups.setdefault(tuple(lengths), []).append((number, lengths))
     for names, rows in groups.items():
-        columns = [(w.say("synthesize.column.number"), [str(number) for number, _ in rows])]
+        columns = [(w.say(_("no.")), [str(number) for number, _unused in rows])]
         columns += [
-            (w.over(name_said(name, w.say)), w.lengths([lengths[name] for _, lengths in rows]))
+            (w.over(name_said(name, w.say)), w.lengths([lengths[name] for _unused, lengths in rows]))
             for name in names
         ]
         w.table(step, "table.lengths", columns)
@@ -68,18 +69,49 @@ def _reason(w: Writer) -> str:
     found, best = w.found, w.found.best
     angle = f"{math.degrees(best.transmission_angle):.2f}"
     if found.task in DETERMINED:
-        return w.words("reason.determined")
+        return w.words(_("The demands determine the linkage; there is nothing to choose."))
     if found.task not in RANKED:
         return w.words(f"reason.{found.task}", angle=angle, ratio=f"{best.link_ratio:.3g}")
     if getattr(found.derivation, "method", "") == "equation":
-        return w.words("reason.equation", angle=angle)
+        return w.words(
+            _(
+                "The linear equations have one solution. Of both assembly modes the one with the "
+                "smaller structural error was taken; its smallest transmission angle is {angle}°.",
+                angle=angle,
+            )
+        )
     if len(found) == 1:
-        return w.words("reason.only", angle=angle)
+        return w.words(
+            _(
+                "No other different candidate was found; its smallest transmission angle is {angle}°.",
+                angle=angle,
+            )
+        )
     second = found[1]
     if bool(second.defects) != bool(best.defects):
-        return w.words("reason.sound", defects=defects_text(second, w.say))
+        return w.words(
+            _(
+                "Candidate 1 is taken because candidate 2 has defects: {defects}.",
+                defects=defects_text(second, w.say),
+            )
+        )
     alike = error_texts(best)[0] == "0" and error_texts(second)[0] == "0"
     if not alike and abs(best.error - second.error) > APART * second.error:
-        return w.words("reason.error", error=error_texts(best)[0], next=error_texts(second)[0])
+        return w.words(
+            _(
+                "Candidate 1 is taken for its smaller error: {error} against {next}.",
+                error=error_texts(best)[0],
+                next=error_texts(second)[0],
+            )
+        )
     first, other = merits(found.candidates[:2], found.extent)
-    return w.words("reason.merit", merit=f"{first:.4f}", next=f"{other:.4f}", angle=angle)
+    return w.words(
+        _(
+            "Errors and defects are alike, so the merit decides, {merit} against {next}: the "
+            "sine of the smallest transmission angle (here {angle}°), less for a linkage larger "
+            "than three times the demand, or with links more unequal than 1:10.",
+            merit=f"{first:.4f}",
+            next=f"{other:.4f}",
+            angle=angle,
+        )
+    )

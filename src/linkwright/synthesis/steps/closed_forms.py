@@ -27,6 +27,7 @@ from linkwright.synthesis.requirements.crank_rocker import QuickReturnDerivation
 from linkwright.synthesis.requirements.slider_crank import SliderCrankDerivation
 from linkwright.synthesis.requirements.toggle import ToggleDerivation
 from linkwright.synthesis.steps.writing import Writer, decimals, degrees
+from linkwright.words import _, pgettext
 
 HALF_TURN = number(180.0, degrees=True)
 #: Angles of a toggle that its table shows, in parts of the stroke.
@@ -35,7 +36,14 @@ SHOWN = 7
 
 def extreme_position_angle(w: Writer, step: Step, ratio: Term, radians: float) -> Term:
     """θ = 180° (K - 1)/(K + 1)."""
-    step.say(w.words("theta"))
+    step.say(
+        w.words(
+            _(
+                "The fast stroke takes the crank angle 180° − θ, the slow one 180° + θ, so K = (180° "
+                "+ θ)/(180° − θ), and",
+            )
+        )
+    )
     theta = w.angle("θ", radians)
     return step.find(theta, HALF_TURN * (ratio - ONE) / (ratio + ONE), "°")
 
@@ -43,11 +51,11 @@ def extreme_position_angle(w: Writer, step: Step, ratio: Term, radians: float) -
 def rounded(w: Writer, names: Sequence[str], lengths: Sequence[float], after: Sequence[float]) -> None:
     """The step in which lengths (m) are rounded; from there on the rounded ones are used."""
     step = w.step("rounded")
-    step.say(w.words("rounded.on"))
+    step.say(w.words(_("From here on with the rounded lengths:")))
     columns = [
-        (w.words("rounded.length"), list(names)),
-        (w.over(w.words("rounded.calculated")), w.lengths(lengths)),
-        (w.over(w.words("rounded.rounded")), w.lengths(after)),
+        (w.words(pgettext("synthesis_steps", "length")), list(names)),
+        (w.over(w.words(_("calculated"))), w.lengths(lengths)),
+        (w.over(w.words(_("rounded"))), w.lengths(after)),
     ]
     w.table(step, "table.rounded", columns, "<>>")
 
@@ -73,7 +81,14 @@ def _from_ratios(w: Writer, d: SliderCrankDerivation, given: Step, terms: tuple[
     lam = given.give(w.value("λ", d.rod_ratio), "")
     eps = given.give(w.value("ε", d.offset_ratio), "") if d.offset_ratio else ZERO
     step = w.step("lengths")
-    step.say(w.words("slider.ratios"))
+    step.say(
+        w.words(
+            _(
+                "In the limit positions crank and rod lie in one line, at l + r and l − r from the "
+                "crank's pivot. With l = λ r and e = ε r the stroke is",
+            )
+        )
+    )
     outer = root((lam + ONE).squared - eps.squared) if d.offset_ratio else lam + ONE
     inner = root((lam - ONE).squared - eps.squared) if d.offset_ratio else lam - ONE
     step.relate(w.length("H", d.stroke), r * (outer - inner) if d.offset_ratio else TWO * r)
@@ -91,7 +106,15 @@ def _from_quick_return(w: Writer, d: SliderCrankDerivation, given: Step, terms: 
     angle = math.pi * (d.quick_return_ratio - 1) / (d.quick_return_ratio + 1)
     theta = extreme_position_angle(w, step, ratio, angle)
     step = w.step("lengths")
-    step.say(w.words("slider.triangle"))
+    step.say(
+        w.words(
+            _(
+                "The crank's pivot and both limit positions of the slider pin are a triangle with "
+                "the sides l + r and l − r, the angle θ between them and the side H opposite, at the "
+                "height e. Its area and the law of cosines give",
+            )
+        )
+    )
     less = stroke * e / sine(theta)
     more = stroke.squared / TWO + stroke * e / tangent(theta)
     difference = step.find(w.value("q", less.value, "1"), less, f"{w.unit}²")
@@ -108,10 +131,19 @@ def _from_transmission(w: Writer, d: SliderCrankDerivation, given: Step, terms: 
     if d.offset:
         given.give(e, w.unit)
     step = w.step("lengths")
-    step.say(w.words("slider.transmission"))
+    step.say(
+        w.words(
+            _(
+                "The transmission angle is smallest where the crank is perpendicular to the guide on "
+                "the side away from it: cos μ_min = (r + e)/l.",
+            )
+        )
+    )
     if d.offset:
         step.relate(stroke, root((rod + r).squared - e.squared) - root((rod - r).squared - e.squared))
-        step.say(w.words("slider.bisection"))
+        step.say(
+            w.words(_("With l = (r + e)/cos μ_min the stroke grows with r; bisection of this equation gives"))
+        )
         step.give(r, w.unit)
     else:
         step.find(r, stroke / TWO, w.unit)
@@ -122,7 +154,14 @@ def _slider_check(w: Writer, lengths: tuple[Term, Term, Term]) -> None:
     """Limit positions, stroke, K, and the transmission angles of both strokes."""
     r, rod, e = lengths
     step = w.step("check")
-    step.say(w.words("slider.limits"))
+    step.say(
+        w.words(
+            _(
+                "Limit positions of the slider pin along the guide, from the foot of the crank's "
+                "pivot; the stroke is their distance:",
+            )
+        )
+    )
     far, near = rod + r, rod - r
     places = [
         step.find(w.length("x", _side(each, e).value / w.scale, index), _side(each, e), w.unit)
@@ -136,12 +175,23 @@ def _slider_check(w: Writer, lengths: tuple[Term, Term, Term]) -> None:
         step.find(w.value("K", ratio.value), ratio, "")
     step.say(
         w.words(
-            "slider.turns",
-            sum=w.length_text((r + e).value / w.scale),
-            rod=w.length_text(rod.amount / w.scale),
+            _(
+                "The crank turns fully: r + e = {sum} is at most l = {rod}.",
+                sum=w.length_text((r + e).value / w.scale),
+                rod=w.length_text(rod.amount / w.scale),
+            )
         )
     )
-    step.say(w.words("slider.strokes" if not e.is_zero else "slider.alike"))
+    step.say(
+        w.words(
+            _(
+                "Smallest transmission angle of the slow (s) and of the fast (f) stroke, with the "
+                "crank perpendicular to the guide on the guide's side and on the other one:",
+            )
+            if not e.is_zero
+            else _("Smallest transmission angle, with the crank perpendicular to the guide:")
+        )
+    )
     for index, across in (("s", r - e), ("f", r + e)) if not e.is_zero else (("min", r),):
         angle = arccosine(across / rod)
         step.find(w.angle("μ", math.radians(angle.value), index), angle, "°")
@@ -161,14 +211,21 @@ def quick_return(w: Writer, d: QuickReturnDerivation) -> None:
     step = w.step("theta")
     theta = extreme_position_angle(w, step, ratio, d.theta)
     step = w.step("lengths")
-    step.say(w.words("lever.tangent"))
+    step.say(
+        w.words(
+            _(
+                "In the limit positions the lever is tangent to the circle of the crank pin; the "
+                "lever swings by θ:",
+            )
+        )
+    )
     half = sine(theta / TWO)
     crank = step.find(w.length("r", d.crank), frame * half, w.unit)
     if d.stroke:
         _ram(w, d, step, theta, stroke)
     w.picture("construction")
     step = w.step("check")
-    step.say(w.words("lever.check"))
+    step.say(w.words(_("From crank and frame again:")))
     swing = TWO * arcsine(crank / frame)
     found = step.find(w.angle("θ", math.radians(swing.value)), swing, "°")
     again = (HALF_TURN + found) / (HALF_TURN - found)
@@ -177,13 +234,27 @@ def quick_return(w: Writer, d: QuickReturnDerivation) -> None:
 
 def _ram(w: Writer, d: QuickReturnDerivation, step: Step, theta: Term, stroke: Term) -> None:
     """The lever's arm, the place of the guide and the rod."""
-    step.say(w.words("lever.arm"))
+    step.say(w.words(_("The end of the arm travels the chord of its arc, which is the stroke:")))
     arm = step.find(w.length("L", d.arm), stroke / (TWO * sine(theta / TWO)), w.unit)
-    step.say(w.words("lever.guide"))
+    step.say(
+        w.words(
+            _(
+                "The guide halves the sagitta s of that arc, so that the rod is inclined equally to "
+                "both sides. Distance y of the guide from the lever's pivot, and the sagitta:",
+            )
+        )
+    )
     step.find(w.length("y", d.height), arm * (ONE + cosine(theta / TWO)) / TWO, w.unit)
     sagitta = arm * (ONE - cosine(theta / TWO))
     height = step.find(w.length("s", sagitta.value / w.scale), sagitta, w.unit)
-    step.say(w.words("lever.pressure"))
+    step.say(
+        w.words(
+            _(
+                "With the rod l (as demanded, else at least half the arm) the ram's largest pressure "
+                "angle is",
+            )
+        )
+    )
     rod = step.give(w.length("l", d.rod), w.unit)
     angle = arcsine(height / (TWO * rod))
     step.find(w.angle("α", math.radians(angle.value), "max"), angle, "°")
@@ -196,18 +267,25 @@ def toggle(w: Writer, d: ToggleDerivation) -> None:
     distance = step.give(w.length("s", d.distance), w.unit)
     stroke = step.give(w.length("H", d.stroke), w.unit)
     step = w.step("lengths")
-    step.say(w.words("toggle.work"))
+    step.say(
+        w.words(
+            _(
+                "Virtual work of the force F on the knee and P on the slider: P/F = 1/(2 tan α), so "
+                "at the ratio n",
+            )
+        )
+    )
     alpha = step.find(w.angle("α", d.alpha), arctangent(ONE / (TWO * ratio)), "°")
-    step.say(w.words("toggle.distance"))
+    step.say(w.words(_("The slider is s = 2 l (1 − cos α) = 4 l sin²(α/2) before the dead point:")))
     link = step.find(w.length("l", d.link), distance / (FOUR * sine(alpha / TWO).squared), w.unit)
-    step.say(w.words("toggle.stroke"))
+    step.say(w.words(_("Over the whole stroke H = 4 l sin²(α_0/2), so that it begins at")))
     step.find(w.angle("α", d.first_angle, "0"), TWO * arcsine(root(stroke / (FOUR * link))), "°")
     step = w.step("check")
-    step.say(w.words("toggle.check"))
+    step.say(w.words(_("Distance before the dead point and force ratio at some angles:")))
     angles = np.unique(np.append(np.linspace(d.first_angle, d.alpha / 4, SHOWN), d.alpha))[::-1]
     rows = [
         ("α / °", degrees(angles)),
-        (w.over(w.words("toggle.left")), w.lengths(2 * d.link * (1 - np.cos(angles)))),
+        (w.over(w.words(_("distance before the dead point"))), w.lengths(2 * d.link * (1 - np.cos(angles)))),
         ("P/F", decimals(1 / (2 * np.tan(angles)), 4)),
     ]
     w.table(step, "table.toggle", rows)

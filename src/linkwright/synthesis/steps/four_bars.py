@@ -12,6 +12,7 @@ from linkwright.equations.steps import Step
 from linkwright.equations.terms import TWO, Term, arccosine
 from linkwright.synthesis.result import Candidate
 from linkwright.synthesis.steps.writing import Writer, decimals, degrees, numbers
+from linkwright.words import _
 
 
 def four_bar_lengths(w: Writer, each: Candidate) -> tuple[Term, Term, Term, Term]:
@@ -34,7 +35,15 @@ def examine(w: Writer, each: Candidate) -> None:
         transmission(w, step, sides)
     else:
         angle = f"{math.degrees(each.transmission_angle):.2f}"
-        step.say(w.words("transmission_between", angle=angle))
+        step.say(
+            w.words(
+                _(
+                    "The input does not turn fully; between its first and its last position the "
+                    "transmission angle never falls below {angle}°.",
+                    angle=angle,
+                )
+            )
+        )
     if len(each.positions.get("A", ())) > 1:
         branches(w, step, each)
 
@@ -42,7 +51,13 @@ def examine(w: Writer, each: Candidate) -> None:
 def grashof(w: Writer, step: Step, sides: tuple[Term, ...], each: Candidate) -> None:
     """Sum of the shortest and the longest link against that of the others."""
     low, *middle, high = sorted(sides, key=lambda term: term.amount)
-    step.say(w.words("grashof"))
+    step.say(
+        w.words(
+            _(
+                "Shortest and longest link, and the other two (a input, b coupler, c output, d frame):",
+            )
+        )
+    )
     for index, (first, second) in enumerate(((low, high), tuple(middle)), 1):
         total = first + second
         step.find(w.length("S", total.value / w.scale, str(index)), total, w.unit)
@@ -55,13 +70,19 @@ def grashof(w: Writer, step: Step, sides: tuple[Term, ...], each: Candidate) -> 
 def transmission(w: Writer, step: Step, sides: tuple[Term, ...]) -> None:
     """Transmission angles where the input lies along the frame: the smallest is one of them."""
     a, b, c, d = sides
-    step.say(w.words("transmission_turn"))
+    step.say(
+        w.words(
+            _(
+                "The angle between coupler and output is extreme where the input lies along the frame:",
+            )
+        )
+    )
     for index, apart in (("1", d - a), ("2", d + a)):
         cosine = (b.squared + c.squared - apart.squared) / (TWO * b * c)
         step.find(w.angle("μ", math.acos(max(-1.0, min(1.0, cosine.value))), index), arccosine(cosine), "°")
     found = [item.value for item in step.equations[-2:]]
     least = min(min(angle, 180.0 - angle) for angle in found)
-    step.say(w.words("transmission_least", angle=f"{least:.2f}"))
+    step.say(w.words(_("Smallest transmission angle: {angle}°.", angle=f"{least:.2f}")))
 
 
 def signed_transmission(each: Candidate) -> Floats:
@@ -86,9 +107,16 @@ def branches(w: Writer, step: Step, each: Candidate) -> None:
         return
     o1, o2, b = points["O1"], points["O2"], each.positions["B"]
     turned = np.degrees(_one_way(np.angle(a - o1)))
-    step.say(w.words("branches"))
+    step.say(
+        w.words(
+            _(
+                "Input angle θ and transmission angle μ with the sign of its side; the link lengths "
+                "from the coordinates:",
+            )
+        )
+    )
     columns = [
-        (w.words("position"), numbers(len(a))),
+        (w.words(_("position")), numbers(len(a))),
         ("θ / °", decimals(turned, 4)),
         ("μ / °", degrees(signed_transmission(each))),
         (w.over("|O1A|"), w.lengths(np.abs(a - o1))),
@@ -96,7 +124,17 @@ def branches(w: Writer, step: Step, each: Candidate) -> None:
         (w.over("|O2B|"), w.lengths(np.abs(b - o2))),
     ]
     w.table(step, "table.branches", columns)
-    step.say(w.words("branches_sound" if not each.defects else "branches_defects"))
+    step.say(
+        w.words(
+            _(
+                "μ keeps its sign and θ runs one way: all positions lie on one branch, in their order.",
+            )
+            if not each.defects
+            else _(
+                "The positions do not lie on one branch in their order: see the defects of the candidates.",
+            )
+        )
+    )
 
 
 def coordinates(w: Writer, each: Candidate, names: Iterable[str]) -> list[tuple[str, list[str]]]:

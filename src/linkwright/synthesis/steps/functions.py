@@ -28,6 +28,7 @@ from linkwright.synthesis.steps.writing import (
     product,
     small,
 )
+from linkwright.words import _
 
 #: Pairs up to which every equation is printed.
 ALL_ROWS = 8
@@ -54,9 +55,9 @@ def _given(w: Writer, d: FunctionDerivation) -> None:
     step = w.step("given")
     places = w.found.error_name == "length"
     outputs = w.lengths(d.outputs) if places else degrees(d.outputs)
-    step.say(w.words("function.pairs", count=len(d.inputs)))
+    step.say(w.words(_("{count} pairs of input φ and output.", count=len(d.inputs))))
     columns = [
-        (w.words("pair"), numbers(len(d.inputs))),
+        (w.words(_("pair")), numbers(len(d.inputs))),
         ("φ / °", degrees(d.inputs)),
         (w.over("s") if places else "ψ / °", outputs),
     ]
@@ -66,7 +67,15 @@ def _given(w: Writer, d: FunctionDerivation) -> None:
     for index, free, zero in zip(("φ", "ψ"), d.free, d.zeros, strict=True):
         of_slider = places and index == "ψ"
         if free:
-            step.say(w.words("function.free_place" if of_slider else "function.free", zero=f"ζ_{index}"))
+            step.say(
+                w.words(
+                    (
+                        _("The zero of the slider's place is free.")
+                        if of_slider
+                        else _("The zero angle {zero} is free.")
+                    ).format(zero=f"ζ_{index}")
+                )
+            )
         elif of_slider:
             step.give(w.length("s", zero, "0"), w.unit)
         else:
@@ -76,7 +85,9 @@ def _given(w: Writer, d: FunctionDerivation) -> None:
 # Freudenstein's equation ------------------------------------------------------------------------
 def _equation(w: Writer, d: FunctionDerivation) -> None:
     step = w.step("freudenstein")
-    step.say(w.words("function.freudenstein"))
+    step.say(
+        w.words(_("With input a, coupler b, output c and frame d, the coupler's constant length gives:"))
+    )
     a, b, c, frame = _free_symbols(w)
     p = [symbol(name, 0.5) for name in P]
     phi, psi, gamma = (w.angle(name, 1.0) for name in ("φ", "ψ", "γ"))
@@ -103,9 +114,9 @@ def _cosines(w: Writer, equation: Freudenstein, moved: bool) -> None:
     """Every pair's angles with the zero angles added, and their cosines."""
     step = w.step("cosines")
     if moved:
-        step.say(w.words("function.zeros_added"))
+        step.say(w.words(_("The angles of the links are those of the pairs plus the zero angles:")))
     columns = [
-        (w.words("pair"), numbers(len(equation.phi))),
+        (w.words(_("pair")), numbers(len(equation.phi))),
         ("φ / °", degrees(equation.phi)),
         ("ψ / °", degrees(equation.psi)),
         ("γ = ψ − φ / °", degrees(equation.psi - equation.phi)),
@@ -127,11 +138,27 @@ def _solved(w: Writer, d: FunctionDerivation) -> None:
         product(step, entries(rows), unknown, "=", entries([f"cos φ_{i}"] for i in range(1, count + 1)))
         product(step, matrix(equation.rows), unknown, "=", matrix(equation.right))
     if d.method == "equation" and count > 3:
-        step.say(w.words("function.normal"))
+        step.say(
+            w.words(
+                _(
+                    "There are more pairs than unknowns, so the sum of the squared residuals is made "
+                    "smallest. Normal equations, with sums over all pairs:",
+                )
+            )
+        )
         product(step, _sums(count), unknown, "=", entries([each] for each in _sums_right()))
         product(step, matrix(equation.normal), unknown, "=", matrix(equation.moment))
-    step.say(w.words("function.solution" if count == 3 else "function.solution_normal"
-                     if d.method == "equation" else "function.solution_four"))  # fmt: skip
+    step.say(
+        w.words(
+            _("Solution:")
+            if count == 3
+            else (
+                _("Solution of least squares:")
+                if d.method == "equation"
+                else _("With the zero angle found, the equations agree; solution:")
+            )
+        )
+    )
     product(step, unknown, "=", matrix(equation.p))
 
 
@@ -165,7 +192,15 @@ def _from_coefficients(w: Writer, d: FunctionDerivation) -> None:
     step.find(w.length("b", float(equation.lengths[1]) * d.frame), root(square), w.unit)
     turned = [term.plain for term in (a, c) if term.amount < 0.0]
     if turned:
-        step.say(w.words("function.negative", names=", ".join(turned)))
+        step.say(
+            w.words(
+                _(
+                    "Negative: {names}. Such a link points the opposite way, so its angle is larger by "
+                    "180°; its length is the absolute value.",
+                    names=", ".join(turned),
+                )
+            )
+        )
 
 
 def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
@@ -173,7 +208,15 @@ def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
     step = w.step("zero_angle")
     h = d.harmonics
     assert h is not None
-    step.say(w.words("function.determinant"))
+    step.say(
+        w.words(
+            _(
+                "Four pairs agree for three unknowns where the determinant of the four equations "
+                "vanishes. In the free zero angle ζ it is D(ζ) = k_0 + k_1 cos ζ + k_2 sin ζ + k_3 "
+                "cos 2ζ + k_4 sin 2ζ with",
+            )
+        )
+    )
     which = 1 if d.free[1] else 0
     zeta = w.angle("ζ", d.zeros[which])
     factors = (h[0].real, 2 * h[1].real, -2 * h[1].imag, 2 * h[2].real, -2 * h[2].imag)
@@ -182,17 +225,32 @@ def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
     value = k[0] + k[1] * cosine(zeta) + k[2] * sine(zeta) + k[3] * cosine(twice) + k[4] * sine(twice)
     if all(d.free):
         fixed = w.angle("ζ", d.zeros[0], "φ")
-        step.say(w.words("function.sampled"))
+        step.say(
+            w.words(
+                _(
+                    "The input's zero angle is free as well and was tried at evenly spaced values; taken was",
+                )
+            )
+        )
         step.give(fixed, "°")
     step.give(zeta, "°")
-    step.say(w.words("function.root"))
+    step.say(w.words(_("Root of the determinant, found from the quartic in e^(iζ); put into D:")))
     step.find(symbol("D", 0.0), value, "")
 
 
 def _five_pairs(w: Writer, d: FunctionDerivation) -> None:
     """Five pairs: Burmester's points of the motion of the output link against the input link."""
     step = w.step("five_pairs")
-    step.say(w.words("function.burmester", count=w.found.counts.get("solutions", len(w.found))))
+    step.say(
+        w.words(
+            _(
+                "Seen from the output link, the input link takes five poses; pins that stay on "
+                "circles about points of the output are Burmester's, at most four, one of which is "
+                "the pair of fixed pivots. {count} real four-bars follow; the first has",
+                count=w.found.counts.get("solutions", len(w.found)),
+            )
+        )
+    )
     for index, zero in zip(("φ", "ψ"), d.zeros, strict=True):
         step.give(w.angle("ζ", zero, index), "°")
     a, b, c, frame = _lengths(w, d)
@@ -223,7 +281,19 @@ def _coefficients(sides: tuple[Term, Term, Term, Term]) -> tuple[Term, Term, Ter
 def _search(w: Writer, d: FunctionDerivation) -> None:
     step = w.step("search")
     names = w.say(f"synthesize.type.{d.kind}")
-    step.say(w.words("function.search", linkage=names, unknowns=d.unknowns, starts=d.starts, optima=d.optima))
+    step.say(
+        w.words(
+            _(
+                "No closed form: the {linkage} with the smallest root mean square structural error "
+                "is searched, by Levenberg–Marquardt in {unknowns} free numbers, from the best of "
+                "{starts} random starts; {optima} optima were compared.",
+                linkage=names,
+                unknowns=d.unknowns,
+                starts=d.starts,
+                optima=d.optima,
+            )
+        )
+    )
     best = w.found.best
     step.give(w.angle("ζ", best.values["input_zero [rad]"], "φ"), "°")
     constant, scale = best.values["output_constant"], best.values["scale"]
@@ -233,9 +303,17 @@ def _search(w: Writer, d: FunctionDerivation) -> None:
         "constant": w.length_text(constant) if places else shown(constant, "angle"),
     }
     if scale == 1.0:
-        step.say(w.words("function.outputs", **told))
+        step.say(
+            w.words(_("The output {symbol} is the output link's coordinate plus {constant}.").format(**told))
+        )
     else:
-        step.say(w.words("function.scaled", scale=f"{scale:.6g}", **told))
+        step.say(
+            w.words(
+                _(
+                    "The output {symbol} is the output link's coordinate times {scale}, plus {constant}."
+                ).format(scale=f"{scale:.6g}", **told)
+            )
+        )
 
 
 def _errors(w: Writer, d: FunctionDerivation) -> None:
@@ -244,9 +322,15 @@ def _errors(w: Writer, d: FunctionDerivation) -> None:
     step = w.step("error")
     places = w.found.error_name == "length"
     if d.method == "search":
-        step.say(w.words("function.positions"))
+        step.say(
+            w.words(
+                _(
+                    "Coordinates of the moving points at every pair, from which the output can be measured:",
+                )
+            )
+        )
         moving = [name for name in best.positions if name not in best.linkage.frame]
-        columns = [(w.words("pair"), numbers(len(d.inputs))), *coordinates(w, best, moving)]
+        columns = [(w.words(_("pair")), numbers(len(d.inputs))), *coordinates(w, best, moving)]
         w.table(step, "table.positions", columns)
     found = d.outputs + best.deviations
     shown = w.lengths if places else degrees
@@ -254,10 +338,10 @@ def _errors(w: Writer, d: FunctionDerivation) -> None:
     letter = "s" if places else "ψ"
     unit = w.unit if places else "°"
     columns = [
-        (w.words("pair"), numbers(len(d.inputs))),
+        (w.words(_("pair")), numbers(len(d.inputs))),
         ("φ / °", degrees(d.inputs)),
         (f"{letter} / {unit}", shown(d.outputs)),
-        (w.words("generated", symbol=letter, unit=unit), shown(found)),
+        (w.words(_("{symbol} generated / {unit}", symbol=letter, unit=unit)), shown(found)),
         (f"Δ{letter} / {unit}", off),
     ]
     w.table(step, "table.error", columns)
@@ -265,7 +349,9 @@ def _errors(w: Writer, d: FunctionDerivation) -> None:
         rms, worst = (
             _shown(w, each, places) for each in (_rms(best.deviations), np.abs(best.deviations).max())
         )
-        step.say(w.words("function.error", rms=rms, worst=worst))
+        step.say(
+            w.words(_("Structural error: root mean square {rms}, greatest {worst}.", rms=rms, worst=worst))
+        )
     w.picture("structural_error")
 
 
@@ -289,11 +375,11 @@ def _residuals(w: Writer, step: Step, d: FunctionDerivation) -> None:
         right = np.cos(phi)
         terms = _coefficients(_lengths(w, d))
         p = np.array([term.value for term in terms])
-    step.say(w.words("function.residual"))
+    step.say(w.words(_("Both sides of Freudenstein's equation at every pair:")))
     columns = [
-        (w.words("pair"), numbers(len(right))),
+        (w.words(_("pair")), numbers(len(right))),
         ("cos φ", decimals(right, 6)),
         ("P_0 cos ψ + P_1 cos γ + P_2", decimals(rows @ p, 6)),
-        (w.words("residual"), small(rows @ p - right)),
+        (w.words(_("residual")), small(rows @ p - right)),
     ]
     w.table(step, "table.residual", columns)

@@ -11,6 +11,7 @@ from linkwright.synthesis.requirements.drag_link import DragLinkDerivation
 from linkwright.synthesis.steps.closed_forms import HALF_TURN, extreme_position_angle
 from linkwright.synthesis.steps.four_bars import examine, four_bar_lengths
 from linkwright.synthesis.steps.writing import Writer
+from linkwright.words import _
 
 
 def crank_rocker(w: Writer, d: CrankRockerDerivation) -> None:
@@ -35,22 +36,43 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
     """Chord, radius and centre of the circle from which the limit positions are seen under θ."""
     step = w.step("circle")
     c = step.give(w.length("c", d.rocker_length), w.unit)
-    step.say(w.words("circle.chord"))
+    step.say(
+        w.words(
+            _(
+                "The limit positions B1 and B2 of the rocker pin lie symmetrically about the y axis, "
+                "the rocker's pivot at the origin; their chord is",
+            )
+        )
+    )
     half = swing / TWO
     chord = step.find(
         w.length("s", 2 * d.rocker_length * math.sin(d.swing_angle / 2)), TWO * c * sine(half), w.unit
     )
     if d.centre is None:
-        step.say(w.words("circle.line"))
+        step.say(
+            w.words(
+                _(
+                    "With K = 1 the angle θ is zero: crank and coupler have the same direction in both "
+                    "limit positions, and the crank's pivot lies on the line B1 B2.",
+                )
+            )
+        )
         return
-    step.say(w.words("circle.radius"))
+    step.say(
+        w.words(
+            _(
+                "From every point of a circle over this chord, B1 and B2 are seen under the angle θ "
+                "(inscribed angle); its radius is",
+            )
+        )
+    )
     radius = chord / (TWO * sine(theta))
     step.find(w.length("R", radius.value / w.scale), radius, w.unit)
     aside = chord / (TWO * tangent(theta))
     up = c * cosine(half)
     above = d.centre.imag >= math.cos(d.swing_angle / 2)
     height = up + aside if above else up - aside
-    step.say(w.words("circle.centre"))
+    step.say(w.words(_("Its centre M lies on the y axis, at the height")))
     step.find(w.length("y", d.centre.imag * d.rocker_length, "M"), height, w.unit)
 
 
@@ -67,7 +89,7 @@ def _pivot(w: Writer, d: CrankRockerDerivation, lengths: tuple[Term, Term]) -> N
         step.give(w.length("y", place.imag, "O1"), w.unit),
     )
     c, half = w.length("c", d.rocker_length), w.angle("ψ", d.swing_angle) / TWO
-    step.say(w.words("pivot.distances"))
+    step.say(w.words(_("Its distances from B1 and B2 are the sum and the difference of coupler and crank:")))
     up, aside = c * cosine(half), c * sine(half)
     found = []
     for index, across in (("1", x - aside), ("2", x + aside)):
@@ -85,7 +107,14 @@ def _limits_again(w: Writer, sides: tuple[Term, Term, Term, Term]) -> None:
     """Swing angle and K from the lengths by the law of cosines."""
     a, b, c, d = sides
     step = w.step("check")
-    step.say(w.words("limits.check"))
+    step.say(
+        w.words(
+            _(
+                "The law of cosines with b + a and b − a gives the rocker's and the crank's angle in "
+                "both limit positions; their differences are ψ and θ:",
+            )
+        )
+    )
     for name, near in (("ψ", c), ("φ", None)):
         ends = []
         for index, far in (("1", b + a), ("2", b - a)):
@@ -110,9 +139,26 @@ def drag_link(w: Writer, d: DragLinkDerivation) -> None:
     ratio = step.give(w.value("K", d.quick_return_ratio), "")
     frame = step.give(w.length("d", d.frame), w.unit)
     step = w.step("drag")
-    step.say(w.words("drag.turn"))
+    step.say(
+        w.words(
+            _(
+                "While the follower makes its slow half turn between the ends of the stroke, the "
+                "driver turns by",
+            )
+        )
+    )
     beta = step.find(w.angle("β", d.slow_turn), TWO * HALF_TURN * ratio / (ONE + ratio), "°")
-    step.say(w.words("drag.search", ratio=f"{d.link_ratio:g}"))
+    step.say(
+        w.words(
+            _(
+                "Three numbers remain free: the follower's length and the angles of follower and "
+                "driver at the beginning. Of all drag links of one circuit whose longest link is at "
+                "most {ratio} times the shortest, the one with the largest smallest transmission "
+                "angle was searched (on a grid that is refined about its best):",
+                ratio=f"{d.link_ratio:g}",
+            )
+        )
+    )
     c = step.give(w.length("c", abs(d.b - d.frame)), w.unit)
     psi = step.give(w.angle("ψ", d.follower_angle), "°")
     phi = step.give(w.angle("φ", d.driver_angle), "°")
@@ -122,8 +168,8 @@ def drag_link(w: Writer, d: DragLinkDerivation) -> None:
 
 def _drag_lengths(w: Writer, step: Step, given: tuple[Term, ...]) -> None:
     frame, c, psi, phi, beta = given
-    a, b, _, _ = four_bar_lengths(w, w.found.best)
-    step.say(w.words("drag.ends"))
+    a, b, _unused, _unused2 = four_bar_lengths(w, w.found.best)
+    step.say(w.words(_("The follower's pin at both ends, half a turn apart, from the driver's pivot:")))
     end = Pair(c * cosine(psi), c * sine(psi))
     found = []
     for index, x, y in (("1", frame + end.x, end.y), ("2", frame - end.x, -end.y)):
@@ -133,7 +179,14 @@ def _drag_lengths(w: Writer, step: Step, given: tuple[Term, ...]) -> None:
     last = phi + beta
     along = first.x * cosine(phi) + first.y * sine(phi) - second.x * cosine(last) - second.y * sine(last)
     square = first.x.squared + first.y.squared - second.x.squared - second.y.squared
-    step.say(w.words("drag.equal"))
+    step.say(
+        w.words(
+            _(
+                "The coupler has the same length at both ends; equating both gives the driver's "
+                "length, and each end gives the coupler:",
+            )
+        )
+    )
     above = step.find(w.value("q", square.value, "1"), square, f"{w.unit}²")
     below = step.find(w.length("q", along.value / w.scale, "2"), along, w.unit)
     step.find(a, above / (TWO * below), w.unit)

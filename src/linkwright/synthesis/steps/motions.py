@@ -27,6 +27,7 @@ from linkwright.synthesis.steps.writing import (
     product,
     small,
 )
+from linkwright.words import _, pgettext
 
 #: Most poses of which every pole is printed.
 MOST_POLES = 5
@@ -62,11 +63,13 @@ def _family(d: MotionDerivation) -> str:
 
 def _given(w: Writer, d: MotionDerivation) -> None:
     step = w.step("given")
-    step.say(w.words("motion.poses", count=len(d.p)))
-    free = w.words("motion.free")
+    step.say(
+        w.words(_("{count} poses: place of the coupler point P, and angle φ of the coupler.", count=len(d.p)))
+    )
+    free = w.words(pgettext("synthesis_steps", "free"))
     angles = [free if math.isnan(each) else degrees([each])[0] for each in d.phi]
     columns = [
-        (w.words("pose"), numbers(len(d.p))),
+        (w.words(_("pose")), numbers(len(d.p))),
         (w.over("x"), w.lengths(d.p.real)),
         (w.over("y"), w.lengths(d.p.imag)),
         ("φ / °", angles),
@@ -77,7 +80,15 @@ def _given(w: Writer, d: MotionDerivation) -> None:
 def _poles(w: Writer, d: MotionDerivation) -> None:
     """Poles of all pairs of poses: the points that have the same place in both."""
     step = w.step("poles")
-    step.say(w.words("motion.poles"))
+    step.say(
+        w.words(
+            _(
+                "A body that goes from pose j to pose k turns about the pole P_jk, the point that "
+                "has the same place in both. Pins and pivots are seen from the poles under half "
+                "these turns:",
+            )
+        )
+    )
     pairs, places, turns = [], [], []
     for j in range(len(d.p)):
         for k in range(j + 1, len(d.p)):
@@ -89,7 +100,7 @@ def _poles(w: Writer, d: MotionDerivation) -> None:
             places.append(np.nan if parallel else (d.p[k] - unit * d.p[j]) / (1 - unit))
     at: Complexes = np.array(places)
     columns = [
-        (w.words("pole"), pairs),
+        (w.words(_("pole")), pairs),
         ("φ_k − φ_j / °", degrees(turns)),
         (w.over("x"), [text.replace("nan", "∞") for text in w.lengths(at.real)]),
         (w.over("y"), [text.replace("nan", "∞") for text in w.lengths(at.imag)]),
@@ -101,12 +112,23 @@ def _curves(w: Writer, d: MotionDerivation) -> None:
     """Equations of the circle- and centre-point curve of four poses, and both chosen pairs in them."""
     assert d.circle_curve is not None and d.centre_curve is not None
     step = w.step("curves")
-    step.say(w.words("motion.curves", size=w.length_text(d.size)))
+    step.say(
+        w.words(
+            _(
+                "Of four poses, the body points whose positions lie on a circle are the circle-point "
+                "curve (at pose 1), the centres of those circles are the centre-point curve: both "
+                "are cubics, where the determinant of the three bisectors vanishes. With u and v the "
+                "coordinates from P in pose 1, in units of {size}, the sum of coefficient times term "
+                "is zero:",
+                size=w.length_text(d.size),
+            )
+        )
+    )
     powers = [_power(i, j) for i, j in POWERS]
     columns = [
-        (w.words("term"), powers),
-        (w.words("circle_points"), decimals(d.circle_curve, 6)),
-        (w.words("centre_points"), decimals(d.centre_curve, 6)),
+        (w.words(_("term")), powers),
+        (w.words(_("circle points")), decimals(d.circle_curve, 6)),
+        (w.words(_("centre points")), decimals(d.centre_curve, 6)),
     ]
     w.table(step, "table.curves", columns)
     best = w.found.best
@@ -120,9 +142,9 @@ def _curves(w: Writer, d: MotionDerivation) -> None:
             u, v = place.real / d.size, place.imag / d.size
             left = sum(c * u**i * v**j for c, (i, j) in zip(curve, POWERS, strict=True))
             rows.append((name, f"{u:.6f}", f"{v:.6f}", small([left], 100.0)[0]))
-    step.say(w.words("motion.on_curves"))
+    step.say(w.words(_("The pins and the pivots that were taken, put in:")))
     table = list(zip(*rows, strict=True))
-    heads = (w.words("point"), "u", "v", w.words("left_side"))
+    heads = (w.words(_("point")), "u", "v", w.words(_("left side")))
     w.table(step, "table.on_curves", list(zip(heads, table, strict=True)), "<>>>")
 
 
@@ -135,13 +157,21 @@ def _points(w: Writer, d: MotionDerivation) -> None:
     """Burmester's four points of five poses."""
     assert d.points is not None and d.centres is not None and d.real is not None and d.slides is not None
     step = w.step("burmester")
-    step.say(w.words("motion.five"))
+    step.say(
+        w.words(
+            _(
+                "Five poses: the condition of a circle is linear in seven products of point and "
+                "centre; two quadratic relations between these leave four solutions. A is the pin in "
+                "pose 1, O the centre of its circle:",
+            )
+        )
+    )
     at = d.points + d.p[0]
     kinds = [
-        w.words("complex" if not real else "slides" if slides else "real")
+        w.words(_("complex") if not real else (_("real, a straight line") if slides else _("real, a circle")))
         for real, slides in zip(d.real, d.slides, strict=True)
     ]
-    columns = [(w.words("solution"), numbers(len(at)))]
+    columns = [(w.words(_("solution")), numbers(len(at)))]
     for name, values in (("A", at), ("O", d.centres)):
         shown = [w.lengths([part]) if real else ["–"] for part, real in zip(values.real, d.real, strict=True)]
         other = [w.lengths([part]) if real else ["–"] for part, real in zip(values.imag, d.real, strict=True)]
@@ -149,7 +179,7 @@ def _points(w: Writer, d: MotionDerivation) -> None:
             (w.over(f"x_{name}"), [each[0] for each in shown]),
             (w.over(f"y_{name}"), [each[0] for each in other]),
         ]
-    columns.append((w.words("kind"), kinds))
+    columns.append((w.words(pgettext("synthesis_steps", "kind")), kinds))
     w.table(step, "table.burmester", columns, ">>>>><")
 
 
@@ -157,8 +187,8 @@ def _circles(w: Writer, d: MotionDerivation) -> None:
     """The positions of both pins, and their circle's centre from the bisectors."""
     best = w.found.best
     step = w.step("circles")
-    step.say(w.words("motion.positions"))
-    columns = [(w.words("pose"), numbers(len(d.p))), *coordinates(w, best, ("A", "B"))]
+    step.say(w.words(_("Places of both pins in every pose:")))
+    columns = [(w.words(_("pose")), numbers(len(d.p))), *coordinates(w, best, ("A", "B"))]
     w.table(step, "table.positions", columns)
     for pin, pivot in (("A", "O1"), ("B", "O2")):
         if pivot in best.linkage.points:
@@ -179,11 +209,29 @@ def _centre(w: Writer, step: Step, positions: Complexes, names: tuple[str, str])
     if met:
         rows = 2 * (places[1:] - places[0])
         right = np.abs(places[1:]) ** 2 - np.abs(places[0]) ** 2
-        step.say(w.words("motion.bisectors", pin=pin, pivot=pivot))
+        step.say(
+            w.words(
+                _(
+                    "The perpendicular bisectors of {pin}1 {pin}j meet in {pivot}: 2 ({pin}j − "
+                    "{pin}1)·{pivot} = {pin}j² − {pin}1²",
+                    pin=pin,
+                    pivot=pivot,
+                )
+            )
+        )
         known = matrix(np.stack([rows.real, rows.imag], 1), 4)
         product(step, known, entries([each] for each in unknown), "=", matrix(right, 4))
     else:
-        step.say(w.words("motion.bisectors_off", pin=pin, pivot=pivot))
+        step.say(
+            w.words(
+                _(
+                    "The bisectors of {pin}1 {pin}j do not meet in one point; {pivot} is the centre with "
+                    "the smallest sum of squared differences of the distances:",
+                    pin=pin,
+                    pivot=pivot,
+                )
+            )
+        )
     x, y = (
         symbol(name, value if abs(value) > MET * far[0] else 0.0)
         for name, value in zip(unknown, (centre.real, centre.imag), strict=True)
@@ -198,7 +246,18 @@ def _centre(w: Writer, step: Step, positions: Complexes, names: tuple[str, str])
     step.find(symbol(f"l_{pivot}{pin}", float(far[0])), radius, w.unit)
     off = 0.0 if met else float(np.abs(far - far[0]).max())
     radii = ", ".join(w.lengths(far / w.scale))
-    step.say(w.words("motion.radii", pin=pin, pivot=pivot, radii=radii, unit=w.unit, off=f"{off:.4g}"))
+    step.say(
+        w.words(
+            _(
+                "Distances {pivot} {pin} in the poses: {radii} {unit}; they differ by at most {off} {unit}.",
+                pin=pin,
+                pivot=pivot,
+                radii=radii,
+                unit=w.unit,
+                off=f"{off:.4g}",
+            )
+        )
+    )
 
 
 def _line(w: Writer, step: Step, positions: Complexes) -> None:
@@ -206,5 +265,10 @@ def _line(w: Writer, step: Step, positions: Complexes) -> None:
     chord = positions[np.abs(positions - positions[0]).argmax()] - positions[0]
     unit = chord / abs(chord)
     off = ((positions - positions[0]) * unit.conj()).imag
-    step.say(w.words("motion.line", angle=f"{math.degrees(np.angle(unit)):.4f}",
-                     off=small([np.abs(off).max() * w.scale], abs(chord) * w.scale)[0], unit=w.unit))  # fmt: skip
+    step.say(w.words(_(
+"B slides: its places lie on a straight line at the angle {angle}°, off by at most "
+"{off} {unit}.",
+angle=f"{math.degrees(np.angle(unit)):.4f}",
+off=small([np.abs(off).max() * w.scale], abs(chord) * w.scale)[0],
+unit=w.unit,
+)))  # fmt: skip

@@ -17,6 +17,7 @@ from linkwright.synthesis.requirements.straight_line import FOUR_BARS, StraightL
 from linkwright.synthesis.result import error_texts
 from linkwright.synthesis.steps.four_bars import coordinates, examine, four_bar_lengths
 from linkwright.synthesis.steps.writing import Writer, decimals, degrees, numbers, small
+from linkwright.words import _
 
 #: Points of a free curve that are shown.
 SHOWN = 12
@@ -28,9 +29,11 @@ def path(w: Writer, d: PathDerivation) -> None:
     """Points, unknowns, and the coupler point at every one of them."""
     points = d.demand.points
     step = w.step("given")
-    step.say(w.words("path.points", count=len(points)))
+    step.say(
+        w.words(_("{count} points that the coupler point P shall pass in this order.", count=len(points)))
+    )
     columns = [
-        (w.words("point"), numbers(len(points))),
+        (w.words(_("point")), numbers(len(points))),
         (w.over("x"), w.lengths(points.real)),
         (w.over("y"), w.lengths(points.imag)),
     ]
@@ -38,12 +41,20 @@ def path(w: Writer, d: PathDerivation) -> None:
         columns.append(("θ / °", degrees(d.demand.angles)))
     w.table(step, "table.points", columns)
     step = w.step("search")
-    step.say(w.words("path.vectors"))
+    step.say(
+        w.words(
+            _(
+                "P = O1 + a e^(iθ) + p e^(iδ) with the crank a and the vector p on the coupler. For "
+                "given ratios of the lengths and crank angles the place, size and direction of the "
+                "linkage follow from linear least squares; only ratios and angles are iterated.",
+            )
+        )
+    )
     unknowns = 2 * len(points) - d.demand.excess
     key = "path.more" if d.demand.excess > 0 else "path.enough"
     step.say(w.words(key, equations=2 * len(points), unknowns=unknowns, optima=d.optima))
     if d.demand.pivot is not None:
-        step.say(w.words("path.pivot"))
+        step.say(w.words(_("The crank's pivot is given.")))
     _coupler_point(w)
     _points_met(w)
     examine(w, w.found.best)
@@ -60,7 +71,7 @@ def _coupler_point(w: Writer) -> None:
         step.give(term, w.unit)
     along = points["B"] - points["A"]
     local = (points["P"] - points["A"]) * along.conjugate() / abs(along)
-    step.say(w.words("path.local"))
+    step.say(w.words(_("The coupler point from A, along AB (ξ) and to the left of it (η):")))
     for axis, value in (("ξ", local.real), ("η", local.imag)):
         step.give(symbol(axis, value * w.scale), w.unit)
 
@@ -71,17 +82,19 @@ def _points_met(w: Writer) -> None:
     target = found.target
     assert target is not None
     step = w.step("error")
-    step.say(w.words("path.positions"))
-    w.table(step, "table.positions", [(w.words("point"), numbers(len(target))), *coordinates(w, best, "ABP")])
+    step.say(w.words(_("Pins and coupler point at every point:")))
+    w.table(
+        step, "table.positions", [(w.words(_("point")), numbers(len(target))), *coordinates(w, best, "ABP")]
+    )
     places = best.positions["P"]
     off = np.abs(places - target)
     columns = [
-        (w.words("point"), numbers(len(target))),
+        (w.words(_("point")), numbers(len(target))),
         (w.over("x"), w.lengths(target.real)),
         (w.over("y"), w.lengths(target.imag)),
         (w.over("x_P"), w.lengths(places.real)),
         (w.over("y_P"), w.lengths(places.imag)),
-        (w.over(w.words("distance")), small(off * w.scale, found.extent * w.scale)),
+        (w.over(w.words(_("distance"))), small(off * w.scale, found.extent * w.scale)),
     ]
     w.table(step, "table.error", columns)
     size = found.extent * w.scale
@@ -90,7 +103,7 @@ def _points_met(w: Writer) -> None:
         value = float((off**2).sum()) * w.scale**2
         step.find(symbol("Σe²", value), total(terms), f"{w.unit}²")
     else:
-        step.say(w.words("path.sum", squares=error_texts(best)[0]))
+        step.say(w.words(_("Sum of squared distances: {squares} m².", squares=error_texts(best)[0])))
     w.picture("structural_error")
 
 
@@ -98,19 +111,38 @@ def nine_points(w: Writer, d: NinePointDerivation) -> None:
     """Nine points: all classes of cognates, and the check of the lengths in every position."""
     step = w.step("given")
     columns = [
-        (w.words("point"), numbers(len(d.points))),
+        (w.words(_("point")), numbers(len(d.points))),
         (w.over("x"), w.lengths(d.points.real)),
         (w.over("y"), w.lengths(d.points.imag)),
     ]
     w.table(step, "table.points", columns)
     step = w.step("search")
-    step.say(w.words("path.nine", classes=d.classes, real=d.real, examined=d.examined, sound=d.sound))
+    step.say(
+        w.words(
+            _(
+                "Nine points leave no number free: all {classes} of 1442 classes of cognates were "
+                "found by continuation, {real} of them real; their {examined} four-bars, with both "
+                "inputs and all cognates, were examined, {sound} are without defects.",
+                classes=d.classes,
+                real=d.real,
+                examined=d.examined,
+                sound=d.sound,
+            )
+        )
+    )
     _coupler_point(w)
     step = w.step("error")
-    step.say(w.words("path.nine_check"))
+    step.say(
+        w.words(
+            _(
+                "P lies at the nine points; the lengths |O1A|, |AB| and |O2B| from these coordinates "
+                "are the same in all of them:",
+            )
+        )
+    )
     best = w.found.best
     w.table(
-        step, "table.positions", [(w.words("point"), numbers(len(d.points))), *coordinates(w, best, "ABP")]
+        step, "table.positions", [(w.words(_("point")), numbers(len(d.points))), *coordinates(w, best, "ABP")]
     )
     examine(w, best)
 
@@ -126,7 +158,17 @@ def straight_line(w: Writer, d: StraightLineDerivation) -> None:
     step.say(w.words(key, count=d.compared, good=len(w.found)))
     step = w.step("lengths")
     step.say(
-        w.words("line.peaucellier" if kind == "peaucellier" else "line.proportions", kind=kind.capitalize())
+        w.words(
+            (
+                _(
+                    "Peaucellier's linkage: arms L, rhombus s and crank r equal to the frame keep P at "
+                    "the distance (L² − s²)/(2 r) from the arms' pivot, on a straight line. Its lengths "
+                    "are in the last table.",
+                )
+                if kind == "peaucellier"
+                else _("{kind}'s proportions, with the unit m that makes the stretch as long as demanded:")
+            ).format(kind=kind.capitalize())
+        )
     )
     if kind in FOUR_BARS:
         _proportions(w, step, kind)
@@ -147,15 +189,22 @@ def _proportions(w: Writer, step: Step, kind: str) -> None:
 def _along(w: Writer, places: np.ndarray, off: np.ndarray) -> None:
     """Coordinates of the drawing point along the stretch, and its distance from the line."""
     step = w.step("error")
-    step.say(w.words("line.positions"))
+    step.say(
+        w.words(
+            _(
+                "The drawing point along the stretch, and its distance from the line through the "
+                "first of these points:",
+            )
+        )
+    )
     columns = [
-        (w.words("position"), numbers(len(places))),
+        (w.words(_("position")), numbers(len(places))),
         (w.over("x_P"), w.lengths(places.real)),
         (w.over("y_P"), w.lengths(places.imag)),
-        (w.over(w.words("distance")), small(off * w.scale, float(np.ptp(np.abs(places))) * w.scale)),
+        (w.over(w.words(_("distance"))), small(off * w.scale, float(np.ptp(np.abs(places))) * w.scale)),
     ]
     w.table(step, "table.error", columns)
-    step.say(w.words("line.error", error=w.length_text(w.found.best.error)))
+    step.say(w.words(_("Greatest distance from the line: {error}.", error=w.length_text(w.found.best.error))))
     w.picture("structural_error")
 
 
@@ -167,9 +216,26 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
     step.give(w.angle("ψ", d.swing_angle), "°")
     step.give(w.length("d", d.frame), w.unit)
     step = w.step("search")
-    step.say(w.words("dwell.search", tried=d.tried, arcs=d.arcs))
+    step.say(
+        w.words(
+            _(
+                "{tried} crank-rockers with random coupler points were tried, and of each the "
+                "stretch over this crank angle that is nearest to a circular arc; for the best "
+                "{arcs} the output's pivot was searched so that it swings as demanded.",
+                tried=d.tried,
+                arcs=d.arcs,
+            )
+        )
+    )
     step = w.step("arc")
-    step.say(w.words("dwell.arc"))
+    step.say(
+        w.words(
+            _(
+                "While P runs along this arc, a link of the length ρ keeps its other end Q in the "
+                "centre C, and the output rests:",
+            )
+        )
+    )
     centre = Pair(w.length("x", d.centre.real, "C"), w.length("y", d.centre.imag, "C"))
     step.give(centre.x, w.unit)
     step.give(centre.y, w.unit)
@@ -177,7 +243,7 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
     places = best.positions["P"]
     far = np.abs(places - d.centre)
     columns = [
-        (w.words("position"), numbers(len(places))),
+        (w.words(_("position")), numbers(len(places))),
         ("θ / °", degrees(d.crank, 3)),
         (w.over("x_P"), w.lengths(places.real)),
         (w.over("y_P"), w.lengths(places.imag)),
@@ -187,7 +253,13 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
     ]
     w.table(step, "table.rest", columns)
     step.say(
-        w.words("dwell.rest", error=number(best.error, "angle", 4), swing=number(d.swing_angle, "angle"))
+        w.words(
+            _(
+                "During the rest the output deviates by at most ±{error}°; over the turn it swings {swing}°.",
+                error=number(best.error, "angle", 4),
+                swing=number(d.swing_angle, "angle"),
+            )
+        )
     )
     w.picture("structural_error")
 
@@ -199,30 +271,61 @@ def free_curve(w: Writer, d: FreeCurveDerivation) -> None:
     key = "free.closed" if d.closed else "free.open"
     step.say(w.words(key, points=len(d.curve)))
     for name, value in (("x_S", d.centroid.real), ("y_S", d.centroid.imag), ("R", d.radius)):
-        letter, _, index = name.partition("_")
+        letter, _unused, index = name.partition("_")
         step.give(w.length(letter, value, index), w.unit)
     step = w.step("search")
-    step.say(w.words("free.measure"))
     step.say(
-        w.words("free.search", angle=f"{math.degrees(d.transmission_angle):g}", size=f"{d.size:g}",
-                seconds=f"{d.seconds:g}", attempts=d.attempts, designs=d.designs)
+        w.words(
+            _(
+                "Error: mean nearest distance from the curve to the drawn curve, plus that back, "
+                "divided by R. Centroid and R of both curves are the same.",
+            )
+        )
+    )
+    step.say(
+        w.words(_(
+"Linkages are random structures, improved by descent and changed again: transmission "
+"angles of at least {angle}°, every joint within {size} R of S; in {seconds} s "
+"{attempts} were tried and {designs} different ones remained.",
+angle=f"{math.degrees(d.transmission_angle):g}",
+size=f"{d.size:g}",
+seconds=f"{d.seconds:g}",
+attempts=d.attempts,
+designs=d.designs,
+))
     )  # fmt: skip
-    step.say(w.words("free.linkage", kind=w.say(f"synthesize.type.{best.grashof_type}"),
-                     joints=f"{best.values['joints']:g}", links=f"{best.values['links']:g}"))  # fmt: skip
+    step.say(
+        w.words(
+            _(
+                "First candidate: {kind}, {links} links, {joints} joints.",
+                kind=w.say(f"synthesize.type.{best.grashof_type}"),
+                joints=f"{best.values['joints']:g}",
+                links=f"{best.values['links']:g}",
+            )
+        )
+    )
     step = w.step("error")
     chosen = np.unique(np.linspace(0, len(d.curve) - 1, SHOWN).round().astype(int))
     points, drawn = d.curve[chosen], best.curve
     assert drawn is not None
     nearest = drawn[np.abs(points[:, None] - drawn).argmin(1)]
     columns = [
-        (w.words("point"), numbers(len(points))),
+        (w.words(_("point")), numbers(len(points))),
         (w.over("x"), w.lengths(points.real)),
         (w.over("y"), w.lengths(points.imag)),
         (w.over("x_P"), w.lengths(nearest.real)),
         (w.over("y_P"), w.lengths(nearest.imag)),
-        (w.over(w.words("distance")), small(np.abs(nearest - points) * w.scale, d.radius * w.scale)),
+        (w.over(w.words(_("distance"))), small(np.abs(nearest - points) * w.scale, d.radius * w.scale)),
     ]
-    step.say(w.words("free.points"))
+    step.say(w.words(_("Some corners of the curve, and the nearest point of the drawn curve:")))
     w.table(step, "table.error", columns)
-    step.say(w.words("free.error", error=f"{best.error:.4g}", mean=w.length_text(best.error * d.radius),
-                     worst=w.length_text(best.worst * d.radius)))  # fmt: skip
+    step.say(
+        w.words(
+            _(
+                "Error {error} (in lengths {mean}), greatest nearest distance {worst}.",
+                error=f"{best.error:.4g}",
+                mean=w.length_text(best.error * d.radius),
+                worst=w.length_text(best.worst * d.radius),
+            )
+        )
+    )

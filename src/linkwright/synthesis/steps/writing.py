@@ -15,7 +15,7 @@ from linkwright.equations.matrix import Entries, side_by_side
 from linkwright.equations.steps import Step, Tabulated
 from linkwright.equations.terms import ZERO, Term, symbol
 from linkwright.synthesis.result import Synthesis
-from linkwright.words import Say
+from linkwright.words import Message, Say
 
 #: Lengths are printed in m where the longest link has this length or more, m.
 LARGE = 10.0
@@ -51,7 +51,7 @@ class Writer:
 
     def words(self, key: str, **values: object) -> str:
         """A text of the catalogue of these steps."""
-        return self.say(f"synthesis_steps.{key}", **values)
+        return self.say(key if isinstance(key, Message) else f"synthesis_steps.{key}", **values)
 
     def step(self, key: str) -> Step:
         """A new step with its title."""
