@@ -460,12 +460,12 @@ gravity: [0, -9.81 m/s²]
 def test_what_solve_notes_stands_in_the_report_too(language: str) -> None:
     forces = lw.solve_forces(lw.solve_motion(lw.loads(LIFTED_OFF), steps=24))
     ((pulls,), (turns,)) = (forces.notes, forces.motion.notes)
-    assert (pulls.key, turns.key, turns.values["turns"]) == ("forces.contact_lost_cam", "cycle.turns", 2)
+    assert (pulls.code, turns.code, turns.values["turns"]) == ("forces.contact_lost_cam", "cycle.turns", 2)
     for section, kind in (("reactions", "forces"), ("tables", "motion")):
         blocks = report(lw.loads(LIFTED_OFF), sections=[section], language=language).document.blocks
         notes = [plain(b.text) for b in blocks if isinstance(b, Paragraph) and b.kind == "note"]
         note = {"forces": pulls, "motion": turns}[kind]
-        begin, _, _ = say(note.code, language, **{**note.values, "places": "|"}).partition("|")
+        begin, _, _ = note.format(places="|").translate(language).partition("|")
         assert [each.startswith(begin) for each in notes] == [True]
         apart = say("forces.friction_apart", language, names="way")
         texts = [plain(b.text) for b in blocks if isinstance(b, Paragraph)]
