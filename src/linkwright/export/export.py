@@ -18,6 +18,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import Registry, nearest, offered
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import _
+from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)

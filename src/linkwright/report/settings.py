@@ -37,15 +37,15 @@ MOST = 10_000
 SAYINGS: Sayings = {
     "unknown_key": Saying(
         "unknown-key",
-        lambda key_, names, **_: _(
+        lambda key_, names, **others: _(
             'there is no "{name}" in the settings of a report; {hint}', name=key_, hint=offered(key_, names)
         ),
     ),
-    "missing_key": Saying("missing-key", lambda key_, **_: _("the key {name} is missing", name=key_)),
-    "where_list": Saying("not-a-list", lambda **_: _("give a list: [task, structure]")),
-    "where_mapping": Saying("not-a-mapping", lambda **_: _("give keys with values")),
+    "missing_key": Saying("missing-key", lambda key_, **others: _("the key {name} is missing", name=key_)),
+    "where_list": Saying("not-a-list", lambda **others: _("give a list: [task, structure]")),
+    "where_mapping": Saying("not-a-mapping", lambda **others: _("give keys with values")),
     "where_text": Saying(
-        "not-a-text", lambda **_: _("a list or a mapping cannot be read here; write one text")
+        "not-a-text", lambda **others: _("a list or a mapping cannot be read here; write one text")
     ),
 }
 

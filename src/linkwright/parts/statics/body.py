@@ -199,8 +199,25 @@ class RigidBody(Problem):
         found = []
         for motion in state.free:
             pushed = abs(state.load @ motion) > ZERO * max(float(np.abs(state.load).max()), 1e-300)
-            code = "statics.can_move" if pushed else "statics.loose"
-            found.append(fault(code, "supports", how=describe(motion, state.scale, self.planar)))
+            how = describe(motion, state.scale, self.planar)
+            remedy = _("add a support against this motion")
+            found.append(
+                fault(
+                    "can_move",
+                    "supports",
+                    _("the body is not in equilibrium: nothing keeps it from moving; it can {how}"),
+                    remedy,
+                    how=how,
+                )
+                if pushed
+                else fault(
+                    "loose",
+                    "supports",
+                    _("the body can {how}, though these forces do not start it"),
+                    remedy,
+                    how=how,
+                )
+            )
         if not found and len(state.names) > state.rank:
             spare = ", ".join(state.names)
             found.append(
