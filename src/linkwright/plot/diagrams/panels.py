@@ -178,7 +178,7 @@ def draw_panel(axes: Axes, panel: Panel, axis: InputAxis, request: Request, lege
         legend.add(level.label, line)
     if panel.fill and panel.levels:
         _fill(axes, panel, axis, unit)
-    _set_range(axes, panel, unit)
+    _set_range(axes, panel, axis, unit)
     axes.set_ylabel(unit.label(panel.title, "\n"))
     if request.marks:
         mark_peaks(axes, panel.curves, axis, unit)
@@ -196,11 +196,11 @@ def _fill(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
         )
 
 
-def _set_range(axes: Axes, panel: Panel, unit: Unit) -> None:
+def _set_range(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
     """Room for the texts at peaks, no zooming into rounding errors, zero only where it is near."""
-    numbers = [curve.values[np.isfinite(curve.values)] for curve in panel.curves]
-    numbers.append(np.array([level.value for level in panel.levels]))
-    every = np.concatenate(numbers) * unit.factor
+    numbers = [through_peaks(curve, axis)[1] for curve in panel.curves]
+    every = np.concatenate([*numbers, np.array([level.value for level in panel.levels])]) * unit.factor
+    every = every[np.isfinite(every)]
     if not len(every):
         return
     low, high = float(every.min()), float(every.max())
