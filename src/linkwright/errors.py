@@ -43,6 +43,11 @@ class Finding:
         """What the message is about, by name: the numbers and names that stand in it."""
         return values_of(self.message)
 
+    def data(self) -> dict[str, str]:
+        """Plain data."""
+        names = ("severity", "where", "key", "message", "remedy", "code")
+        return {name: getattr(self, name) for name in names}
+
     def say(self, language: str = "en") -> str:
         """Place and sentence in a language."""
         place = "".join(f"{part}: " for part in (self.where, self.key) if part)

@@ -67,7 +67,7 @@ def write_table(name: str | None, table: Callable[[], str], data: Callable[[], A
     """Writes the table or the data, as the file's ending says."""
     if name is None:
         return
-    from linkwright.cli.data import json_text
+    from linkwright.core.json_data import json_text
 
     path = Path(name)
     text = table() if path.suffix.lower() == ".csv" else json_text(data()) + "\n"

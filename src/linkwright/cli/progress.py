@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
+from linkwright.cli.session import Session
 from linkwright.core.progress import Progress, reporting
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 BAR = 24
 CLEAR = "\r\x1b[K"
@@ -50,6 +51,28 @@ def progress(say: Say, what: str) -> Iterator[Progress | None]:
     finally:
         stream.write(CLEAR)
         stream.flush()
+
+
+@contextmanager
+def kept(
+    state: str | None, name: str, asked: Iterable[object], session: Session
+) -> Iterator[Progress | None]:
+    """``kept_in`` of a command, with a bar; an interruption names the file that is left."""
+    from linkwright.designs.finished_parts import Interrupted, kept_in
+
+    try:
+        with (
+            progress(session.say, "study.computing") as report,
+            kept_in(state, name, *asked, progress=report),
+        ):
+            yield report
+    except Interrupted as stopped:
+        session.tell(
+            session.say(
+                _("Interrupted; run the same command with --state {path} to go on.", path=stopped.state)
+            )
+        )
+        raise
 
 
 def _time(seconds: float) -> str:

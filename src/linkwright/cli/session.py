@@ -55,7 +55,7 @@ class Session:
 
     def show_data(self, value: object) -> None:
         """Prints plain data and arrays as JSON."""
-        from linkwright.cli.data import json_text
+        from linkwright.core.json_data import json_text
 
         self.show_as_is(json_text(value))
 

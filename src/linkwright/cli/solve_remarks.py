@@ -1,18 +1,19 @@
-"""What stands beneath the table of ``solve``: largest values, checks, notes, warnings, positions that failed."""
+"""The data of ``solve``, and what stands beneath its table: largest values, checks, notes, failed positions."""
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
 
-from linkwright.cli.columns import Column
-from linkwright.cli.solving import Solved
+from linkwright.cli.solving import Solved, named_columns
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.search import first_largest
+from linkwright.core.table import Column
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -54,7 +55,7 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     ]
     for (joint, link), peak in zip(pairs, peaks, strict=True):
         force = peak.forces.reaction(joint, on=link)[peak.row]
-        number = Column("", "", "", "N", np.array([peak.value]), solved.force_scale).text
+        number = Column("", "", "N", np.array([peak.value]), solved.force_scale).text
         rows.append((joint, link, number(peak.value), number(force[0]), number(force[1]), peak.input))
     wide = 6 if several else 5
     table = aligned([row[:wide] for row in rows], "<<>>>>"[:wide])
@@ -201,7 +202,7 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
         if not np.isfinite(values).any():
             continue
         unit = "N·m" if forces.mechanism.joints[driver.joint].coordinate == "turn" else "N"
-        number = Column("", "", "", unit, values, solved.force_scale).text
+        number = Column("", "", unit, values, solved.force_scale).text
         if len(values) == 1:
             rows.append(say(_("{name}: {value} {unit}", name=name, value=number(values[0]), unit=unit)))
             continue
@@ -222,3 +223,39 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
             said += say(_(", mean {mean} {unit}", mean=number(solved.analysis.mean_of(effort)), unit=unit))
         rows.append(said)
     return rows
+
+
+def data(solved: Solved, options: argparse.Namespace) -> dict[str, object]:
+    """Everything that the table and what stands beneath it say."""
+    motion, forces = solved.motion, solved.forces
+    failed = [int(row) for row in solved.rows if not motion.ok[row]]
+    found: dict[str, object] = {
+        "ok": motion.whole and solved.trouble is None,
+        "name": motion.mechanism.name,
+        "mobility": motion.structure.mobility,
+        "turned": motion.structure.data()["turned"],
+        "positions": len(solved.rows),
+        "columns": named_columns(solved, options),
+        "reached": motion.ok[solved.rows],
+        "not_reached": {str(list(solved.rows).index(row)): motion.outcomes[row].sentence for row in failed},
+        "notes": list(solved.notes),
+        "warnings": [each.removeprefix("! ") for each in closeness(motion, "en")],
+        "findings": [finding.data() for finding in solved.warnings],
+    }
+    if options.prove:
+        proof = solved.proof
+        found["proof"] = {"said": proof.explain(), "proved": proof.proved, "margin": proof.margin}
+    if forces is not None:
+        found["static"] = forces.static
+        found["checks"] = {
+            "power_residual [W]": largest(forces.power_residual),
+            "balance_residual [N]": largest(forces.balance_residual),
+        }
+        peaks = largest_reactions(solved) if motion.ok.any() else []
+        found["largest_reactions [N]"] = {
+            f"{joint} on {link}": peak.value
+            for (joint, link), peak in zip(reaction_pairs(forces.mechanism), peaks, strict=bool(peaks))
+        }
+    if solved.trouble is not None:
+        found["error"] = str(solved.trouble)
+    return found

@@ -1,19 +1,25 @@
-"""Results of ``solve`` as a page of text."""
+"""Results of ``solve`` as a page of text: the columns that fit, their table, and what stands beneath it."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from linkwright.cli import solve_remarks
-from linkwright.cli.columns import Column, fitting, table
 from linkwright.cli.session import Session
-from linkwright.cli.solve_columns import blocks, efforts, leading, point_keys
-from linkwright.cli.solving import Solved
+from linkwright.cli.solving import Solved, leading, point_keys
+from linkwright.core.table import Column
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.structure import Structure
 from linkwright.structure.analysis import turned_against
 from linkwright.words import Say, _
+from linkwright.words.characters import GAP, cells, padded
 from linkwright.words.sentence import in_language
+
+LINK = ("angle", "angular_velocity", "angular_acceleration")
+GUIDE = ("displacement", "velocity", "acceleration")
+POINT = tuple(f"{kind}.{axis}" for kind in ("position", "velocity", "acceleration") for axis in "xy")
 
 
 def report(solved: Solved, options: argparse.Namespace, session: Session) -> list[str]:
@@ -109,3 +115,125 @@ def _headed(columns: Sequence[Column], solved: Solved, say: Say) -> list[Column]
             )
         found.append(column)
     return found
+
+
+def efforts(solved: Solved, columns: Mapping[str, Column]) -> list[Column]:
+    """What the drivers must supply."""
+    if solved.forces is None:
+        return []
+    names = [f"{name}.effort" for name in solved.motion.mechanism.drivers]
+    return [replace(columns[name], scale=solved.force_scale) for name in names]
+
+
+def blocks(solved: Solved, columns: Mapping[str, Column], points: Iterable[str]) -> list[list[Column]]:
+    """Columns that belong together, what matters most first: points asked for, outputs, then the other links."""
+    mechanism, structure = solved.motion.mechanism, solved.motion.structure
+    found = [
+        [columns[f"{point}.{kind}"] for kind in POINT if f"{point}.{kind}" in columns] for point in points
+    ]
+    for joint in _output_guides(mechanism):
+        found.append([columns[f"{joint}.{kind}"] for kind in GUIDE])
+    for link in _ranked_links(mechanism, structure):
+        found.append([columns[f"{link}.{kind}"] for kind in LINK])
+    return [block for block in found if block]
+
+
+def _output_guides(mechanism: Mechanism) -> list[str]:
+    """Guides on the frame that no driver moves."""
+    driven = {driver.joint for driver in mechanism.drivers.values()}
+    return [
+        name
+        for name, joint in mechanism.guides.items()
+        if mechanism.grounded & set(joint.joined) and name not in driven
+    ]
+
+
+def _ranked_links(mechanism: Mechanism, structure: Structure) -> list[str]:
+    """Links that turn: those joined to the frame, the last solved first; then the others; driven ones last."""
+    order = [link for group in reversed(structure.groups) for link in reversed(group.links)]
+    driven = {link for driver in mechanism.drivers.values() for link in (driver.link, driver.relative_to)}
+    at_frame = [joint for joint in mechanism.joints.values() if mechanism.grounded & set(joint.joined)]
+    sliding = {link for joint in at_frame if joint.coordinate == "slide" for link in joint.joined}
+    hinged = {link for joint in at_frame for link in joint.joined}
+
+    def rank(link: str) -> int:
+        return 2 if link in driven else 0 if link in hinged else 1
+
+    return sorted((link for link in order if link not in sliding | mechanism.grounded), key=rank)
+
+
+def fitting(
+    fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, say: Say, *, least: int
+) -> list[list[Column]]:
+    """The first of the blocks (columns that belong together) that fit beside the fixed ones; at least ``least``."""
+    used = total_width(fixed, say)
+    chosen: list[list[Column]] = []
+    for block in blocks:
+        wide = len(GAP) + total_width(block, say)
+        if len(chosen) >= least and used + wide > width:
+            break
+        used += wide
+        chosen.append(list(block))
+    return chosen
+
+
+def total_width(columns: Sequence[Column], say: Say) -> int:
+    """Cells that columns take side by side, under their owners and words."""
+    widths = _widths(columns, say)
+    _owner_line(columns, widths)
+    return sum(widths) + len(GAP) * (len(widths) - 1)
+
+
+def _widths(columns: Sequence[Column], say: Say) -> list[int]:
+    return [
+        max(cells(text) for text in [*column.cells(), label(column, say), column.unit]) for column in columns
+    ]
+
+
+def label(column: Column, say: Say) -> str:
+    """What a column is called under its owner's name."""
+    try:
+        return say(f"solve.quantity.{column.quantity}")
+    except KeyError:
+        return column.quantity
+
+
+def table(columns: Sequence[Column], say: Say) -> list[str]:
+    """Lines of the table: owners, quantities, units, values."""
+    labels = [label(column, say) for column in columns]
+    cells = [column.cells() for column in columns]
+    widths = _widths(columns, say)
+    owners = _owner_line(columns, widths)
+    lines = [owners] if owners.strip() else []
+    for row in [labels, [column.unit for column in columns], *zip(*cells, strict=True)]:
+        lines.append(
+            GAP.join(padded(text, wide, ">") for text, wide in zip(row, widths, strict=True)).rstrip()
+        )
+    return lines
+
+
+def _owner_line(columns: Sequence[Column], widths: list[int]) -> str:
+    """Names over the columns that belong to them; a name wider than its columns widens the first of them."""
+    parts: list[str] = []
+    start = 0
+    while start < len(columns):
+        end = start
+        while end < len(columns) and columns[end].owner == columns[start].owner:
+            end += 1
+        owner = columns[start].owner
+        span = sum(widths[start:end]) + len(GAP) * (end - start - 1)
+        lacking = cells(owner) - span
+        if lacking > 0:
+            widths[start] += lacking
+            span += lacking
+        wide = owner and end - start > 1 and span >= cells(owner) + 4
+        rule = f" {owner} " if wide else owner
+        parts.append(_ruled(rule, span) if rule != owner else padded(owner, span, ">"))
+        start = end
+    return GAP.join(parts).rstrip()
+
+
+def _ruled(text: str, span: int) -> str:
+    """A name with lines to both sides, over the columns that it heads."""
+    space = span - cells(text)
+    return "─" * (space // 2) + text + "─" * (space - space // 2)

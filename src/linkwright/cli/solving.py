@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import chain
 from math import ceil
@@ -16,6 +16,7 @@ from linkwright.cli.positions import inputs, joined, places
 from linkwright.core.arrays import Floats, Indices, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.core.table import Column
 from linkwright.errors import Finding, LinkwrightError, RequestError, about
 from linkwright.events.position_list import MOST
 from linkwright.kinematics.cycle import time_span
@@ -171,3 +172,31 @@ def _motion(mechanism: Mechanism, options: argparse.Namespace) -> tuple[Motion, 
         motion = solve_motion(mechanism, steps=steps * share, endpoint=True, failures=failures)
         return motion, np.arange(0, motion.steps, share)[: ROWS + 1 if turns else None], turns
     return motion, np.arange(motion.steps), 0
+
+
+def leading(solved: Solved, columns: Mapping[str, Column]) -> list[Column]:
+    """Time where it matters, and the drivers' coordinates."""
+    first = [] if solved.motion.mechanism.steady else [columns["time"]]
+    return first + [columns[name] for name in solved.motion.mechanism.drivers]
+
+
+def point_keys(motion: Motion, names: Sequence[str] | None) -> list[str]:
+    """Names that the columns have for points that are asked for; raises UsageError for an unknown one."""
+    with about("--points", UsageError, LinkwrightError):
+        return [motion.point(name).name for name in names or ()]
+
+
+def named_columns(solved: Solved, options: argparse.Namespace) -> dict[str, Floats]:
+    """The chosen columns by their names with units."""
+    return {f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options)}
+
+
+def chosen(solved: Solved, options: argparse.Namespace) -> list[Column]:
+    """The columns that are asked for behind time and inputs; all of them if none is asked for."""
+    columns = {column.name: column for column in (Column.of(*item) for item in solved.results().items())}
+    patterns = [*(options.columns or ()), *point_keys(solved.motion, options.points)]
+    if not patterns:
+        return list(columns.values())
+    first = {column.name: column for column in [columns["time"], *leading(solved, columns)]}
+    picked = (Column.of(*item) for item in solved.picked(patterns).items())
+    return list({**first, **{column.name: column for column in picked}}.values())

@@ -167,9 +167,7 @@ def _refused(error: LinkwrightError, session: Session) -> int:
     said = error.say(session.language)
     (session.tell if isinstance(error, ModelError) else session.tell_error)(said)
     if session.json:
-        from linkwright.cli.data import finding_data
-
-        findings = [finding_data(found) for found in getattr(error, "findings", ())]
+        findings = [found.data() for found in getattr(error, "findings", ())]
         session.show_data({"ok": False, "error": str(error), "code": error.code, "findings": findings})
     return MISUSED if missing or isinstance(error, RequestError) else FAULTY
 

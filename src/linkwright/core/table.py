@@ -11,12 +11,17 @@ import math
 import re
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import field, replace
+from functools import cached_property
 from html import escape
 from itertools import count
 from typing import Any
 
+import numpy as np
+
+from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
-from linkwright.core.quantity import number, shown_unit, with_unit
+from linkwright.core.outputs import Output
+from linkwright.core.quantity import MISSING, number, shown_unit, with_unit
 from linkwright.units import Dimension, si_symbol, si_unit
 from linkwright.words import Say
 from linkwright.words.characters import aligned, aligned_within, cell_text
@@ -25,6 +30,8 @@ from linkwright.words.sentence import in_language
 #: Beside the largest of its kind anything below this share is nothing but rounding.
 ROUNDING = 1e-12
 _NUMBER = re.compile(r"[-+]?[\d.]+(?:e[-+]?\d+)?")
+#: Digits of a column's largest value.
+COLUMN_DIGITS = 5
 #: Rows that a notebook shows of a long table.
 MOST = 40
 
@@ -248,6 +255,70 @@ def together(blocks: Sequence[Block], area: str, say: Say, digits: int = 7) -> l
 def unused(key: str, taken: Container[str]) -> str:
     """The key, numbered where a name that the user chose has taken it: ``remarks (2)``."""
     return next(each for n in count(1) if (each := f"{key} ({n})" if n > 1 else key) not in taken)
+
+
+@dataclass(frozen=True)
+class Column:
+    """Values (n,) of one quantity of a link, point, joint or driver (``owner``), in ``unit``.
+
+    ``scale`` is the size against which values are mere rounding, and printed as 0.
+    """
+
+    owner: str
+    quantity: str
+    unit: str
+    values: Floats
+    scale: float = 1.0
+
+    @classmethod
+    def of(cls, output: Output, values: Floats) -> Column:
+        """The column of a result."""
+        return cls(output.place, output.quantity, output.unit, values)
+
+    @property
+    def name(self) -> str:
+        """Its name: ``jaw.angle``."""
+        return ".".join(filter(None, (self.owner, self.quantity)))
+
+    @property
+    def heading(self) -> str:
+        """Its name with the unit: ``jaw.angle [rad]``."""
+        return f"{self.name} [{self.unit}]"
+
+    def in_degrees(self, *, rates: bool = False) -> Column:
+        """The same with angles, and where asked their rates, in degrees."""
+        if not (self.unit.startswith("rad") if rates else self.unit == "rad"):
+            return self
+        return replace(self, unit=self.unit.replace("rad", "°", 1), values=np.degrees(self.values))
+
+    def cells(self) -> list[str]:
+        """Texts of the values, with the same number of decimals."""
+        return [self.text(value) for value in self.values]
+
+    def text(self, value: float) -> str:
+        """Text of one value as this column writes it."""
+        if not math.isfinite(value):
+            return MISSING
+        if self._largest < ROUNDING * self.scale:
+            return "0"
+        if self._decimals is None:
+            return f"{value:.{COLUMN_DIGITS - 1}e}"
+        return f"{round(value, self._decimals) + 0.0:.{self._decimals}f}"
+
+    @cached_property
+    def _largest(self) -> float:
+        return largest(self.values)
+
+    @cached_property
+    def _decimals(self) -> int | None:
+        """Decimals that all values get, no more than they need; None for numbers written with a power of ten."""
+        place = math.floor(math.log10(self._largest))
+        if not -4 <= place < 9:
+            return None
+        most = min(max(COLUMN_DIGITS - 1 - place, 0), 6)
+        values = self.values[np.isfinite(self.values)]
+        exact = (d for d in range(most) if np.abs(values - np.round(values, d)).max() < 1e-9 * self._largest)
+        return next(exact, most)
 
 
 def csv_text(columns: Mapping[str, Any]) -> str:

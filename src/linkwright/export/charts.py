@@ -11,8 +11,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
+from linkwright.core.table import Column
 from linkwright.export.results import Results
-from linkwright.export.tables import Column
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.pictures.diagram import COLOURS
 from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_outputs

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import KINDS, NAMED
+from linkwright.core.table import Column
 from linkwright.export.results import Results
 from linkwright.kinetostatics.table import results_of
-from linkwright.words import say
 
 #: Rates of a coordinate, by the unit of the coordinate.
 UNITS = {"rad": ("rad", "rad/s", "rad/s²"), "m": ("m", "m/s", "m/s²")}
@@ -20,32 +19,6 @@ SUBJECTS = ("positions", "links", "points", "joints", "forces", "loads", "output
 #: The table of outputs by what they belong to, and by their kind; those of guides stand among all joints.
 OF_OWNER = {"motion": "positions", "link": "links", "point": "points", "joint": "forces", "machine": "forces"}
 OF_KIND = {"input": "positions", "effort": "forces", **dict.fromkeys(NAMED, "outputs")}
-
-
-@dataclass(frozen=True)
-class Column:
-    """Values (n,) of one quantity of ``owner`` (a link, point, joint, driver, or the whole), in ``unit``."""
-
-    owner: str
-    quantity: str
-    unit: str
-    values: Floats
-
-    @property
-    def name(self) -> str:
-        """Name with the unit, such as ``jaw.angle [rad]``."""
-        return f"{'.'.join(filter(None, (self.owner, self.quantity)))} [{self.unit}]"
-
-    def words(self, language: str) -> str:
-        """The quantity in words."""
-        return say(f"export.quantity.{self.quantity}", language)
-
-    @property
-    def turned(self) -> Column:
-        """The same, angles in degrees."""
-        if not self.unit.startswith("rad"):
-            return self
-        return replace(self, unit=self.unit.replace("rad", "°", 1), values=np.degrees(self.values))
 
 
 @dataclass(frozen=True)
@@ -73,7 +46,7 @@ def tables(results: Results) -> list[Table]:
 
 def wide(results: Results) -> dict[str, Column]:
     """All columns of all tables by name."""
-    return {column.name: column for table in tables(results) for column in table.columns}
+    return {column.heading: column for table in tables(results) for column in table.columns}
 
 
 def _joints(results: Results) -> Iterator[Column]:

@@ -96,7 +96,7 @@ class InputRange:
         if self.full:
             return Sentence(f"range.full_{kind}", link=self.link)
         ends = {
-            side: reported(end.value, "angle" if self.rotary else "length")
+            side: reported(end.value, "angle" if self.rotary else "length", 7)
             for side, end in (("low", self.low), ("high", self.high))
             if end is not None
         }
@@ -110,7 +110,7 @@ class InputRange:
         return tuple(
             _(
                 "at {place} {group} {how}",
-                place=reported(end.value, "angle" if self.rotary else "length"),
+                place=reported(end.value, "angle" if self.rotary else "length", 7),
                 group=end.group,
                 how=end.how,
             )
@@ -232,7 +232,7 @@ class _Search:
                 code="range.not_assembled",
                 name=self.mechanism.name,
                 driver=self.driver,
-                place=reported(nominal, "angle" if self.rotary else "length"),
+                place=reported(nominal, "angle" if self.rotary else "length", 7),
             )
         )
 

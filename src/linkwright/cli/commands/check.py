@@ -53,14 +53,13 @@ def _show(name: str, found: Checked, session: Session) -> None:
 
 
 def _show_data(results: list[tuple[str, Checked]], session: Session) -> None:
-    from linkwright.cli.data import finding_data
 
     files = [
         {
             "file": name,
             "ok": all(finding.severity != "error" for finding in found.findings),
             **found.fact,
-            "findings": [finding_data(finding) for finding in found.findings],
+            "findings": [finding.data() for finding in found.findings],
         }
         for name, found in results
     ]

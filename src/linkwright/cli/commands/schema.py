@@ -17,8 +17,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     """Prints the schema, or writes it."""
     from pathlib import Path
 
-    from linkwright.cli.data import json_text
     from linkwright.cli.files import write_whole
+    from linkwright.core.json_data import json_text
     from linkwright.parts.file import file_schema
 
     text = json_text(file_schema())

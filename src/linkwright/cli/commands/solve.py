@@ -49,7 +49,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if options.output is not None:
         _write(solved, options, session)
     if session.json:
-        from linkwright.cli.solve_data import data
+        from linkwright.cli.solve_remarks import data
 
         session.show_data(data(solved, options))
     elif options.output is None:
@@ -103,7 +103,8 @@ def _write(solved: Solved, options: argparse.Namespace, session: Session) -> Non
     from pathlib import Path
 
     from linkwright.cli.files import write_table
-    from linkwright.cli.solve_data import data, named_columns
+    from linkwright.cli.solve_remarks import data
+    from linkwright.cli.solving import named_columns
     from linkwright.core.table import csv_text
 
     asked = solved, options

@@ -38,7 +38,7 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Studies the designs and prints or writes what came out."""
     from linkwright.cli.files import PICTURES, refuse_output
-    from linkwright.cli.long_commands import kept
+    from linkwright.cli.progress import kept
     from linkwright.cli.source import read_model
     from linkwright.designs.cluster import on_cluster
     from linkwright.designs.study import study

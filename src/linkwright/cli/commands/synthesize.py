@@ -73,7 +73,7 @@ def _model_file(folder: Path, task: str, index: int) -> Path:
 
 
 def _solve(task: str, demands: dict[str, Any], options: argparse.Namespace, session: Session) -> Synthesis:
-    from linkwright.cli.long_commands import kept
+    from linkwright.cli.progress import kept
     from linkwright.designs.cluster import on_cluster
     from linkwright.synthesis.tasks import synthesize
 

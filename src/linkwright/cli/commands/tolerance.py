@@ -23,7 +23,7 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Solves the file's problem; its drawn machines are computed by threads or a cluster."""
-    from linkwright.cli.long_commands import kept
+    from linkwright.cli.progress import kept
     from linkwright.designs.cluster import on_cluster
     from linkwright.parts.file import solve
 

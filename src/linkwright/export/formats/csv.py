@@ -13,8 +13,8 @@ def content(results: Results, *, degrees: bool = False) -> bytes:
 
     Numbers have all digits that they need to be read back unchanged. ``degrees``: angles in degrees.
     """
-    columns = [column.turned if degrees else column for column in wide(results).values()]
-    return csv_text({column.name: column.values for column in columns}).encode()
+    columns = [column.in_degrees(rates=True) if degrees else column for column in wide(results).values()]
+    return csv_text({column.heading: column.values for column in columns}).encode()
 
 
 FORMATS.register("csv")(Format((".csv",), content))

@@ -47,7 +47,7 @@ def _data(results: Results) -> dict[str, Any]:
         "notes": list(results.notes),
         "tables": {
             table.subject: {
-                column.name: {
+                column.heading: {
                     "owner": column.owner,
                     "quantity": column.quantity,
                     "unit": column.unit,

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import largest
+from linkwright.core.table import Column
 from linkwright.designs.ranges import dimension_of
 from linkwright.errors import RequestError
 from linkwright.export.charts import Charts, Place, write_charts
 from linkwright.export.export import FORMATS, Format, package
 from linkwright.export.results import Results
-from linkwright.export.tables import Column, Table, tables
+from linkwright.export.tables import Table, tables
 from linkwright.metrics.base import METRICS
 from linkwright.units import NONE, si_symbol
 from linkwright.words import Message, _, say
@@ -84,7 +85,7 @@ class Workbook:
         return say(key if isinstance(key, Message) else f"export.{key}", self.results.language)
 
     def _turned(self, columns: Sequence[Column]) -> list[Column]:
-        return [column.turned if self.degrees else column for column in columns]
+        return [column.in_degrees(rates=True) if self.degrees else column for column in columns]
 
     def _sheet(self, subject: str) -> Any:
         return self.book.add_worksheet(self.say(f"sheet.{subject}"))
@@ -139,7 +140,7 @@ class Workbook:
     def _heading(self, column: Column) -> str:
         """Owner, quantity in words, unit, each on a line."""
         owner = self.say(_("shaking force")) if column.owner == "shaking_force" else column.owner
-        word = column.words(self.results.language) if column.quantity else self.say(_("input"))
+        word = self.say(f"quantity.{column.quantity}") if column.quantity else self.say(_("input"))
         return printable("\n".join(filter(None, (owner, word, f"[{column.unit}]"))))
 
 
