@@ -14,7 +14,6 @@ from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.laws.program import MotionProgram
 from linkwright.laws.smoothest import FoundProgram
-from linkwright.parts.base import Value, put
 from linkwright.words import Say, _, language_of
 from linkwright.words.sentence import in_language
 
@@ -244,41 +243,40 @@ def steps(design: CamDesign, say: Say) -> list[Step]:
     cam, follower = design.cam, design.cam.follower
     first = Step("1", say(_("Start position")))
     base = cam.base_radius or 0.0
-    of: dict[str, Value]
     if cam.barrel_radius is not None:
         first.law("x = R·φ; y = s(φ)")
-        put(first, "R", "", cam.barrel_radius, "length")
+        first.put("R", "", cam.barrel_radius, "length")
     elif follower.kind == "flat":
         first.law("H(θ) = r_b + s" if not follower.oscillating else "H(θ) = c·sin(ψ₀ + s) − f")
-        put(first, "r_b", "", base, "length")
+        first.put("r_b", "", base, "length")
     elif follower.oscillating:
         of = {
             "c": (follower.pivot_distance or 0.0, "length"), "l": (follower.arm or 0.0, "length"),
             "r_b": (base, "length"), "r_r": (follower.roller_radius, "length"),
         }  # fmt: skip
         formula = "arccos((c² + l² − (r_b + r_r)²)/(2·c·l))"
-        put(first, "ψ₀", formula, follower.start_angle(base) or 0.0, "angle", of=of)
+        first.put("ψ₀", formula, follower.start_angle(base) or 0.0, "angle", of=of)
     else:
         of = {
             "r_b": (base, "length"), "r_r": (follower.roller_radius, "length"), "e": (follower.offset, "length"),
         }  # fmt: skip
-        put(first, "d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", of=of)
+        first.put("d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", of=of)
     second = Step("2", say(_("Pressure angle")))
     steepest = sorted((design.pressure_angle_rise, design.pressure_angle_fall), key=lambda each: each.place)
     extreme = steepest[first_largest(np.abs([each.value for each in steepest]))]
     formula, numbers = _angle_formula(design, extreme.place)
-    put(second, f"α({math.degrees(extreme.place):.5g}°)", formula, extreme.value, "angle", numbers=numbers)
+    second.put(f"α({math.degrees(extreme.place):.5g}°)", formula, extreme.value, "angle", numbers=numbers)
     third = Step("3", say(_("Radius of curvature")))
     radius = design.smallest_radius
     if radius is not None:
         formula = "H + d²H/dθ²" if follower.kind == "flat" else "|p′|³/|p′ × p″| − r_r"
-        put(third, f"ρ({math.degrees(radius.place):.5g}°)", formula, radius.value, "length")
+        third.put(f"ρ({math.degrees(radius.place):.5g}°)", formula, radius.value, "length")
     if not design.loaded:
         return [first, second, third]
     fourth = Step("4", say(_("Contact force and torque")))
     fourth.law(f"F = m·ω²·s″ + F₀ + k·s + F_l; {_normal_force(design)}; T = F·s′")
-    put(fourth, "N_max", "", design.extreme_force("max").value, "force")
-    put(fourth, "T_max", "", design.extreme_torque("max").value, "torque")
+    fourth.put("N_max", "", design.extreme_force("max").value, "force")
+    fourth.put("T_max", "", design.extreme_torque("max").value, "torque")
     return [first, second, third, fourth]
 
 

@@ -81,6 +81,11 @@ def _factor(value: str, *, tight: bool) -> str:
     return f"({whole})" if value.startswith(("-", "−")) or (tight and whole != value) else whole
 
 
+def names(text: str) -> list[str]:
+    """The names of a formula, e and π among them."""
+    return [each for each in _tokens(text) if each[0].isalpha() and each not in (*FUNCTIONS, *_PREFIX)]
+
+
 def of_file(text: str) -> str:
     """An expression of a file as formulas are written: ``2*sqrt(x)`` as ``2·√(x)``."""
     for old, new in (("**", "^"), ("*", "·"), ("<=", "≤"), (">=", "≥"), ("==", "=")):

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
+from linkwright.core.quantity import number, shown_unit
+from linkwright.core.quantity import shown as quantity_text
 from linkwright.equations.digits import digits_needed, error_of, last_place, printed, put_in
 from linkwright.equations.latex import latex
 from linkwright.equations.notation import Atom, Row, quantity, upright
+from linkwright.equations.reading import filled, names, normal, read, read_name, sides
 from linkwright.equations.reading import plain as unmarked
-from linkwright.equations.reading import read, read_name, sides
 from linkwright.equations.terms import Pair, Term, symbol
 from linkwright.equations.typeset import plain, typeset
 from linkwright.errors import SelfCheckError
@@ -171,17 +174,21 @@ class Tabulated:
         return {"table": self.title, "head": list(self.head), "rows": [list(row) for row in self.rows]}
 
 
+#: A value of a formula's name: SI with its dimension, or a plain number.
+Value = float | tuple[float, str]
 Item = Note | Relation | Equation | Written | Tabulated
 
 
 @dataclass
 class Step:
-    """One step of the solution; ``group`` is the name of the Assur group it belongs to, or empty."""
+    """One step of the solution; ``group`` is the name of the Assur group it belongs to, or empty; ``known``: values
+    of names in formulas on a line."""
 
     number: str
     title: str
     group: str = ""
     items: list[Item] = field(default_factory=list)
+    known: dict[str, Value] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def equations(self) -> list[Equation]:
@@ -198,6 +205,34 @@ class Step:
             *first, last = sides(each)
             last = Row((*last.items, Atom("space", "quad"), upright(unit))) if unit else last
             self.items.append(Written(f"{unmarked(each.strip())} {unit}".rstrip(), (*first, last)))
+
+    def put(
+        self, symbol: str, formula: str, value: float, dimension: str = "", *,
+        of: Mapping[str, Value] | None = None, numbers: str = "", digits: int = 6,
+    ) -> None:  # fmt: skip
+        """Adds a result: symbol, formula on a line, the formula with its numbers, and the value (SI) as it is shown.
+
+        Numbers are put in for a formula's names where all of them, or some ``of`` here, are known, from here or from
+        what was put before: with their units, without these where all have the result's; ``digits`` of them.
+        ``numbers``: a sum in that unit, where the formula has no names for them.
+        """
+        self.known |= {normal(key): each for key, each in (of or {}).items()}
+        used = [each for each in names(formula) if each in self.known]
+        if not numbers and used and (of or {*names(formula)} <= {*used, "e", "π"}):
+            numbers = filled(formula, self._put_in(used, dimension, digits))
+        shown = number(value, dimension)
+        found = "" if unmarked(numbers) in (formula, shown) else numbers
+        self.items.append(Equation(symbol, formula, found, shown, shown_unit(dimension), value))
+        self.known[normal(symbol)] = (value, dimension)
+
+    def _put_in(self, used: Sequence[str], dimension: str, digits: int) -> dict[str, str]:
+        """What stands for the names of a formula."""
+        given = {key: each if isinstance(each := self.known[key], tuple) else (each, "") for key in used}
+        bare = all(kind == dimension for _, kind in given.values()) and dimension != "angle"
+        return {
+            key: (number if bare else quantity_text)(each, kind, digits)
+            for key, (each, kind) in given.items()
+        }
 
     def relate(self, left: Term, right: Term) -> None:
         """Adds an equation that is solved further below."""

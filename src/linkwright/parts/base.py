@@ -15,9 +15,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
-from linkwright.core.quantity import number, shown, shown_unit
+from linkwright.core.quantity import number
 from linkwright.core.table import ROUNDING, Block, blocks_data, tidy
-from linkwright.equations.reading import filled, normal, plain
 from linkwright.equations.steps import Equation, Step
 from linkwright.errors import Finding, ModelError, speaker
 from linkwright.fields.base import Field, GivenByFile, given_by_file
@@ -191,41 +190,3 @@ def signed(parts: Sequence[float], dimension: str = "") -> str:
     kept = [float(part) for part in parts if abs(part) > ROUNDING * largest]
     text = " ".join(f"{'−' if part < 0 else '+'} {number(abs(part), dimension)}" for part in kept)
     return f"−{text[2:]}" if text.startswith("−") else text.removeprefix("+ ") or "0"
-
-
-#: A value of a formula's name: SI with its dimension, or a plain number.
-Value = float | tuple[float, str]
-
-
-def put(
-    step: Step,
-    symbol: str,
-    formula: str,
-    value: float,
-    dimension: str = "",
-    *,
-    of: Mapping[str, Value] | None = None,
-    numbers: str = "",
-    digits: int = 6,
-) -> None:
-    """Adds a result: symbol, formula, the formula with its numbers, and the value (SI) in the shown unit.
-
-    ``of``: the values of the names in the formula, which are put in with their units, without these where all have
-    the result's; ``digits`` of them; ``numbers``: a sum in that unit, where the formula has no names for them.
-    """
-    found = numbers or (filled(formula, _put_in(of, dimension, digits)) if of else "")
-    if plain(found) in (formula, number(value, dimension)):
-        found = ""
-    step.items.append(
-        Equation(symbol, formula, found, number(value, dimension), shown_unit(dimension), value)
-    )
-
-
-def _put_in(of: Mapping[str, Value], dimension: str, digits: int) -> dict[str, str]:
-    """What stands for the names of a formula."""
-    given = {normal(key): each if isinstance(each, tuple) else (each, "") for key, each in of.items()}
-    bare = all(kind == dimension for _, kind in given.values()) and dimension != "angle"
-    return {
-        key: (number if bare else shown)(each, kind, digits)
-        for key, (each, kind) in given.items()
-    }  # fmt: skip

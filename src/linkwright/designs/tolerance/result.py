@@ -24,7 +24,7 @@ from linkwright.equations.steps import Step
 from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.by_name import wanted
-from linkwright.parts.base import Result, fault, put
+from linkwright.parts.base import Result, fault
 from linkwright.words import Say, _, pgettext
 
 #: Linear and Monte Carlo spread agree within this share.
@@ -573,17 +573,16 @@ class Spread(Result):
             step.say(say(_("σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)")))
             for each in self.shares(text):
                 product = abs(each.slope * each.deviation)
-                put(
-                    step,
+                step.put(
                     f"|∂y/∂p|·σ ({each.name})",
                     "",
                     product,
                     kind,
                     numbers=f"{abs(each.slope):.6g}·{each.deviation:.6g}",
                 )
-            put(step, "σ", "√(Σ (∂y/∂p·σ)²)", self.linear(text), kind)
+            step.put("σ", "√(Σ (∂y/∂p·σ)²)", self.linear(text), kind)
             if self.swept is not None:
-                put(step, "s", "√(Σ (y − ȳ)²/(N − 1))", self.monte_carlo(text), kind)
+                step.put("s", "√(Σ (y − ȳ)²/(N − 1))", self.monte_carlo(text), kind)
             reason = self.reason(text, say)
             if reason:
                 step.say(reason)
@@ -594,7 +593,7 @@ class Spread(Result):
             for text in self.study.of:
                 shift = self.shift(text)
                 if not math.isnan(shift):
-                    put(step, f"Δ {text}", "", shift, self.dimension(text))
+                    step.put(f"Δ {text}", "", shift, self.dimension(text))
             found.append(step)
         return found or [
             Step("1", say(_("σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)")))

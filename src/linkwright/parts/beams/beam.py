@@ -18,7 +18,7 @@ from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantities, Quantity, Schema, Word, given, quantity_schema
-from linkwright.parts.base import Problem, Result, Value, fault, put, signed
+from linkwright.parts.base import Problem, Result, fault, signed
 from linkwright.parts.beams.balance import balance_laws, line_moment, polynomial_text, rounded
 from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
 from linkwright.parts.beams.materials import MATERIAL, Material
@@ -450,20 +450,20 @@ class BeamLine(Result):
         balance_laws(step, holds, self.beam.length, points, spreads)
         for name, (force, couple) in self.reactions.items():
             if force or self.beam.supports[name].kind != "guided":
-                put(step, f"{name}.F", "", force, "force")
+                step.put(f"{name}.F", "", force, "force")
             if couple:
-                put(step, f"{name}.M", "", couple, "torque")
+                step.put(f"{name}.M", "", couple, "torque")
         step.say(say(_("Proof by the sums over all forces, and moments about x = 0:")))
         forces = [f for f, _unused in self.reactions.values()] + [p.force for p in points]
         forces += [(s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
-        put(step, "ΣF", "", rounded(forces), "force", numbers=signed(forces, "force"))
+        step.put("ΣF", "", rounded(forces), "force", numbers=signed(forces, "force"))
         moments = [
             c + f * s.at
             for (f, c), s in zip(self.reactions.values(), self.beam.supports.values(), strict=True)
         ]
         moments += [p.couple + p.force * p.x for p in points]
         moments += [line_moment(s) for s in spreads]
-        put(step, "ΣM(0)", "", rounded(moments), "torque", numbers=signed(moments, "torque"))
+        step.put("ΣM(0)", "", rounded(moments), "torque", numbers=signed(moments, "torque"))
         return step
 
     def _segment_step(self, say: Say) -> Step:
@@ -518,26 +518,18 @@ class BeamLine(Result):
                     )
                 )
             )
-            put(step, f"{symbol}_max", "", value, DIMENSIONS[quantity])
-        strength, safety = self.beam.material.strength or 0.0, self.beam.safety or 1.0
+            step.put(f"{symbol}_max", "", value, DIMENSIONS[quantity])
+        step.known["Re"] = (self.beam.material.strength or 0.0, "pressure")
         if self.stress is not None and self.stress[1]:
             x, stress = self.stress
             moment = max((float(self.moment(x, side)[0]) for side in ("left", "right")), key=abs)
-            of: dict[str, Value] = {
-                "M": (abs(moment), "torque"),
-                "W": (abs(moment) / stress, "section_modulus"),
-            }
-            put(step, "σ", "M/W", stress, "pressure", of=of)
+            of = {"M": (abs(moment), "torque"), "W": (abs(moment) / stress, "section_modulus")}
+            step.put("σ", "M/W", stress, "pressure", of=of)
         if self.safety is not None and self.stress is not None:
-            of = {"Re": (strength, "pressure"), "σ": (self.stress[1], "pressure")}
-            put(step, "S", "Re/σ", self.safety, of=of)
+            step.put("S", "Re/σ", self.safety, of={"σ": (self.stress[1], "pressure")})
         if self.needed_modulus is not None:
-            of = {
-                "M_max": (abs(self.largest("moment")[1]), "torque"),
-                "S": safety,
-                "Re": (strength, "pressure"),
-            }
-            put(step, "W_min", "M_max·S/Re", self.needed_modulus, "section_modulus", of=of)
+            step.known |= {"M_max": (abs(self.largest("moment")[1]), "torque"), "S": self.beam.safety or 1.0}
+            step.put("W_min", "M_max·S/Re", self.needed_modulus, "section_modulus")
         return step
 
 

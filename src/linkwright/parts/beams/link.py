@@ -22,7 +22,7 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Result, Value, fault, put
+from linkwright.parts.base import Result, fault
 from linkwright.parts.beams.axis import LinkAxis, SpreadMass
 from linkwright.parts.beams.balance import polynomial_text
 from linkwright.parts.beams.materials import MATERIAL, Material
@@ -493,20 +493,18 @@ class LinkStress(Result):
         cut = Step(
             "2", say(_("Cut at s: the forces on the part below s balance V, M and N (inertia −ρ·a included)"))
         )
-        put(cut, "s", "", float(self.stations[k]), "length")
-        put(cut, "V", "Σ F + ∫ q ds", float(self.shear[i, k]), "force")
-        put(cut, "M", "Σ F·(s − s_k) − Σ C + ∫∫ q ds²", float(self.moment[i, k]), "torque")
-        put(cut, "N", "−Σ F − ∫ p ds", float(self.normal[i, k]), "force")
+        cut.put("s", "", float(self.stations[k]), "length")
+        cut.put("V", "Σ F + ∫ q ds", float(self.shear[i, k]), "force")
+        cut.put("M", "Σ F·(s − s_k) − Σ C + ∫∫ q ds²", float(self.moment[i, k]), "torque")
+        cut.put("N", "−Σ F − ∫ p ds", float(self.normal[i, k]), "force")
         section, strength = self.problem.section, self.problem.material.strength or 0.0
-        of: dict[str, Value] = {
+        of = {
             "N": (abs(float(self.normal[i, k])), "force"), "A": (section.area or 0.0, "section_area"),
             "M": (abs(float(self.moment[i, k])), "torque"), "W": (section.modulus or 0.0, "section_modulus"),
         }  # fmt: skip
-        put(cut, "σ", "|N|/A + |M|/W", float(self.stress[i, k]), "pressure", of=of)
+        cut.put("σ", "|N|/A + |M|/W", float(self.stress[i, k]), "pressure", of=of)
         if self.safety is not None and self.needed_modulus is not None:
-            of = {"Re": (strength, "pressure"), "σ": (float(self.stress.max()), "pressure")}
-            put(cut, "S", "Re/σ", self.safety, of=of)
-            of = {"M_max": (float(np.abs(self.moment).max()), "torque"), "S": self.problem.safety,
-                  "Re": (strength, "pressure")}  # fmt: skip
-            put(cut, "W_min", "M_max·S/Re", self.needed_modulus, "section_modulus", of=of)
+            cut.put("S", "Re/σ", self.safety, of={"Re": (strength, "pressure")})
+            cut.known |= {"M_max": (float(np.abs(self.moment).max()), "torque"), "S": self.problem.safety}
+            cut.put("W_min", "M_max·S/Re", self.needed_modulus, "section_modulus")
         return [step, cut]

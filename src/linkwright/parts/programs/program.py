@@ -23,7 +23,7 @@ from linkwright.fields.base import Field, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
-from linkwright.parts.base import Problem, Result, fault, put
+from linkwright.parts.base import Problem, Result, fault
 from linkwright.parts.fields import AnyQuantity, Flag, Listed, Named, Table
 from linkwright.parts.programs.formula import Constraint, Formula, constraint, formula
 from linkwright.parts.programs.linear import conflict, feasible, runaway, solve_linear
@@ -483,7 +483,7 @@ class Optimum(Result):
             test.say(line)
         if self.way == "nonlinear":
             test.say(say(_("Condition of Karush, Kuhn and Tucker, scaled:")))
-            put(test, "|∇f + Σλ∇g|", "", self.gap)
+            test.put("|∇f + Σλ∇g|", "", self.gap)
         return [task, found, test]
 
 

@@ -13,7 +13,7 @@ from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
-from linkwright.parts.base import Problem, Result, Value, fault, put
+from linkwright.parts.base import Problem, Result, fault
 from linkwright.words import Say, _, pgettext
 
 #: Largest μ θ: e^(μθ) stays a number, with all of its digits.
@@ -164,45 +164,33 @@ class BeltTensions(Result):
         belt, step = self.belt, Step("1", say(_("Belt friction (Euler, Eytelwein)")))
         mu = "μ" if belt.groove is None else "μ'"
         if belt.groove is not None:
-            given: dict[str, Value] = {"μ": belt.friction, "α": (belt.groove, "angle")}
-            put(step, "μ'", "μ/sin(α/2)", belt.effective_friction, of=given)
-        grip = f"e^({mu}·θ)"
-        put(step, "q", grip, belt.ratio, of={mu: belt.effective_friction, "θ": belt.wrap})
-        known: dict[str, Value] = {"q": belt.ratio, "Tc": (belt.centrifugal, "force")}
+            step.known |= {"μ": belt.friction, "α": (belt.groove, "angle")}
+            step.put("μ'", "μ/sin(α/2)", belt.effective_friction)
+        step.put("q", f"e^({mu}·θ)", belt.ratio, of={mu: belt.effective_friction, "θ": belt.wrap})
+        step.known |= {"r": (belt.radius or 0.0, "length"), "v": (belt.speed, "velocity")}
         if belt.centrifugal:
-            given = {"m": (belt.mass, "linear_density"), "v": (belt.speed, "velocity")}
-            put(step, "Tc", "m·v²", belt.centrifugal, "force", of=given)
-        self._tensions(step, known)
-        known = {"T1": (self.tight, "force"), "T2": (self.slack, "force")}
+            step.put("Tc", "m·v²", belt.centrifugal, "force", of={"m": (belt.mass, "linear_density")})
+        self._tensions(step)
+        step.known |= {"T1": (self.tight, "force"), "T2": (self.slack, "force")}
         if belt.torque is None:
-            put(step, "F", "T1 − T2", self.pull, "force", of=known)
+            step.put("F", "T1 − T2", self.pull, "force")
         if belt.radius is not None and belt.torque is None:
-            given = {"F": (self.pull, "force"), "r": (belt.radius, "length")}
-            put(step, "M", "F·r", self.pull * belt.radius, "torque", of=given)
+            step.put("M", "F·r", self.pull * belt.radius, "torque")
         if belt.speed:
-            given = {"F": (self.pull, "force"), "v": (belt.speed, "velocity")}
-            put(step, "P", "F·v", self.pull * belt.speed, "power", of=given)
+            step.put("P", "F·v", self.pull * belt.speed, "power")
         return [step]
 
-    def _tensions(self, step: Step, known: dict[str, Value]) -> None:
+    def _tensions(self, step: Step) -> None:
         """The two tensions from what is given: one of them, or the torque."""
         belt, flung = self.belt, "Tc + " if self.belt.centrifugal else ""
         above = ("(", " − Tc)") if flung else ("", "")
-        tight, slack = (self.tight, "force"), (self.slack, "force")
         if belt.tight is not None:
-            put(
-                step, "T2", f"{flung}{above[0]}T1{above[1]}/q", self.slack, "force", of={**known, "T1": tight}
-            )
+            given = {"T1": (self.tight, "force")}
+            step.put("T2", f"{flung}{above[0]}T1{above[1]}/q", self.slack, "force", of=given)
         elif belt.slack is not None:
-            put(
-                step, "T1", f"{flung}{above[0]}T2{above[1]}·q", self.tight, "force", of={**known, "T2": slack}
-            )
+            given = {"T2": (self.slack, "force")}
+            step.put("T1", f"{flung}{above[0]}T2{above[1]}·q", self.tight, "force", of=given)
         else:
-            given: dict[str, Value] = {
-                "M": (belt.torque or 0.0, "torque"),
-                "r": (belt.radius or 0.0, "length"),
-            }
-            put(step, "F", "M/r", self.pull, "force", of=given)
-            known["F"] = (self.pull, "force")
-            put(step, "T1", f"{flung}F·q/(q − 1)", self.tight, "force", of=known)
-            put(step, "T2", f"{flung}F/(q − 1)", self.slack, "force", of=known)
+            step.put("F", "M/r", self.pull, "force", of={"M": (belt.torque or 0.0, "torque")})
+            step.put("T1", f"{flung}F·q/(q − 1)", self.tight, "force")
+            step.put("T2", f"{flung}F/(q − 1)", self.slack, "force")

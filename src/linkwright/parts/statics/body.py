@@ -21,7 +21,7 @@ from linkwright.fields.base import GivenByFile, Word, given, quantity_schema
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.fields.reading import Place, Reader
-from linkwright.parts.base import Problem, Result, fault, put
+from linkwright.parts.base import Problem, Result, fault
 from linkwright.parts.fields import Listed, Named, Table
 from linkwright.parts.motions import plain_motions
 from linkwright.parts.statics.forces import COUPLES, DIRECTION, FORCES, Components, Force, ForceField, spatial
@@ -342,7 +342,7 @@ class Reactions(Result):
         a, b = self.matrix
         found.items.append(system(a, list(self.values), b, names))
         for name, value in self.values.items():
-            put(found, name, "", value, _dimension(name))
+            found.put(name, "", value, _dimension(name))
         return [balance, found]
 
 

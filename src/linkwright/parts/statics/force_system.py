@@ -14,11 +14,11 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number, shown
 from linkwright.core.table import Block, Row
 from linkwright.equations.matrix import system
-from linkwright.equations.reading import measured
+from linkwright.equations.reading import measured, normal
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import given
-from linkwright.parts.base import Problem, Result, Value, fault, put, signed
+from linkwright.parts.base import Problem, Result, fault, signed
 from linkwright.parts.statics.forces import (
     COUPLES,
     FORCES,
@@ -228,20 +228,16 @@ class Resultant(Result):
         for i, axis in enumerate("xyz"):
             parts = [each.vector[i] for each in self.system.forces.values()]
             names = " + ".join(f"{name}{axis}" for name in self.system.forces)
-            put(sums, f"R{axis}", names, self.force[i], "force", numbers=signed(parts))
-        of: dict[str, Value] = {
-            f"R{axis}": (float(c), "force") for axis, c in zip("xyz", self.force, strict=True)
-        }
-        put(sums, "R", "√(Rx² + Ry² + Rz²)", self.size, "force", of=of)
-        of["R"] = (self.size, "force")
+            sums.put(f"R{axis}", names, self.force[i], "force", numbers=signed(parts))
+        sums.put("R", "√(Rx² + Ry² + Rz²)", self.size, "force")
         for axis, angle, greek in zip("xyz", self.angles, "αβγ", strict=True):
             if self.size:
-                put(sums, greek, f"arccos(R{axis}/R)", float(angle), "angle", of=of)
+                sums.put(greek, f"arccos(R{axis}/R)", float(angle), "angle")
         self._moment_step(about, say)
         if self.size:
-            put(wrench, "h", "R·M/R²", self.pitch, "length")
+            wrench.put("h", "R·M/R²", self.pitch, "length")
             for i, axis in enumerate("xyz"):
-                put(wrench, f"{axis}0", f"{axis} + (R × M)_{axis}/R²", float(self.axis_point[i]), "length")
+                wrench.put(f"{axis}0", f"{axis} + (R × M)_{axis}/R²", float(self.axis_point[i]), "length")
         else:
             wrench.say(
                 say(
@@ -263,7 +259,7 @@ class Resultant(Result):
         parts += [spatial(each) for each in self.system.couples.values()]
         formulas = ("Σ (y·Fz − z·Fy)", "Σ (z·Fx − x·Fz)", "Σ (x·Fy − y·Fx)")
         for i, (axis, formula) in enumerate(zip("xyz", formulas, strict=True)):
-            put(step, f"M{axis}", formula, self.moment[i], "torque", numbers=signed([p[i] for p in parts]))
+            step.put(f"M{axis}", formula, self.moment[i], "torque", numbers=signed([p[i] for p in parts]))
 
 
 def _tidy(total: Floats, parts: list[Floats]) -> Floats:
@@ -332,15 +328,13 @@ def asked_steps(
         step.law(f"e = ({', '.join(number(float(c)) for c in line.way)})")
         numbers = dot_text(vector, line.way)
         along = float(vector @ line.way)
-        put(step, "F_along", f"{of}·e", along, "force", numbers=numbers)
-        of_size: dict[str, Value] = {
-            of: (float(np.linalg.norm(vector)), "force"),
-            "F_along": (along, "force"),
-        }
-        put(step, "F_across", f"√({of}² − F_along²)", float(np.linalg.norm(vector - along * line.way)), "force",
-            of=of_size)  # fmt: skip
+        step.put("F_along", f"{of}·e", along, "force", numbers=numbers)
+        step.known[normal(of)] = (float(np.linalg.norm(vector)), "force")
+        step.put(
+            "F_across", f"√({of}² − F_along²)", float(np.linalg.norm(vector - along * line.way)), "force"
+        )
         if np.any(vector):
-            put(step, "φ", f"arccos(F_along/{of})", angle_between(vector, line.way), "angle", of=of_size)
+            step.put("φ", f"arccos(F_along/{of})", angle_between(vector, line.way), "angle")
         found.append(step)
     for name, a, b in pairs:
         if not (np.any(vectors[a]) and np.any(vectors[b])):
@@ -354,7 +348,7 @@ def asked_steps(
         )
         sizes = "·".join(number(float(np.linalg.norm(vectors[each]))) for each in (a, b))
         numbers = f"arccos({number(float(vectors[a] @ vectors[b]))}/({sizes}))"
-        put(step, "φ", f"arccos({a}·{b}/(|{a}|·|{b}|))", angle_between(vectors[a], vectors[b]), "angle",
+        step.put("φ", f"arccos({a}·{b}/(|{a}|·|{b}|))", angle_between(vectors[a], vectors[b]), "angle",
             numbers=numbers)  # fmt: skip
         found.append(step)
     return found
@@ -490,7 +484,7 @@ class PointEquilibrium(Result):
         solved.say(say(_("In matrix form A·X = B:")))
         solved.items.append(system(a, list(self.magnitudes), b, rows))
         for name, value in self.magnitudes.items():
-            put(solved, name, "", value, "force")
+            solved.put(name, "", value, "force")
             if value < 0:
                 solved.say(say(_("{name} acts against its direction.", name=name)))
         found = [directions, sums, solved]

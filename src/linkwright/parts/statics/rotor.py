@@ -12,7 +12,7 @@ from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
-from linkwright.parts.base import Problem, Result, Value, fault, put, signed
+from linkwright.parts.base import Problem, Result, fault, signed
 from linkwright.parts.fields import Named, Table
 from linkwright.words import Say, _
 
@@ -185,26 +185,21 @@ class RotorBalance(Result):
                 step.law("k = (z' − z)/(z' − z0)")
             for mass, each in self.rotor.masses.items():
                 share = self.share(name, each.at) + 0.0  # no -0
-                given: dict[str, Value] = {"m": (each.mass, "mass"), "r": (each.radius, "length"), "k": share}
-                put(step, f"(m·r)_{mass}", "m·r·k" if len(self.unbalances) > 1 else "m·r",
-                    each.mass * each.radius * share, "mass_radius", of=given)  # fmt: skip
+                step.known |= {"m": (each.mass, "mass"), "r": (each.radius, "length"), "k": share}
+                step.put(f"(m·r)_{mass}", "m·r·k" if len(self.unbalances) > 1 else "m·r",
+                    each.mass * each.radius * share, "mass_radius")  # fmt: skip
             shares = [each.product * self.share(name, each.at) for each in self.rotor.masses.values()]
             for axis, of, parts in (("x", "cos", [each.real for each in shares]),
                                     ("y", "sin", [each.imag for each in shares])):  # fmt: skip
                 total = unbalance.real if axis == "x" else unbalance.imag
-                put(step, f"U{axis}", f"Σ m·r·{'k·' if len(self.unbalances) > 1 else ''}{of} θ", total,
+                step.put(f"U{axis}", f"Σ m·r·{'k·' if len(self.unbalances) > 1 else ''}{of} θ", total,
                     "mass_radius", numbers=signed(parts))  # fmt: skip
-            both: dict[str, Value] = {
-                "Ux": (unbalance.real, "mass_radius"),
-                "Uy": (unbalance.imag, "mass_radius"),
-            }
-            put(step, "U", "√(Ux² + Uy²)", abs(unbalance), "mass_radius", of=both)
+            step.put("U", "√(Ux² + Uy²)", abs(unbalance), "mass_radius")
             radius = self.rotor.planes[name].radius
-            given = {"U": (abs(unbalance), "mass_radius"), "r_b": (radius, "length")}
-            put(step, "m_b", "U/r_b", abs(self.counterweights[name]), "mass", of=given)
+            step.put("m_b", "U/r_b", abs(self.counterweights[name]), "mass", of={"r_b": (radius, "length")})
             if unbalance:
                 plain = {"Ux": unbalance.real, "Uy": unbalance.imag}
-                put(step, "θ_b", "atan2(−Uy, −Ux)", _angle(self.counterweights[name]), "angle", of=plain)
+                step.put("θ_b", "atan2(−Uy, −Ux)", _angle(self.counterweights[name]), "angle", of=plain)
             found.append(step)
         return found
 

@@ -18,7 +18,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Result, fault, put
+from linkwright.parts.base import Result, fault
 from linkwright.parts.statics.balance import Balance, structure_balance
 from linkwright.parts.statics.body import describe
 from linkwright.structure import StructureError, structure
@@ -180,5 +180,5 @@ def balance_step(balance: Balance | None, number: str, say: Say) -> Step:
     )
     step.items.append(system(balance.a, list(balance.names), balance.b, balance.rows))
     for name, unit, value in zip(balance.names, balance.units, balance.x.tolist(), strict=True):
-        put(step, name, "", value, "force" if unit == "N" else "torque")
+        step.put(name, "", value, "force" if unit == "N" else "torque")
     return step

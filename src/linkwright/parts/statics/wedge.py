@@ -13,7 +13,7 @@ from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
-from linkwright.parts.base import Problem, Result, Value, fault, put
+from linkwright.parts.base import Problem, Result, fault
 from linkwright.words import Say, _
 
 
@@ -153,19 +153,16 @@ class WedgeForces(Result):
 
     def steps(self, say: Say) -> list[Step]:
         step = Step("1", say(_("Force polygons of load and wedge")))
-        known: dict[str, Value] = {"Q": (self.wedge.load, "force"), "α": (self.wedge.angle, "angle")}
+        step.known |= {"Q": (self.wedge.load, "force"), "α": (self.wedge.angle, "angle")}
         for index, angle in zip(("", "f", "w"), self.wedge.friction_angles, strict=True):
-            put(step, f"ρ{index}", f"arctan μ{index}", angle, "angle", of={f"μ{index}": math.tan(angle)})
-            known[f"ρ{index}"] = (angle, "angle")
+            step.put(f"ρ{index}", f"arctan μ{index}", angle, "angle", of={f"μ{index}": math.tan(angle)})
         step.say(say(_("Raising: friction acts against the way up.")))
-        put(step, "R", "Q·cos ρw/cos(α + ρ + ρw)", self.wedge.between(1), "force", of=known)
-        raised: dict[str, Value] = {**known, "R": (self.wedge.between(1), "force")}
-        put(step, "P_up", "R·sin(α + ρ + ρf)/cos ρf", self.raising, "force", of=raised)
+        step.put("R", "Q·cos ρw/cos(α + ρ + ρw)", self.wedge.between(1), "force")
+        step.put("P_up", "R·sin(α + ρ + ρf)/cos ρf", self.raising, "force")
         step.say(say(_("Lowering: all friction angles change their signs.")))
-        put(step, "R", "Q·cos ρw/cos(|α − ρ| − ρw)", self.wedge.between(-1), "force", of=known)
-        sunk: dict[str, Value] = {**known, "R": (self.wedge.between(-1), "force")}
-        put(step, "P_down", "R·sin(α − ρ − ρf)/cos ρf", self.lowering, "force", of=sunk)
-        put(step, "η", "Q·tan α/P_up", self.efficiency, of={**known, "P_up": (self.raising, "force")})
+        step.put("R", "Q·cos ρw/cos(|α − ρ| − ρw)", self.wedge.between(-1), "force")
+        step.put("P_down", "R·sin(α − ρ − ρf)/cos ρf", self.lowering, "force")
+        step.put("η", "Q·tan α/P_up", self.efficiency)
         step.say(
             say(
                 _("The wedge locks itself: it must be pulled out.")

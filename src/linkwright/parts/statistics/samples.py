@@ -15,10 +15,10 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
 from linkwright.core.table import PARTS_PER_MILLION, Block, Row, Scale, in_si
 from linkwright.equations.reading import measured
-from linkwright.equations.steps import Step
+from linkwright.equations.steps import Step, Value
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, Text, Word, given
-from linkwright.parts.base import Problem, Result, Value, fault, put
+from linkwright.parts.base import Problem, Result, fault
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Numbers, Sample, Table, Whole
 from linkwright.parts.statistics.describe import (
     DISTRIBUTIONS,
@@ -577,7 +577,7 @@ class Statistics(Result):
             step = Step(
                 str(len(found) + 1), f"{name}: {say(f'statistics.h_{self.problem.tests[name].kind}')}"
             )
-            put(step, outcome.symbol, outcome.formula, outcome.statistic)
+            step.put(outcome.symbol, outcome.formula, outcome.statistic)
             step.law(f"p {_probability(outcome.p)}")
             step.say(self._test_rows(name, say)[1].note)
             found.append(step)
@@ -592,14 +592,14 @@ class Statistics(Result):
                 value, text = float(value) / scale.factor, scale.unit
                 symbol = "b_0" if term == "1" else f"b_{term.replace('^', '')}"
                 step.law(f"{symbol} = {measured(f'{value:.6g} {text}'.rstrip())}")
-            put(step, "R²", "1 − Σ e²/Σ (y − ȳ)²", r.determination)
+            step.put("R²", "1 − Σ e²/Σ (y − ȳ)²", r.determination)
             found.append(step)
         for name, c in self.capabilities.items():
             step = Step(str(len(found) + 1), say(_("Capability of {name}", name=name)))
             mark = "C" if c.within else "P"
             if c.cp is not None:
-                put(step, f"{mark}p", "(U − L)/(6·σ)", c.cp, of=self._limits_of(name), digits=8)
-            put(step, f"{mark}pk", self._nearest(name), c.cpk, of=self._limits_of(name), digits=8)
+                step.put(f"{mark}p", "(U − L)/(6·σ)", c.cp, of=self._limits_of(name), digits=8)
+            step.put(f"{mark}pk", self._nearest(name), c.cpk, of=self._limits_of(name), digits=8)
             found.append(step)
         return found
 

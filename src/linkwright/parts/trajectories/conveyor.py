@@ -18,7 +18,7 @@ from linkwright.fields.base import Quantity, Text, given
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Result, Value, fault, put
+from linkwright.parts.base import Result, fault
 from linkwright.parts.fields import Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
@@ -247,19 +247,18 @@ class Transport(Result):
         law.law("|f| ≤ μ·n")
         law.say(f"{say('trajectory.slide')}:")
         law.law("s̈ = −f ∓ μ'·n")
-        put(law, "g_n", "", trough.gravity[1], "acceleration")
-        put(law, "Γ", "max(−a_n)/|g_n|", self.throw_number)
+        law.put("g_n", "", trough.gravity[1], "acceleration")
+        law.put("Γ", "max(−a_n)/|g_n|", self.throw_number)
         if math.isfinite(self.needed_friction):
-            put(law, "μ_min", "max(|f|/n)", self.needed_friction)
+            law.put("μ_min", "max(|f|/n)", self.needed_friction)
         for phase in self.motion.phases[:24]:
             word = say(f"trajectory.{phase.mode}")
             ends = " … ".join(
                 shown(self._input(time), self._input_kind, 5) for time in (phase.start, phase.end)
             )
             found.say(f"{ends}: {word}")
-        put(found, "Δs", "", self.motion.displacement, "length")
-        of: dict[str, Value] = {"Δs": (self.motion.displacement, "length"), "T": (trough.period, "time")}
-        put(found, "v", "Δs/T", self.speed, "velocity", of=of)
+        found.put("Δs", "", self.motion.displacement, "length")
+        found.put("v", "Δs/T", self.speed, "velocity", of={"T": (trough.period, "time")})
         if any(phase.mode == FLIGHT for phase in self.motion.phases):
             found.say(
                 say(

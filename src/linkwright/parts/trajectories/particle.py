@@ -18,7 +18,7 @@ from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Problem, Result, Value, fault, put
+from linkwright.parts.base import Problem, Result, fault
 from linkwright.parts.mechanism_field import load_beside
 from linkwright.words import Say, _
 
@@ -306,15 +306,14 @@ class Flight(Result):
         p, step = self.particle, Step("1", say(_("Equations of motion and their solution")))
         if p.quadratic:
             step.law("m·v̇_x = −k·v·v_x; m·v̇_y = −m·g − k·v·v_y; v = √(v_x² + v_y²)")
-            of: dict[str, Value] = {
+            of = {
                 "m": (p.mass, "mass"), "g": (p.gravity, "acceleration"), "k": (p.quadratic, "linear_density"),
             }  # fmt: skip
-            put(step, "v∞", "√(m·g/k)", math.sqrt(p.mass * p.gravity / p.quadratic), "velocity", of=of)
+            step.put("v∞", "√(m·g/k)", math.sqrt(p.mass * p.gravity / p.quadratic), "velocity", of=of)
         elif p.linear:
             step.law("m·v̇_x = −b·v_x; m·v̇_y = −m·g − b·v_y")
             step.law("x = v_x·τ·(1 − e^(−t/τ)); y = h + (v_y + g·τ)·τ·(1 − e^(−t/τ)) − g·τ·t")
-            put(
-                step,
+            step.put(
                 "τ",
                 "m/b",
                 p.mass / p.linear,
@@ -323,16 +322,13 @@ class Flight(Result):
             )
         else:
             step.law("x = v_x·t; y = h + v_y·t − g·t²/2")
-        of = {"v": (p.speed or 0.0, "velocity"), "α": (p.angle or 0.0, "angle")}
-        put(step, "v_x", "v·cos α", self.first[0], "velocity", of=of)
-        put(step, "v_y", "v·sin α", self.first[1], "velocity", of=of)
+        step.known |= {"v": (p.speed or 0.0, "velocity"), "α": (p.angle or 0.0, "angle"), "h": (p.height, "distance"),
+                       "g": (p.gravity, "acceleration")}  # fmt: skip
+        step.put("v_x", "v·cos α", self.first[0], "velocity")
+        step.put("v_y", "v·sin α", self.first[1], "velocity")
         free = not (p.linear or p.quadratic)
-        of = {
-            "v_x": (self.first[0], "velocity"), "v_y": (self.first[1], "velocity"), "h": (p.height, "distance"),
-            "g": (p.gravity, "acceleration"), "T": (self.duration, "time"),
-        }  # fmt: skip
-        put(step, "T", "(v_y + √(v_y² + 2·g·h))/g" if free else "", self.duration, "time", of=of)
-        put(step, "x(T)", "v_x·T" if free else "", self.range, "distance", of=of)
+        step.put("T", "(v_y + √(v_y² + 2·g·h))/g" if free else "", self.duration, "time")
+        step.put("x(T)", "v_x·T" if free else "", self.range, "distance")
         top = "h + v_y²/(2·g)" if free and self.first[1] > 0 else ""
-        put(step, "y_max", top, self.top, "distance", of=of)
+        step.put("y_max", top, self.top, "distance")
         return [step]

@@ -25,7 +25,7 @@ from linkwright.laws.base import MOTION_LAWS, MotionLaw
 from linkwright.laws.fitting import motion_law
 from linkwright.laws.program_fields import LawField
 from linkwright.laws.residual import residual
-from linkwright.parts.base import Problem, Result, Value, fault, put
+from linkwright.parts.base import Problem, Result, fault
 from linkwright.parts.vibration.linear import Linear, largest_between
 from linkwright.words import Say, _
 
@@ -235,11 +235,10 @@ class FollowerVibration(Result):
         step = Step("1", say(_("A mass driven through a spring")))
         step.say(say(_("Rise s(u) = h·f(u) with u = t/T; law f: {law}.", law=self.problem.said)))
         step.law("z = x − s; z̈ + 2·ζ·ω·ż + ω²·z = −s̈")
-        of: dict[str, Value] = {"k": (self.problem.stiffness, "stiffness"), "m": (self.problem.mass, "mass")}
-        put(step, "ω", "√(k/m)", self.frequency, "angular_velocity", of=of)
-        of = {"ω": (self.frequency, "angular_velocity"), "T": (self.problem.rise_time, "time")}
-        put(step, "n", "ω·T/(2·π)", self.ratio, of=of)
-        put(step, "A", "|∫ s̈·e^(i·ω·t) dt|/ω", float(self.residual()[0]), "length")
+        of = {"k": (self.problem.stiffness, "stiffness"), "m": (self.problem.mass, "mass")}
+        step.put("ω", "√(k/m)", self.frequency, "angular_velocity", of=of)
+        step.put("n", "ω·T/(2·π)", self.ratio, of={"T": (self.problem.rise_time, "time")})
+        step.put("A", "|∫ s̈·e^(i·ω·t) dt|/ω", float(self.residual()[0]), "length")
         quiet = self._quiet()
         if quiet:
             step.say(

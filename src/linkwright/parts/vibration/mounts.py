@@ -19,7 +19,7 @@ from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Result, Value, fault, put
+from linkwright.parts.base import Result, fault
 from linkwright.parts.fields import Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.vibration.linear import largest_between
@@ -387,17 +387,15 @@ class Shaken(Result):
             Step("1", say(_("Natural frequencies and speeds to avoid"))),
             Step("2", say(_("Harmonics: shaking force → motion, force on the ground"))),
         )
-        put(own, "ω", "2·π/T", self.speed, "angular_velocity", of={"T": (2 * math.pi / self.speed, "time")})
+        own.put("ω", "2·π/T", self.speed, "angular_velocity", of={"T": (2 * math.pi / self.speed, "time")})
         if self.problem.mounts:
             own.law("det(K − ω²·M) = 0")
         ways = ["1", "2", "3"] if self.problem.mounts else list(self.axes)
         for i, way in enumerate(ways):
-            of: dict[str, Value] = {
-                f"k{way}": (float(np.diag(self.problem.stiffness)[i]), "stiffness"),
-                "m": (self.problem.mass, "mass"),
-            }
+            stiffness = float(np.diag(self.problem.stiffness)[i])
+            of = {f"k{way}": (stiffness, "stiffness"), "m": (self.problem.mass, "mass")}
             formula = "" if self.problem.mounts else f"√(k{way}/m)"
-            put(own, f"ω{way}", formula, float(self.frequencies[i]), "angular_velocity", of=of)
+            own.put(f"ω{way}", formula, float(self.frequencies[i]), "angular_velocity", of=of)
         for i, way in enumerate(ways):
             speeds = ", ".join(
                 number(60 * float(self.frequencies[i]) / (2 * math.pi) / k, digits=4)
@@ -418,7 +416,7 @@ class Shaken(Result):
             for i, axis in enumerate(self.axes):
                 (_unused, kind), (_unused2, way), _unused3 = TITLES[axis]
                 mark = "θ" if axis == "turn" else axis
-                put(each, f"F{k}{mark}", "", float(abs(self.harmonics[k, i])), kind)
-                put(each, f"X{k}{mark}", "", float(abs(self.moved[k, i])), way)
-                put(each, f"G{k}{mark}", "", float(abs(self.passed[k, i])), kind)
+                each.put(f"F{k}{mark}", "", float(abs(self.harmonics[k, i])), kind)
+                each.put(f"X{k}{mark}", "", float(abs(self.moved[k, i])), way)
+                each.put(f"G{k}{mark}", "", float(abs(self.passed[k, i])), kind)
         return [own, each]

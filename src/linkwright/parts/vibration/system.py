@@ -21,7 +21,7 @@ from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
-from linkwright.parts.base import Problem, Result, Value, fault, put
+from linkwright.parts.base import Problem, Result, fault
 from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
 from linkwright.parts.vibration.excitation import (
     EXCITATION,
@@ -589,15 +589,6 @@ class Vibration(Result):
             )
         return Block("response", say(_("Response in time")), rows)
 
-    def _single(self) -> dict[str, Value]:
-        """Stiffness, mass and damping of a system of one mass."""
-        words = TURNING if self.system.turning else STRAIGHT
-        return {
-            "k": (float(self.linear.stiffness[0, 0]), words["stiffness"]),
-            "m": (float(self.linear.mass[0, 0]), words["mass"]),
-            "c": (float(self.linear.damping[0, 0]), words["damping"]),
-        }
-
     def steps(self, say: Say) -> list[Step]:
         matrices, modes = (
             Step("1", say(_("Equations of motion M·ẍ + C·ẋ + K·x = F"))),
@@ -614,13 +605,15 @@ class Vibration(Result):
         one = len(self.frequencies) == 1
         modes.say(say(_("roots of the characteristic equation, and poles λ of the damped system")))
         modes.law("det(K − ω²·M) = 0")
-        of = self._single() if one else {}
+        if one:
+            words = TURNING if self.system.turning else STRAIGHT
+            for symbol, what in (("k", "stiffness"), ("m", "mass"), ("c", "damping")):
+                modes.known[symbol] = (float(getattr(self.linear, what)[0, 0]), words[what])
         for i, own in enumerate(self.frequencies):
-            put(modes, f"ω{i + 1}", "√(k/m)" if one else "", float(own), "angular_velocity", of=of)
-            put(modes, f"f{i + 1}", f"ω{i + 1}/(2·π)", own / (2 * math.pi), "frequency",
-                of={f"ω{i + 1}": (float(own), "angular_velocity")})  # fmt: skip
+            modes.put(f"ω{i + 1}", "√(k/m)" if one else "", float(own), "angular_velocity")
+            modes.put(f"f{i + 1}", f"ω{i + 1}/(2·π)", own / (2 * math.pi), "frequency")
             if self.linear.damping.any():
-                put(modes, f"ζ{i + 1}", "c/(2·√(k·m))" if one else "", float(self.damping_ratios[i]), of=of)
+                modes.put(f"ζ{i + 1}", "c/(2·√(k·m))" if one else "", float(self.damping_ratios[i]))
         if not one:
             for i in range(len(self.frequencies)):
                 modes.items.append(named_matrix(f"φ{i + 1}", self.shapes[:, i : i + 1]))
@@ -629,8 +622,7 @@ class Vibration(Result):
             forced = Step("3", say(_("Forced vibration")))
             forced.law("(K − ω²·M + i·ω·C)·X = F")
             for row in self._forced(say).rows:
-                put(
-                    forced,
+                forced.put(
                     row.label or say(_("transmissibility")),
                     "",
                     float(row.value),
@@ -641,6 +633,6 @@ class Vibration(Result):
             timed = Step(str(len(found) + 1), say(_("Response in time")))
             timed.law("M·ẍ + C·ẋ + K·x = F(t)")
             for row in self._timed(say).rows:
-                put(timed, row.label, "", float(row.value), row.dimension)
+                timed.put(row.label, "", float(row.value), row.dimension)
             found.append(timed)
         return found
