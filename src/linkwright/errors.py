@@ -186,4 +186,4 @@ def about(
     try:
         yield
     except of as error:
-        raise kind("cli.about", name=name, cause=error) from None
+        raise kind(_("{name}: {cause}", code="cli.about", name=name, cause=error)) from None

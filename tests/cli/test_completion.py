@@ -67,7 +67,7 @@ def test_fish_says_what_a_command_does_in_the_language() -> None:
     for language in words.LANGUAGES:
         script = shown("completion", "fish", "--lang", language)
         for name in every(commands.names()):
-            summary = words.say(f"{name}.summary", language).replace("'", "\\'")
+            summary = commands.command(name).SUMMARY.translate(language).replace("'", "\\'")
             assert f"-a {name} -d '{summary}'" in script
 
 

@@ -14,13 +14,14 @@ from tests.cli.commands import is_refused, run
 import linkwright as lw
 from linkwright import words
 from linkwright.cli import main
+from linkwright.words import _
 
 RUN = [sys.executable, "-m", "linkwright"]
 CHECK = ["check", "gallery:kite"]
 COMMANDS = (CHECK, ["--help"], ["gallery", "show", "kite"], ["metrics", "gallery:kite", "--json"])
 #: What is said of an output that cannot be written, before the reason.
-LOST = f"{words.say('cli.error')}: {words.say('cli.output_lost', reason='')}".rstrip("()")
-INTERRUPTED = words.say("cli.interrupted") + "\n"
+LOST = f"{_('error')}: {_('the output cannot be written ({reason})', reason='')}".rstrip("()")
+INTERRUPTED = words.say(_("interrupted")) + "\n"
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="streams and signals of POSIX systems")
 
@@ -67,8 +68,11 @@ def test_an_interrupt_at_any_time_ends_quietly(tmp_path: Path, wait: float) -> N
         assert process.stdout.readline() == "up\n"
         time.sleep(wait)
         process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=60)
-    kept = [words.say("study.interrupted", path=left.name) + "\n" for left in tmp_path.iterdir()]
+        _unused, said = process.communicate(timeout=60)
+    kept = [
+        words.say(_("Interrupted; run the same command with --state {path} to go on.", path=left.name)) + "\n"
+        for left in tmp_path.iterdir()
+    ]
     assert said in ("", INTERRUPTED, "".join([*kept, INTERRUPTED]))
     assert process.returncode == 130
 

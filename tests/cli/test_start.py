@@ -11,6 +11,7 @@ from tests.every import every
 import linkwright
 from linkwright import words
 from linkwright.cli import commands, main
+from linkwright.words import _
 
 
 def test_bare_command_offers_three_commands_that_work() -> None:
@@ -34,8 +35,18 @@ def test_help_lists_every_command(asked: list[str]) -> None:
 def test_help_of_a_command_has_examples_and_exit_codes(name: str, language: str) -> None:
     printed = shown("help", name, "--lang", language)
     assert f"linkwright {name}" in printed
-    assert words.say("cli.examples", language) in printed
-    assert words.say("cli.exit_codes", language).splitlines()[-1] in printed
+    assert _("examples").translate(language) in printed
+    assert (
+        _(
+            "0    done, nothing to complain about\n"
+            "1    an error in the model, or a position that cannot be reached\n"
+            "2    the command itself is wrong: an unknown option, name or file\n"
+            "130  interrupted",
+        )
+        .translate(language)
+        .splitlines()[-1]
+        in printed
+    )
 
 
 def test_version_says_whether_compiled_evaluation_is_there(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -102,7 +113,7 @@ def test_a_file_name_with_a_slip_offers_the_nearest(
 
 def test_the_language_is_that_of_the_option_or_of_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     slip = ["gallery", "show", "kiet"]
-    english, chinese = (words.say("cli.error", language) for language in ("en", "zh"))
+    english, chinese = (_("error").translate(language) for language in ("en", "zh"))
     for arguments, environment, head in (
         ([], None, english), ([], "zh", chinese), (["--lang=en"], "zh", english), (["--lang", "zh"], None, chinese),
         ([], "de", english),

@@ -9,10 +9,11 @@ from tests.unit.words.catalogued import sentences
 from linkwright import words
 from linkwright.cli import commands
 from linkwright.errors import speaker
+from linkwright.words import _
 
 
 def fields(text: str) -> set[str]:
-    return {name for _, name, _, _ in string.Formatter().parse(text) if name is not None}
+    return {name for _unused, name, _unused2, _unused3 in string.Formatter().parse(text) if name is not None}
 
 
 @pytest.mark.parametrize("language", words.LANGUAGES[1:])
@@ -27,23 +28,24 @@ def test_every_text_is_translated_with_the_same_values(language: str) -> None:
 
 @pytest.mark.parametrize("name", commands.names())
 def test_every_command_has_its_words(name: str) -> None:
-    assert {"summary", "description", "examples"} <= set(words.catalogue(name))
+    command = commands.command(name)
+    assert command.EXAMPLES
+    for message in (command.SUMMARY, command.DESCRIPTION):
+        assert all(message.translate(language) != message for language in words.LANGUAGES[1:])
 
 
 def test_unknown_keys_and_languages_are_refused() -> None:
     with pytest.raises(KeyError):
-        words.say("cli.nothing_of_this_name")
-    with pytest.raises(KeyError):
-        words.say("nothing.summary")
+        words.say("nothing.of_this_name")
     with pytest.raises(KeyError):
         speaker("de")
 
 
 def test_values_are_put_in() -> None:
     for language in words.LANGUAGES:
-        text = words.say("cli.written", language)
+        text = _("written: {path}").translate(language)
         assert "{path}" in text
-        assert speaker(language)("cli.written", path="a.csv") == text.replace("{path}", "a.csv")
+        assert speaker(language)(_("written: {path}", path="a.csv")) == text.replace("{path}", "a.csv")
 
 
 #: Half-width marks where a Chinese sentence goes on; between a key and its value of the file format they stay.

@@ -6,13 +6,20 @@ from collections.abc import Sequence
 from importlib.util import find_spec
 
 from linkwright.cli import commands
-from linkwright.cli.parser import CommandParser, Options, add_common
+from linkwright.cli.parser import COMMON, CommandParser, Options, add_common
 from linkwright.cli.session import Session
 from linkwright.core import VERSION
-from linkwright.words import Say, _
+from linkwright.words import Say, _, language_of
 from linkwright.words.characters import aligned_within
+from linkwright.words.sentence import in_language
 
 INDENT = "  "
+EXIT_CODES = _(
+    "0    done, nothing to complain about\n"
+    "1    an error in the model, or a position that cannot be reached\n"
+    "2    the command itself is wrong: an unknown option, name or file\n"
+    "130  interrupted",
+)
 
 
 def overview(session: Session) -> None:
@@ -23,31 +30,18 @@ def overview(session: Session) -> None:
     def rows(pairs: Sequence[tuple[str, str]]) -> str:
         return "\n".join(line for lines in aligned_within(pairs, "<<", room) for line in lines)
 
-    names = [(name, say(f"{name}.summary")) for name in commands.names()]
-    options = [
-        ("-h, --help", "help_help"),
-        ("--version", "version_help"),
-        ("--lang en|zh", "lang_help"),
-        ("--json", "json_help"),
-        ("--debug", "debug_help"),
-    ]
+    names = [(name, say(commands.command(name).SUMMARY)) for name in commands.names()]
+    options = [(option, say(what)) for option, what in COMMON.items()]
     session.show(
         "\n".join(
             [
-                f"{say('cli.usage')}{say('cli.usage_line')}\n",
-                f"{say('cli.tagline')}\n",
+                f"{say(_('usage: '))}{say(_('linkwright COMMAND [options]'))}\n",
+                f"{say(_('Linkwright: analysis and design of planar machines.'))}\n",
                 _section(say(_("commands")), rows(names)),
-                _section(say(_("options")), rows([(option, say(f"cli.{key}")) for option, key in options])),
+                _section(say(_("options")), rows(options)),
                 _section(
                     say(_("exit codes")),
-                    say(
-                        _(
-                            "0    done, nothing to complain about\n"
-                            "1    an error in the model, or a position that cannot be reached\n"
-                            "2    the command itself is wrong: an unknown option, name or file\n"
-                            "130  interrupted",
-                        )
-                    ),
+                    say(EXIT_CODES),
                 ),
                 say(_("linkwright COMMAND --help explains a command, with examples.")),
             ]
@@ -57,25 +51,18 @@ def overview(session: Session) -> None:
 
 def command_parser(name: str, say: Say) -> CommandParser:
     """The parser of a command with its help text."""
+    command = commands.command(name)
     epilog = "\n".join(
         [
-            _section(say(_("examples")), say(f"{name}.examples")),
+            _section(say(_("examples")), in_language(command.EXAMPLES, language_of(say))),
             _section(
                 say(_("exit codes")),
-                say(
-                    _(
-                        "0    done, nothing to complain about\n"
-                        "1    an error in the model, or a position that cannot be reached\n"
-                        "2    the command itself is wrong: an unknown option, name or file\n"
-                        "130  interrupted",
-                    )
-                ),
+                say(EXIT_CODES),
             ),
         ]
     )
-    parser = CommandParser(f"linkwright {name}", say, description=say(f"{name}.description"), epilog=epilog)
-    command = commands.command(name)
-    command.arguments(Options(parser, say, name))
+    parser = CommandParser(f"linkwright {name}", say, description=say(command.DESCRIPTION), epilog=epilog)
+    command.arguments(Options(parser, say))
     parser.surplus = getattr(command, "surplus", parser.surplus)
     add_common(parser, say)
     return parser

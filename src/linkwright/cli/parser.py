@@ -11,6 +11,15 @@ from linkwright.cli.reading import read
 from linkwright.errors import with_remedy
 from linkwright.words import Message, Say, _
 
+#: Options that every command has, or the program without a command, and what they do.
+COMMON = {
+    "-h, --help": _("show this help"),
+    "--version": _("print the versions of what is at work"),
+    "--lang en|zh": _("language of what is printed: en or zh (default: LINKWRIGHT_LANG, else en)"),
+    "--json": _("print data (JSON, SI units) for programs"),
+    "--debug": _("show where in the program an unexpected error arose"),
+}
+
 
 class CommandParser(argparse.ArgumentParser):
     """The declared options of a command and its help; ``reading`` takes the words apart.
@@ -81,65 +90,76 @@ def number_of(text: str) -> float:
 
 
 class Options:
-    """Declares options in a parser or a group of one; what ``--name`` does is the word ``AREA.name_help``."""
+    """Declares options in a parser or a group of one, each with what it does as ``help``."""
 
-    def __init__(self, place: argparse._ActionsContainer, say: Say, area: str) -> None:
-        self.place, self.say, self.area = place, say, area
+    def __init__(self, place: argparse._ActionsContainer, say: Say) -> None:
+        self.place, self.say = place, say
 
     def __call__(
-        self, name: str, metavar: str | None = None, *others: str, words: str = "", **settings: Any
+        self, name: str, metavar: str | None = None, *others: str, help: Message, **settings: Any
     ) -> None:
-        """An option or an argument, with further names; ``words``: a key of another area or name for its help."""
-        key = words or f"{self.area}.{name.lstrip('-').replace('-', '_')}_help"
-        settings["help"] = settings.get("help") or self.say(key)
-        self.place.add_argument(
-            name, *others, **settings if metavar is None else {**settings, "metavar": metavar}
-        )
+        """An option or an argument, with further names."""
+        if metavar is not None:
+            settings["metavar"] = metavar
+        self.place.add_argument(name, *others, help=self.say(help), **settings)
 
-    def flag(self, name: str, words: str = "") -> None:
+    def flag(self, name: str, help: Message) -> None:
         """An option that stands or does not."""
-        self(name, action="store_true", words=words)
+        self(name, action="store_true", help=help)
 
-    def either(self, name: str, usual: bool | None) -> None:
+    def either(self, name: str, usual: bool | None, help: Message) -> None:
         """An option that stands, stands with ``no-`` before it, or does not."""
-        self(name, action=argparse.BooleanOptionalAction, default=usual)
+        self(name, action=argparse.BooleanOptionalAction, default=usual, help=help)
 
-    def count(self, name: str, usual: int | None = None, **settings: Any) -> None:
+    def count(self, name: str, usual: int | None = None, *, help: Message) -> None:
         """An option with a whole number, 1 or more."""
-        self(name, "N", type=whole_number, default=usual, **settings)
+        self(name, "N", type=whole_number, default=usual, help=help)
 
     def model(self) -> None:
         """The model file that a command takes."""
-        self("file", "FILE", words="cli.file_help")
+        self("file", "FILE", help=_("model file, or gallery:NAME"))
 
     def force(self) -> None:
         """Whether files may be replaced."""
-        self.flag("--force", words="cli.force_help")
+        self.flag("--force", _("replace files that exist"))
 
-    def fonts(self) -> None:
+    def fonts(self, metavar: str = "FILE|FOLDER") -> None:
         """Fonts beside the system's, for a command that draws; :mod:`linkwright.cli.start` uses them."""
-        self("--fonts", "FILE|FOLDER", nargs="+", default=(), words="draw.fonts_help")
+        self(
+            "--fonts",
+            metavar,
+            nargs="+",
+            default=(),
+            help=_("font files, or folders of them, used before the system's"),
+        )
 
-    def group(self, title: str) -> Options:
+    def cluster(self) -> None:
+        """Where the work is done."""
+        self(
+            "--cluster",
+            "ADDRESS",
+            help=_(
+                "address of a Dask scheduler, such as tcp://host:8786 (extra cluster); else threads here",
+            ),
+        )
+
+    def state(self) -> None:
+        """Where finished parts are kept."""
+        self("--state", "FILE", help=_("keep finished parts in this file, and go on from it where it exists"))
+
+    def group(self, title: Message) -> Options:
         """Options under a title of their own in the help."""
-        return Options(self.place.add_argument_group(self.say(self._key(title))), self.say, self.area)
+        return Options(self.place.add_argument_group(self.say(title)), self.say)
 
     def exclusive(self) -> Options:
         """Options of which one may stand."""
-        return Options(self.place.add_mutually_exclusive_group(), self.say, self.area)
-
-    def of(self, area: str) -> Options:
-        """The same place, with the words of another area."""
-        return Options(self.place, self.say, area)
-
-    def _key(self, name: str) -> str:
-        return name if "." in name else f"{self.area}.{name}"
+        return Options(self.place.add_mutually_exclusive_group(), self.say)
 
 
 def add_common(parser: argparse.ArgumentParser, say: Say) -> None:
     """Options that every command has."""
-    common = Options(parser, say, "cli").group("common")
-    common.flag("--json")
-    common("--lang", "en|zh")
-    common.flag("--debug")
-    common("-h", None, "--help", action="store_true", words="cli.help_help")
+    common = Options(parser, say).group(_("options of every command"))
+    common.flag("--json", COMMON["--json"])
+    common("--lang", "en|zh", help=COMMON["--lang en|zh"])
+    common.flag("--debug", COMMON["--debug"])
+    common("-h", None, "--help", action="store_true", help=COMMON["-h, --help"])

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.files.calculations import COMMANDS
-from linkwright.words import _
+from linkwright.core.dataclass import dataclass
+from linkwright.words import Message, _
 
 if TYPE_CHECKING:
     from linkwright.parts.base import Problem, Result
@@ -23,12 +23,18 @@ DIGITS = range(3, 16)
 
 def part_arguments(option: Options) -> None:
     """The options that all commands for machine parts have."""
-    option = option.of("part")
-    option("file", "FILE")
-    option.flag("--worked")
-    option("--digits", "N", type=int, choices=DIGITS, default=6)
-    option("--plot", "FILE")
-    option("--output", "FILE")
+    option("file", "FILE", help=_("file with kind: …, or gallery:NAME"))
+    option.flag("--worked", help=_("show the way to the numbers, step by step"))
+    option(
+        "--digits",
+        "N",
+        type=int,
+        choices=DIGITS,
+        default=6,
+        help=_("significant digits of the numbers (3 to 15; default: 6)"),
+    )
+    option("--plot", "FILE", help=_("draw the diagram in a .svg, .pdf or .png file"))
+    option("--output", "FILE", help=_("write curves to a .csv file or all numbers to a .json file"))
     option.fonts()
     option.force()
 
@@ -42,21 +48,6 @@ def run_part(options: argparse.Namespace, session: Session, command: str) -> int
     return 0
 
 
-class PartCommand:
-    """A command that solves a file of its kinds and does nothing else."""
-
-    def __init__(self, name: str) -> None:
-        self.name = name
-
-    def arguments(self, option: Options) -> None:
-        """The options that all commands for machine parts have."""
-        part_arguments(option)
-
-    def run(self, options: argparse.Namespace, session: Session) -> int:
-        """Solves the file's problem."""
-        return run_part(options, session, self.name)
-
-
 def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
     """Raises UsageError for files that could not be written, before any work is done."""
     from linkwright.cli.files import PICTURES, refuse_output
@@ -67,6 +58,7 @@ def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
 
 def read(source: str, command: str, session: Session) -> Problem:
     """The problem of a file; UsageError where its kind belongs to another command."""
+    from linkwright.files.calculations import COMMANDS
     from linkwright.parts.file import GALLERY, kind_of, load
     from linkwright.words.titles import title_said
 
@@ -113,3 +105,99 @@ def show(result: Result, options: argparse.Namespace, session: Session, *, kind:
     language = session.language
     text = result.worked(language) if options.worked else result.text(language, options.digits)
     session.show_result(result, options.output, options.plot, text=text)
+
+
+@dataclass(frozen=True)
+class PartCommand:
+    """A command that solves a file of its kinds and does nothing else."""
+
+    name: str
+    SUMMARY: Message
+    DESCRIPTION: Message
+    EXAMPLES: str
+
+    def arguments(self, option: Options) -> None:
+        """The options that all commands for machine parts have."""
+        part_arguments(option)
+
+    def run(self, options: argparse.Namespace, session: Session) -> int:
+        """Solves the file's problem."""
+        return run_part(options, session, self.name)
+
+
+PART_COMMANDS = {
+    "beam": PartCommand(
+        "beam",
+        _("beams on any supports; bending of a mechanism's link over its cycle"),
+        _(
+            """\
+Finds reactions, shear force, bending moment, slope and deflection of a beam on any
+supports (also statically indeterminate, stepped, with hinges and springs), stress and
+safety; and the bending of a link of a mechanism under its joint forces, loads, weight
+and inertia, with stress, safety and the needed section over the cycle."""
+        ),
+        """\
+linkwright beam gallery:cantilever
+linkwright beam gallery:propped_cantilever --worked
+linkwright beam gallery:pitman_bending --plot bending.svg""",
+    ),
+    "program": PartCommand(
+        "program",
+        _("minimise or maximise under constraints: linear, integer, nonlinear"),
+        _(
+            """\
+Solves the optimisation program of a small file: variables with bounds (continuous,
+whole, or from a list), an expression to minimise or maximise, constraints by name.
+Explains which constraints are active and what one more unit of each is worth; says
+which constraints cannot hold together where there is no solution."""
+        ),
+        """\
+linkwright program gallery:production_mix
+linkwright program gallery:lightest_spring --worked
+linkwright program gallery:gear_pair --json""",
+    ),
+    "statistics": PartCommand(
+        "statistics",
+        _("samples described, fitted, tested, regressed; process capability"),
+        _(
+            """\
+Describes samples of measurements (mean, deviation, quartiles, intervals), fits
+distributions, tests hypotheses (mean, variance, two samples, pairs, analysis of
+variance, normality, correlation), fits lines and polynomials, and finds process
+capability against limits."""
+        ),
+        """\
+linkwright statistics gallery:shaft_diameters
+linkwright statistics gallery:spring_rate --plot rate.svg
+linkwright statistics gallery:shaft_diameters --worked --lang zh""",
+    ),
+    "trajectory": PartCommand(
+        "trajectory",
+        _("a thrown particle with drag; the load on a swinging conveyor"),
+        _(
+            """\
+Finds the flight of a particle thrown in a vertical plane, with linear or quadratic
+drag, also from a point of a mechanism; and what a swinging conveyor's trough does to
+its load: rest, sliding forward and back, throw, and the mean speed of transport."""
+        ),
+        """\
+linkwright trajectory gallery:thrown_ball
+linkwright trajectory gallery:conveyor_load --plot load.svg
+linkwright trajectory gallery:conveyor_load --worked""",
+    ),
+    "vibration": PartCommand(
+        "vibration",
+        _("natural frequencies, modes and responses; cam followers; machines on mounts"),
+        _(
+            """\
+Finds natural frequencies, modes and damping of masses (or discs) joined by springs and
+dampers, their free and forced vibration (force, unbalance, moving ground, measured
+force), transmissibility and the best absorber; the vibration that a cam's motion law
+leaves behind in a follower; and what a mechanism's shaking force does on mounts."""
+        ),
+        """\
+linkwright vibration gallery:two_masses
+linkwright vibration gallery:tuned_absorber --plot absorber.svg
+linkwright vibration gallery:machine_on_mounts --worked""",
+    ),
+}

@@ -5,43 +5,51 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, whole_number
 from linkwright.cli.session import Session
 from linkwright.errors import LinkwrightError, about
-from linkwright.kinematics.motion import Motion
-from linkwright.mechanism.mechanism import Mechanism
-from linkwright.registry import no_such
-from linkwright.words import _
+from linkwright.words import Message, _
+
+if TYPE_CHECKING:
+    from linkwright.kinematics.motion import Motion
+    from linkwright.mechanism.mechanism import Mechanism
 
 
 def source_arguments(option: Options, *, steps: int) -> None:
     """The model file, and the steps of its cycle."""
     option.model()
-    option.count(
-        "--steps", steps, help=option.say(_("equal steps over the cycle (default: {steps})", steps=steps))
-    )
+    option.count("--steps", steps, help=_("equal steps over the cycle (default: {steps})", steps=steps))
 
 
 def vector_arguments(option: Options) -> None:
     """What may be drawn as arrows."""
-    drawn = option.of("draw")
-    drawn("--velocities", "POINT", nargs="*")
-    drawn("--accelerations", "POINT", nargs="*")
-    drawn("--forces", "JOINT", nargs="*")
-    drawn.flag("--static")
-    drawn.flag("--centres")
+    option("--velocities", "POINT", nargs="*", help=_("velocities of these points; of all without names"))
+    option(
+        "--accelerations", "POINT", nargs="*", help=_("accelerations of these points; of all without names")
+    )
+    option(
+        "--forces",
+        "JOINT",
+        nargs="*",
+        help=_(
+            "loads and forces in these joints (B: on its last link, rocker.B: on that link); in "
+            "all without names",
+        ),
+    )
+    option.flag("--static", help=_("forces without inertia"))
+    option.flag("--centres", help=_("mark the mass centres"))
 
 
-def file_arguments(option: Options) -> None:
-    """Where the picture goes, how large, and in which letters."""
-    group = option.group("draw.form_title")
-    group("--output", "FILE", required=True)
+def file_arguments(option: Options, output: Message) -> None:
+    """Where the picture goes (``output``: help for that), how large, and in which letters."""
+    group = option.group(_("file"))
+    group("--output", "FILE", required=True, help=output)
     group.force()
-    drawn = group.of("draw")
-    drawn("--width", "PIXELS", type=whole_number)
-    drawn.fonts()
+    group("--width", "PIXELS", type=whole_number, help=_("pixels across (SVG and PDF: of the longer side)"))
+    group.fonts()
 
 
 def names(words: Sequence[str] | None) -> tuple[str, ...]:
@@ -57,6 +65,7 @@ def names_or_all(words: Sequence[str] | None) -> tuple[str, ...] | bool:
 def refuse_unknown_marks(mechanism: Mechanism, options: argparse.Namespace) -> None:
     """Raises UsageError for a point of a path, a point or a joint of an arrow that does not exist."""
     from linkwright.kinematics.names import point_key
+    from linkwright.registry import no_such
 
     for option in ("paths", "velocities", "accelerations"):
         given = names(getattr(options, option))

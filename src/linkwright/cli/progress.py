@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 from linkwright.cli.session import Session
 from linkwright.core.progress import Progress, reporting
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _
 
 BAR = 24
 CLEAR = "\r\x1b[K"
@@ -18,9 +18,9 @@ KNOWN = 1.0
 
 
 @contextmanager
-def progress(say: Say, what: str) -> Iterator[Progress | None]:
+def progress(say: Say, what: Message) -> Iterator[Progress | None]:
     """A function that is told (done, total) and shows a bar with the time that is left; None where nobody would see
-    it. All long work within the block tells it as well. ``what``: a key of the catalogue.
+    it. All long work within the block tells it as well.
 
     The bar is wiped when all is done, also where the work is interrupted.
     """
@@ -39,7 +39,7 @@ def progress(say: Say, what: str) -> Iterator[Progress | None]:
             begun = now
         before, spent = done, now - begun
         if done and spent > KNOWN:
-            bar += f"  {say('cli.time_left', time=_time(spent * (total - done) / done))}"
+            bar += f"  {say(_('about {time} left', time=_time(spent * (total - done) / done)))}"
         stream.write(CLEAR + (bar if done < total else ""))  # results may be shown at once
         stream.flush()
 
@@ -62,7 +62,7 @@ def kept(
 
     try:
         with (
-            progress(session.say, "study.computing") as report,
+            progress(session.say, _("computing designs")) as report,
             kept_in(state, name, *asked, progress=report),
         ):
             yield report

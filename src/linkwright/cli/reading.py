@@ -17,7 +17,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.errors import with_remedy
 from linkwright.registry import nearest
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
 
 _NUMBER_WITH_MINUS = re.compile(r"-[\d.]")
 _AMOUNT = re.compile(r"[+-]?\.?\d")
@@ -137,8 +136,12 @@ def _converted(action: argparse.Action, name: str, word: str, parser: argparse.A
         try:
             value = action.type(word)
         except ValueError:
-            key = "cli.bad_number" if action.type is float else "cli.bad_whole"
-            raise _slip(parser, Sentence(key, name=name, value=word)) from None
+            said = (
+                _('{name} takes a number, not "{value}"', code="cli.bad_number")
+                if action.type is float
+                else _('{name} takes a whole number, not "{value}"', code="cli.bad_whole")
+            )
+            raise _slip(parser, said.format(name=name, value=word)) from None
     if action.choices is not None and value not in action.choices:
         offered = tuple(map(str, action.choices))
         raise _slip(

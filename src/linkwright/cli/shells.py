@@ -28,7 +28,7 @@ class Option:
 def script(shell: str, say: Say) -> str:
     """The script that a shell reads; ``shell`` is one of ``SHELLS``."""
     table = {name: options_of(command_parser(name, say)) for name in commands.names()}
-    summaries = {name: say(f"{name}.summary") for name in table}
+    summaries = {name: say(commands.command(name).SUMMARY) for name in table}
     if shell == "fish":
         return _fish(table, summaries)
     body = _bash(table)

@@ -14,8 +14,7 @@ from linkwright.cli.help import command_parser, overview, version
 from linkwright.cli.parser import did_you_mean
 from linkwright.cli.session import Session
 from linkwright.errors import NO_FILE, LinkwrightError, ModelError, RequestError, about, speaker
-from linkwright.words import LANGUAGES, _
-from linkwright.words.sentence import Sentence
+from linkwright.words import LANGUAGES, Message, _
 
 FINE, FAULTY, MISUSED, INTERRUPTED = 0, 1, 2, 130
 
@@ -78,7 +77,11 @@ def _dispatch(arguments: list[str], session: Session) -> int:
     elif unknown := [
         word for word in head if word not in ("--json", "--debug") and not word.startswith("--lang")
     ]:
-        raise _unknown("cli.unknown_option", unknown[0], ["--help", "--version", "--lang"])
+        raise _unknown(
+            _('there is no option "{name}"', code="cli.unknown_option", name=unknown[0]),
+            unknown[0],
+            ["--help", "--version", "--lang"],
+        )
     else:
         session.show(
             session.say(
@@ -104,7 +107,7 @@ def _dispatch(arguments: list[str], session: Session) -> int:
 def _command(name: str, arguments: list[str], session: Session) -> int:
     known = commands.names()
     if name not in known:
-        raise _unknown("cli.unknown_command", name, known)
+        raise _unknown(_('there is no command "{name}"', code="cli.unknown_command", name=name), name, known)
     parser = command_parser(name, session.say)
     if "--help" in arguments or "-h" in arguments:
         session.show_as_is(parser.format_help().rstrip())
@@ -156,9 +159,9 @@ def _language(arguments: Sequence[str], usual: str) -> str:
     return chosen
 
 
-def _unknown(key: str, word: str, known: Sequence[str]) -> UsageError:
+def _unknown(said: Message, word: str, known: Sequence[str]) -> UsageError:
     hint = _("see {command} --help", command="linkwright")
-    return UsageError(did_you_mean(Sentence(key, name=word), word, known, hint))
+    return UsageError(did_you_mean(said, word, known, hint))
 
 
 def _refused(error: LinkwrightError, session: Session) -> int:

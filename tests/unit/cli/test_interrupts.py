@@ -8,8 +8,9 @@ import pytest
 
 from linkwright import words
 from linkwright.cli import main
+from linkwright.words import _
 
-INTERRUPTED = words.say("cli.interrupted") + "\n"
+INTERRUPTED = words.say(_("interrupted")) + "\n"
 SEARCH = [
     "optimize", "gallery:jaw_crusher_sixbar", "--vary", "pitman.length=1.15..1.35m", "crank.length=80..120mm",
     "--keep", "jaw.angle range=same within 1 %", "--evaluations", "200",
@@ -116,7 +117,9 @@ def test_an_interruption_before_the_first_population_leaves_a_file_to_go_on_from
         )  # before anything has been measured
         assert main(asked) == 130
         (left,) = tmp_path.iterdir()
-        going_on = words.say("study.interrupted", path=left.name)
+        going_on = words.say(
+            _("Interrupted; run the same command with --state {path} to go on.", path=left.name)
+        )
         assert capsys.readouterr().err == f"{going_on}\n{INTERRUPTED}"
         kept = left.read_bytes()
         assert main([*asked, "--state", left.name, "--lang", "zh"]) == 130
@@ -124,7 +127,10 @@ def test_an_interruption_before_the_first_population_leaves_a_file_to_go_on_from
         assert left.read_bytes() == kept  # a file that is there already stays
         patched.setattr("linkwright.designs.optimise.optimize.read_document", interrupt)
         assert main(asked) == 130
-        assert capsys.readouterr().err == words.say("optimize.nothing_yet") + f"\n{INTERRUPTED}"
+        assert (
+            capsys.readouterr().err
+            == words.say(_("Nothing new had been computed; run the same command again.")) + f"\n{INTERRUPTED}"
+        )
     assert main([*asked, "--json"]) == 0
     whole = capsys.readouterr().out
     assert main([*asked, "--json", "--state", left.name]) == 0

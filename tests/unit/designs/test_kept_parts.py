@@ -19,7 +19,7 @@ from linkwright.designs.finished_parts import _made, _plain
 from linkwright.designs.study import PIECE, _Work
 from linkwright.designs.sweep_run import SweepRun
 from linkwright.formula.reductions import Results
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 pytestmark = pytest.mark.rotating
 
@@ -128,12 +128,18 @@ def test_what_a_cluster_finds_is_kept_piece_by_piece(tmp_path: Path, monkeypatch
     for name, column in whole.metrics.items():
         assert column.tobytes() == resumed.metrics[name].tobytes() == again.metrics[name].tobytes()
     assert whole.text("zh") == resumed.text("zh") == again.text("zh")
-    for (_, one), (_, other) in zip(lines, spread, strict=True):
+    for (_unused, one), (_unused2, other) in zip(lines, spread, strict=True):
         assert one["rocker.angle"].tobytes() == other["rocker.angle"].tobytes()
 
 
 def test_values_that_are_kept_come_back_to_the_bit() -> None:
-    sentence = Sentence("study.fail", count=3, place="A", example=Sentence("study.leave_out"))
+    sentence = _(
+        "{count} fail {place}, such as: {example}",
+        code="study.fail",
+        count=3,
+        place="A",
+        example=_("leave it out", code="study.leave_out"),
+    )
     values = np.array([0.1, -0.0, np.inf, 5e-324])
     given = {"a": (values, [1, 0.1, float("inf"), None, True, sentence]), 3: {"b": values > 0}}
     back = _made(_plain(given))

@@ -29,7 +29,7 @@ from linkwright.report.report import report
 from linkwright.report.section import SECTIONS
 from linkwright.report.sections.reactions import loaded_joints
 from linkwright.report.settings import settings
-from linkwright.words import LANGUAGES, has, say
+from linkwright.words import LANGUAGES, _, has, pgettext, say
 from linkwright.words.titles import title_said
 
 typst = pytest.importorskip("typst")
@@ -55,7 +55,7 @@ def test_every_section_has_a_title_and_the_command_knows_all() -> None:
 
 def test_mobility_stands_with_its_numbers_and_both_torques_agree() -> None:
     found = report("gallery:jaw_crusher_sixbar", sections=["structure", "torque"])
-    (mobility, *_) = [b for b in found.document.blocks if isinstance(b, Formula)]
+    (mobility, *_unused) = [b for b in found.document.blocks if isinstance(b, Formula)]
     assert tuple(map(latex, mobility.sides[1:])) == ("3\\,n - 2\\,p", "3\\cdot 5 - 2\\cdot 7", "1")
     table = next(b for b in found.document.blocks if isinstance(b, Table) and b.label == "torque-both")
     assert len(table.rows) == 24 and all(row[2] == row[3] for row in table.rows)
@@ -83,7 +83,7 @@ def test_an_unknown_element_is_refused_and_the_rest_is_there(monkeypatch: pytest
     found = report("gallery:crank_rocker", sections=["task", "method", "limits"])
     assert any(reason in sentence for sentence in found.missing)
     headings = [b.text for b in found.document.blocks if isinstance(b, Heading)]
-    assert headings[-1] == say("report.title_limits", "en")
+    assert headings[-1] == _("Limit positions and design numbers").translate("en")
 
 
 def test_an_error_of_the_program_does_not_end_the_report(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -96,7 +96,7 @@ def test_an_error_of_the_program_does_not_end_the_report(monkeypatch: pytest.Mon
     found = report("gallery:crank_rocker", sections=["limits", "structure"])
     assert found.broken and "ZeroDivisionError" in found.missing[0]
     heads = [b.text for b in found.document.blocks if isinstance(b, Heading)]
-    assert say("report.title_structure", "en") in heads
+    assert _("Structure analysis").translate("en") in heads
 
 
 @pytest.mark.rotating
@@ -195,14 +195,14 @@ def test_results_that_are_nothing_beside_the_largest_of_their_unit_are_zero() ->
 def test_what_a_train_does_not_carry_or_does_not_change_is_said_in_one_place() -> None:
     """Two of the three planets are idle and all forces keep their size: no table of one number."""
     found = report("gallery:planetary_two_inputs", sections=["tables", "reactions", "limits"], language="zh")
-    peaks, *_ = [b for b in found.document.blocks if isinstance(b, Table) and b.label == "peaks"]
+    peaks, *_unused = [b for b in found.document.blocks if isinstance(b, Table) and b.label == "peaks"]
     told = {plain(row[0]): row[1:] for row in peaks.rows}
-    ground = say("nouns.joint_on_link", "zh", joint="O", link=say("nouns.frame", "zh"))
+    ground = _("{joint} on {link}", joint="O", link=_("frame").translate("zh")).translate("zh")
     assert told[ground] == told["sun_2"] == ("0 N", "")  # 3.6e-13 N by rounding
     assert told["sun_1"][0].startswith("886.8")  # 20 N·m / (24 mm · cos 20°)
     (numbers,) = [b for b in found.document.blocks if isinstance(b, Table) and b.label == "numbers"]
     assert not [row for row in every(numbers.rows) if "10^{-1" in row[3 - 1]]
-    constant = say("report.constant", "zh", values="|").partition("|")[0]
+    constant = _("Constant over the cycle: {values}.", values="|").translate("zh").partition("|")[0]
     said = [b.text for b in found.document.blocks if isinstance(b, Paragraph) and constant in b.text]
     assert any("= 20 N" in each and "= 60 N" in each for each in said)
     heads = [head for b in found.document.blocks if isinstance(b, Table) for head in b.head]
@@ -227,7 +227,7 @@ def test_residuals_show_two_digits() -> None:
 
 def test_mobility_of_a_machine_with_gears_racks_and_a_cam_adds_up() -> None:
     found = report("gallery:printing_press", sections=["structure"])
-    (mobility, *_) = [b for b in found.document.blocks if isinstance(b, Formula)]
+    (mobility, *_unused) = [b for b in found.document.blocks if isinstance(b, Formula)]
     assert tuple(map(latex, mobility.sides[1:])) == (
         "3\\,n - 2\\,p_{L} - p_{H}",
         "3\\cdot 12 - 2\\cdot 15 - 5",
@@ -275,14 +275,20 @@ def test_a_section_on_cams_shows_the_machines_own_profile() -> None:
     assert not found.missing
     printed = " ".join(plain(cell) for b in found.document.blocks if isinstance(b, Table)
                        for row in b.rows for cell in row)  # fmt: skip
-    assert say("cams.pressure_angle_rise", "en") in printed and say("cams.hollow_radius", "en") in printed
+    assert (
+        pgettext("cams", "pressure angle, rise").translate("en") in printed
+        and _("smallest hollow radius").translate("en") in printed
+    )
 
 
 def test_every_joint_force_has_its_hodograph() -> None:
     crusher = lw.load("gallery:jaw_crusher_sixbar")
     figure = lw.plot(crusher, "hodographs").figure
     drawn = [axes.get_title() for axes in figure.axes if axes.axison]
-    wanted = [say("plot.force_on", "en", joint=joint, link=link) for joint, link in reaction_pairs(crusher)]
+    wanted = [
+        _("{joint}, force on {link}", joint=joint, link=link).translate("en")
+        for joint, link in reaction_pairs(crusher)
+    ]
     assert drawn == wanted and len(wanted) == 8
 
 
@@ -465,8 +471,12 @@ def test_what_solve_notes_stands_in_the_report_too(language: str) -> None:
         blocks = report(lw.loads(LIFTED_OFF), sections=[section], language=language).document.blocks
         notes = [plain(b.text) for b in blocks if isinstance(b, Paragraph) and b.kind == "note"]
         note = {"forces": pulls, "motion": turns}[kind]
-        begin, _, _ = note.format(places="|").translate(language).partition("|")
+        begin, _unused, _unused2 = note.format(places="|").translate(language).partition("|")
         assert [each.startswith(begin) for each in notes] == [True]
-        apart = say("forces.friction_apart", language, names="way")
+        apart = _(
+            "The force in a guide is what presses its parts together; its friction, μ times "
+            "that, along the guide, comes on top: {names}",
+            names="way",
+        ).translate(language)
         texts = [plain(b.text) for b in blocks if isinstance(b, Paragraph)]
         assert (apart in texts) == (section == "reactions")

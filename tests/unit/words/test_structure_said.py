@@ -18,9 +18,9 @@ from linkwright.groups.base import DYADS
 from linkwright.kinematics.outcome import Outcome
 from linkwright.kinematics.rank import rank_from_drawing
 from linkwright.kinematics.rank_of_motion import jacobian_rank, rank_sentence
-from linkwright.words import Message
+from linkwright.words import Message, _
 from linkwright.words.characters import cells
-from linkwright.words.sentence import Sentence, code_of, in_language, values_of
+from linkwright.words.sentence import code_of, in_language, values_of
 
 CRUSHER = "jaw_crusher_sixbar"
 SYMBOLS = {"F", "n", "p", "p_H", "w", "m"}
@@ -88,7 +88,7 @@ def test_no_english_is_left_in_the_structure_of_any_model(name: str) -> None:
 
 
 def test_columns_stand_under_each_other_on_a_terminal() -> None:
-    outer = words.say("structure_text.outer", "zh", outer="").strip()
+    outer = _("outer joints {outer}", outer="").translate("zh").strip()
     rows = [line for line in lw.structure(store.machine(CRUSHER)).text("zh").splitlines() if outer in line]
     assert len(rows) == 3
     assert len({cells(row[: row.index(outer)]) for row in rows}) == 1
@@ -182,8 +182,13 @@ def test_every_dyad_says_what_is_missing(signature: str, facts: dict[str, float]
 
 
 def test_sentences_survive_copies_and_processes() -> None:
-    inner = Sentence("rank.rotation", joint="slot")
-    outer = Sentence("rank.guide", guides=("slot",), redundant=(inner,))
+    inner = _("rotation at {joint}", code="rank.rotation", joint="slot")
+    outer = _(
+        "the guide {guides} closes a loop in which rotation is already prevented ({redundant})",
+        code="rank.guide",
+        guides=("slot",),
+        redundant=(inner,),
+    )
     for again in (copy.deepcopy(outer), pickle.loads(pickle.dumps(outer))):
         assert again == outer
         assert again.say("zh") == outer.say("zh")
@@ -194,7 +199,9 @@ def test_sentences_survive_copies_and_processes() -> None:
 def test_data_for_programs_stay_english(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["structure", f"gallery:{CRUSHER}", "--json", "--lang", "zh"]) == 0
     rank = json.loads(capsys.readouterr().out)["rank"]
-    assert rank == words.say("rank.confirmed", count=1)
+    assert rank == words.say(
+        _("Grübler's mobility {count} is confirmed by the rank of the Jacobian", count=1)
+    )
     path = tmp_path / "linkage.yaml"
     path.write_text(PARALLELOGRAM, encoding="utf-8")
     assert main(["solve", str(path), "--json", "--lang", "zh"]) == 0

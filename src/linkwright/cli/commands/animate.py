@@ -24,6 +24,18 @@ if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
     from linkwright.kinetostatics.forces import Forces
 
+SUMMARY = _("the moving drawing, as SVG, GIF or MP4")
+DESCRIPTION = _(
+    """\
+Shows one cycle of a mechanism as a moving drawing, with traces of points, arrows
+and curves whose cursor runs along. An open cycle runs to and fro. A moving SVG
+runs by itself in browsers and readme files."""
+)
+EXAMPLES = """\
+linkwright animate gallery:theo_jansen_leg --paths leg.T --output leg.svg
+linkwright animate crusher.yaml --paths C --curves jaw.angle --output crusher.gif
+linkwright animate crusher.yaml --forces --curves driver.effort --seconds 4 --output crusher.mp4"""
+
 ENDINGS = (".svg", ".gif", ".mp4")
 STEPS = 360
 FRAMES = 60
@@ -32,19 +44,34 @@ WIDTH = 640
 
 def arguments(option: Options) -> None:
     source_arguments(option, steps=STEPS)
-    what = option.group("draw.what_title")
-    what("--paths", "POINT", "--traces", nargs="+")
-    what("--curves", "RESULT", nargs="+")
+    what = option.group(_("contents"))
+    what(
+        "--paths",
+        "POINT",
+        "--traces",
+        nargs="+",
+        help=_("paths of points with a dot that runs along: C,jaw.D"),
+    )
+    what(
+        "--curves",
+        "RESULT",
+        nargs="+",
+        help=_("results drawn below: jaw.angle, C.velocity.x; with --forces also driver.effort"),
+    )
     vector_arguments(what)
-    what.either("--labels", True)
-    pace = option.group("pace_title")
-    pace("--seconds", "TIME")
+    what.either("--labels", True, help=_("names of points"))
+    pace = option.group(_("pace"))
+    pace(
+        "--seconds",
+        "TIME",
+        help=_("time of one cycle on the screen (default: the true one, within 2 to 6 s)"),
+    )
     pace.count(
         "--frames",
         FRAMES,
-        help=option.say(_("positions shown in one cycle (default: {frames})", frames=FRAMES)),
+        help=_("positions shown in one cycle (default: {frames})", frames=FRAMES),
     )
-    file_arguments(option)
+    file_arguments(option, _("write FILE.svg, FILE.gif or FILE.mp4"))
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -75,7 +102,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         size=options.width,
         language=session.language,
     )
-    with progress(session.say, "animate.drawing") as report:
+    with progress(session.say, _("drawing")) as report:
         path = animation.save(options.output, width=options.width or WIDTH, progress=report, force=True)
     told(path, options, session)
     return int(not motion.whole)

@@ -17,15 +17,40 @@ if TYPE_CHECKING:
     from linkwright.machine.balancing import Balancing
     from linkwright.mechanism.mechanism import Mechanism
 
+SUMMARY = _("counterweights for a four-bar or slider-crank, and their effect")
+DESCRIPTION = _(
+    """\
+Lays out counterweights for a four-bar or a slider-crank, for full or partial
+balance of the shaking force, and shows the peaks of shaking force, shaking moment
+and input torque without and with them. --output writes the balanced model."""
+)
+EXAMPLES = """\
+linkwright balance gallery:jaw_crusher_fourbar --radius "crank=200 mm, jaw=500 mm"
+linkwright balance press.yaml --radius 120mm --share 0.5
+linkwright balance linkage.yaml --radius 80mm --output balanced.yaml"""
+
 ENDINGS = (".yaml", ".yml")
 
 
 def arguments(option: Options) -> None:
     option.model()
-    option("--radius", "LENGTH", required=True)
-    option("--share", "NUMBER", default="1")
-    option.count("--steps", 360)
-    option("--output", "FILE")
+    option(
+        "--radius",
+        "LENGTH",
+        required=True,
+        help=_(
+            "distance of the counterweights from the pins that carry them, one (80mm) or by link "
+            '("crank=80 mm, rod=40 mm")',
+        ),
+    )
+    option(
+        "--share",
+        "NUMBER",
+        default="1",
+        help=_("share that is balanced, from 0 to 1 (default 1: the shaking force vanishes)"),
+    )
+    option.count("--steps", 360, help=_("positions over the cycle for the comparison (default 360)"))
+    option("--output", "FILE", help=_("write the balanced model to a .yaml file"))
     option.force()
 
 

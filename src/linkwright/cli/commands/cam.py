@@ -16,17 +16,39 @@ from linkwright.words import _
 if TYPE_CHECKING:
     from linkwright.cams.result import CamDesign
 
+SUMMARY = _("cams: profile, checks, diagrams, points for a mill")
+DESCRIPTION = _(
+    """\
+Makes a cam from the motion program in a file: the profile for a roller, knife-edge or
+flat-faced follower, translating or oscillating, a groove, a conjugate pair or a barrel
+cam; pressure angle, curvature, undercut, spring, contact force and pressure, torque,
+vibration; what is left out (base circle, offset, roller, spring) is chosen."""
+)
+EXAMPLES = """\
+linkwright cam gallery:cam_flat_face
+linkwright cam gallery:cam_roller --plot motion.svg --draw cam.svg
+linkwright cam gallery:cam_roller --kind cam_profile --plot pressure.svg
+linkwright cam gallery:cam_roller --profile cam.dxf --points 1440"""
+
 DIAGRAMS = ("cam_motion", "cam_checks", "cam_profile", "cam_vibration")
 PROFILES, DRAWINGS = (".dxf", ".csv", ".txt"), (".svg", ".pdf", ".png")
 
 
 def arguments(option: Options) -> None:
     part_arguments(option)
-    option("--kind", choices=DIAGRAMS, default=DIAGRAMS[0])
-    option("--profile", "FILE")
-    option.count("--points", 720)
-    option("--draw", "FILE")
-    option("--at", "DEG", type=float, default=0.0)
+    option("--kind", choices=DIAGRAMS, default=DIAGRAMS[0], help=_("kind of diagram for --plot"))
+    option(
+        "--profile", "FILE", help=_("write the profile to a .dxf, .csv or .txt file (x y z in mm for a mill)")
+    )
+    option.count("--points", 720, help=_("points of the profile (default: 720)"))
+    option("--draw", "FILE", help=_("draw cam and follower in a .svg, .pdf or .png file"))
+    option(
+        "--at",
+        "DEG",
+        type=float,
+        default=0.0,
+        help=_("angle of the cam in the drawing, degrees (default: 0)"),
+    )
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

@@ -3,21 +3,41 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.errors import NO_FILE
-from linkwright.file_check import Checked, checked
 from linkwright.words import _
+
+if TYPE_CHECKING:
+    from linkwright.file_check import Checked
+
+SUMMARY = _("find everything that is wrong with a model file")
+DESCRIPTION = _(
+    """\
+Reads model files and reports every finding at once, each with its place
+(file:line:column), the cause and what to do about it. A file that reads well is
+then analysed and turned through its cycle, so that a mechanism that cannot
+move, or cannot reach a position, is found as well."""
+)
+EXAMPLES = _(
+    """\
+linkwright check crusher.yaml
+linkwright check *.yaml --strict      warnings count as errors
+linkwright check crusher.yaml --json  findings for an editor or a script"""
+)
 
 
 def arguments(option: Options) -> None:
-    option("files", "FILE", nargs="+")
-    option.flag("--strict")
+    option("files", "FILE", nargs="+", help=_("model files, or gallery:NAME"))
+    option.flag("--strict", help=_("warnings count as errors"))
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Reads, analyses and turns each model once; 1 if any has an error, 2 if a file is not there."""
+    from linkwright.file_check import checked
+
     results = [(name, checked(name)) for name in options.files]
     if session.json:
         _show_data(results, session)

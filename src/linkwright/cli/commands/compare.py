@@ -13,19 +13,53 @@ from linkwright.words import _
 if TYPE_CHECKING:
     from linkwright.designs.compare import Comparison
 
+SUMMARY = _("alternatives side by side: numbers, ranking with reasons, evaluation")
+DESCRIPTION = _(
+    """\
+Compares two or more machines by the motion of an output that they share and by
+their design numbers: best values are marked, the ranking gives its reasons, and a
+written evaluation is built from the numbers (motion, pivot reaction, balancing
+torque, flywheel)."""
+)
+EXAMPLES = _(
+    """\
+linkwright compare gallery:jaw_crusher_sixbar gallery:jaw_crusher_fourbar
+linkwright compare a.yaml b.yaml --metrics peak_input_torque flywheel
+linkwright compare a.yaml b.yaml --weights flywheel=3 peak_reaction=0
+linkwright compare a.yaml b.yaml --of jaw ram          the output of each"""
+)
+
 ENDINGS = (".csv", ".json")
 
 
 def arguments(option: Options) -> None:
-    option("files", "FILE", nargs="+")
-    option("--metrics", "METRIC", nargs="+")
-    option("--weights", "NAME=NUMBER", nargs="+")
-    option("--of", "NAME", nargs="+")
-    option("--fluctuation", "δ")
-    option.count("--steps", 360)
-    option("--output", "FILE")
-    option("--curves", "FILE")
-    option("--plot", "FILE")
+    option("files", "FILE", nargs="+", help=_("two or more model files, or gallery:NAME"))
+    option(
+        "--metrics",
+        "METRIC",
+        nargs="+",
+        help=_(
+            "what to compare by: design numbers, travel, output_velocity, output_acceleration, "
+            'pivot_reaction, flywheel, or a summary of an output in quotes ("driver.effort rms")',
+        ),
+    )
+    option(
+        "--weights",
+        "NAME=NUMBER",
+        nargs="+",
+        help=_("weights in the ranking, NAME=NUMBER each (1 where none is given)"),
+    )
+    option(
+        "--of",
+        "NAME",
+        nargs="+",
+        help=_("the link or guide that does the work: one name for all, or one per file"),
+    )
+    option("--fluctuation", "δ", help=_("coefficient of speed fluctuation for the flywheels (default 0.02)"))
+    option.count("--steps", 360, help=_("positions over the cycle (default 360)"))
+    option("--output", "FILE", help=_("write the numbers to a .csv or .json file"))
+    option("--curves", "FILE", help=_("write the curves to overlay to a .csv or .json file"))
+    option("--plot", "FILE", help=_("draw the curves over each other in a .svg, .pdf or .png file"))
     option.fonts()
     option.force()
 
@@ -51,7 +85,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         refuse_output(path, ENDINGS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
     machines = [read_model(name, session)[0] for name in options.files]
-    with progress(session.say, "study.computing"):
+    with progress(session.say, _("computing designs")):
         found = compare(
             machines,
             metrics=options.metrics,

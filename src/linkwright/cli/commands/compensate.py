@@ -12,18 +12,37 @@ from linkwright.cli.session import Session
 from linkwright.errors import about
 from linkwright.words import _
 
+SUMMARY = _(
+    "a cam that keeps an output constant in a zone, such as a bed in step with its cylinder",
+)
+DESCRIPTION = _(
+    """\
+Finds the lift of a cam of the machine so that an output is constant while the input
+goes through a zone: what the follower at rest leaves is made good exactly; outside the
+zone the follower returns smoothly, with a dwell. The output is one that the model
+names (outputs: {lead: bed_guide - 180 mm*cylinder}), a coordinate, an angle or a
+displacement. --span looks for the zone of that length in which there is least to do."""
+)
+EXAMPLES = """\
+linkwright compensate gallery:printing_press lead --zone "-882.734..-1449.5665 deg"
+linkwright compensate press.yaml lead --span "567 deg" --output press_with_cam.yaml"""
+
 ENDINGS = (".yaml", ".yml", ".csv")
 
 
 def arguments(option: Options) -> None:
     option.model()
-    option("of", "OUTPUT")
-    option("--joint", "NAME", default="")
+    option("of", "OUTPUT", help=_("what is to be constant: an output of the model"))
+    option("--joint", "NAME", default="", help=_("the cam (needed where the machine has several)"))
     zone = option.exclusive()
-    zone("--zone", "FROM..TO")
-    zone("--span", "WAY")
-    option.count("--steps", 1440)
-    option("--output", "FILE")
+    zone("--zone", "FROM..TO", help=_("values of the input between which it is to be constant"))
+    zone("--span", "WAY", help=_("how long the zone is to be, of the input; its place is found"))
+    option.count("--steps", 1440, help=_("positions over the cycle (default 1440)"))
+    option(
+        "--output",
+        "FILE",
+        help=_("write the model with the cam to a .yaml file, or the table of lifts to a .csv file"),
+    )
     option.force()
 
 

@@ -7,10 +7,22 @@ import argparse
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.cli.shells import SHELLS, script
+from linkwright.words import _
+
+SUMMARY = _("shell completion: bash, zsh, fish")
+DESCRIPTION = _(
+    """\
+Prints the script with which a shell completes commands, options, their choices,
+files and the models of the gallery."""
+)
+EXAMPLES = """\
+linkwright completion bash >> ~/.bashrc
+linkwright completion zsh > ~/.zfunc/_linkwright
+linkwright completion fish > ~/.config/fish/completions/linkwright.fish"""
 
 
 def arguments(option: Options) -> None:
-    option("shell", "|".join(SHELLS), choices=SHELLS)
+    option("shell", "|".join(SHELLS), choices=SHELLS, help=_("the shell"))
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

@@ -28,6 +28,21 @@ if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.plot.drawing.dimensions import Dimension
 
+SUMMARY = _("the kinematic drawing, as SVG, PNG or PDF")
+DESCRIPTION = _(
+    """\
+Draws a mechanism in the standard symbols: at its first position, at an input or
+time that you name, with limit positions, paths of points, velocities,
+accelerations, forces and dimension lines."""
+)
+EXAMPLES = """\
+linkwright draw gallery:jaw_crusher_sixbar --output crusher.svg
+linkwright draw crusher.yaml --at "30 deg" --overlay limits --paths C,jaw.D --output crusher.pdf
+linkwright draw crusher.yaml --overlay faded:8 --velocities A B C --output crusher.png --width 1600
+linkwright draw crusher.yaml --forces --output crusher.svg --force
+linkwright draw crusher.yaml --dimensions pitman jaw O1:O3 --output crusher.svg
+linkwright draw gallery:excavator --time "2 s" --lang zh --output excavator.svg"""
+
 ENDINGS = (".svg", ".png", ".pdf")
 STEPS = 120
 LABELS: dict[str, bool | str] = {"all": True, "points": "points", "none": False}
@@ -35,18 +50,35 @@ LABELS: dict[str, bool | str] = {"all": True, "points": "points", "none": False}
 
 def arguments(option: Options) -> None:
     source_arguments(option, steps=STEPS)
-    where = option.group("where_title")
+    where = option.group(_("positions"))
     one = where.exclusive()
-    one("--at", "INPUTS")
-    one("--time", "TIME")
-    where("--overlay", "WHICH", default="")
-    what = option.group("what_title")
-    what("--paths", "POINT", "--traces", nargs="+")
+    one(
+        "--at",
+        "INPUTS",
+        help=_('draw at this input of the first driver: "30 deg"; several drivers: "NAME=…; NAME=…"'),
+    )
+    one("--time", "TIME", help=_('draw at this time: "0.5 s"'))
+    where(
+        "--overlay",
+        "WHICH",
+        default="",
+        help=_(
+            "positions beneath: limits (of the last output), limits:jaw (of a link or guide), "
+            "faded:8 (as many over the cycle)",
+        ),
+    )
+    what = option.group(_("contents"))
+    what("--paths", "POINT", "--traces", nargs="+", help=_("paths of points over the cycle: C,jaw.D"))
     vector_arguments(what)
-    what("--dimensions", "LENGTH", nargs="*")
-    what("--labels", choices=tuple(LABELS), default="all")
-    what.either("--inputs", True)
-    file_arguments(option)
+    what(
+        "--dimensions",
+        "LENGTH",
+        nargs="*",
+        help=_("lengths and angles of links (pitman, frame), between points (O1:O3); default: of all"),
+    )
+    what("--labels", choices=tuple(LABELS), default="all", help=_("names of points and links (default: all)"))
+    what.either("--inputs", True, help=_("arrows at what is driven"))
+    file_arguments(option, _("write FILE.svg, FILE.png or FILE.pdf"))
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

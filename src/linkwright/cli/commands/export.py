@@ -16,6 +16,28 @@ if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
     from linkwright.kinetostatics.forces import Forces
 
+SUMMARY = _("write results for other programs: Excel, CSV, Parquet, DXF, MuJoCo, Modelica")
+DESCRIPTION = _(
+    """\
+Solves a mechanism over its cycle, with forces where it has masses or loads, and
+writes the results to a file; the file's ending chooses the format.
+  .csv .parquet   one wide table, SI units         .json   everything, with units
+  .xlsx           one sheet per subject            .dxf    drawing at true scale
+  .xml            MuJoCo model (MJCF)              .mo     Modelica model
+  .svg .png .pdf  kinematic drawing                .html   living page, works without a network
+  .py             Python program that solves the machine group by group"""
+)
+EXAMPLES = _(
+    """\
+linkwright export gallery:jaw_crusher_sixbar --output crusher.xlsx
+linkwright export crusher.yaml --at "0..-360deg:15" --output crusher.csv --degrees
+linkwright export conveyor.yaml --output conveyor.dxf --unit mm --paths C rod.F
+linkwright export conveyor.yaml --output conveyor.xml         MuJoCo
+linkwright export conveyor.yaml --output conveyor.mo          Modelica
+linkwright export conveyor.yaml --to conveyor.html            living page
+linkwright export conveyor.yaml --to solution.py              Python program"""
+)
+
 NAMES = ("csv", "dxf", "html", "json", "mjcf", "modelica", "parquet", "pdf", "png", "python", "svg", "xlsx")
 #: Options of formats; one that a format lacks is refused with those that it has.
 OPTIONS = (
@@ -26,32 +48,61 @@ OPTIONS = (
 
 def arguments(option: Options) -> None:
     option.model()
-    option("--output", "FILE", "--to", required=True)
+    option("--output", "FILE", "--to", required=True, help=_("the file; its ending chooses the format"))
     option(
         "--format",
         "FORMAT",
         choices=NAMES,
-        help=option.say(_("the format, where the ending does not say it: {names}", names=", ".join(NAMES))),
+        help=_("the format, where the ending does not say it: {names}", names=", ".join(NAMES)),
     )
     where = option.exclusive()
-    where.count("--steps", 360)
-    where("--at", "INPUTS", nargs="+", words="solve.at_help")
-    where("--times", "TIMES", nargs="+", words="solve.times_help")
-    option("--degrees", action="store_true", default=None)
-    option("--unit", choices=("mm", "m"))
-    option("--position", "N", type=int)
-    option("--paths", "POINT", nargs="+")
-    option("--curve", choices=("polyline", "spline"))
-    for name in ("dimensions", "labels", "accelerations"):
-        option.either(f"--{name}", None)
-    option("--form", choices=("rates", "positions"))
-    option("--name", "NAME")
-    option("--timestep", "S", type=float)
-    option("--indent", "N", type=int)
-    option("--compression", "NAME")
-    option.count("--width")
-    option("--size", "N", type=float)
-    option("--beside", "FILE", nargs="+")
+    where.count("--steps", 360, help=_("positions over the cycle (default: 360)"))
+    where(
+        "--at",
+        "INPUTS",
+        nargs="+",
+        help=_(
+            'inputs of the first driver in the order wanted: "0 deg, 30 deg", 0..-360deg:15 '
+            '(from..to:step), limit positions: "rocker min, rocker max", limits; several '
+            'drivers: "NAME=…; NAME=…"',
+        ),
+    )
+    where(
+        "--times",
+        "TIMES",
+        nargs="+",
+        help=_(
+            'times in the order wanted: "0 s, 0.1 s", "0..2 s:0.1", limit positions: limits, "boom max"',
+        ),
+    )
+    option("--degrees", action="store_true", default=None, help=_("csv, xlsx: angles in degrees"))
+    option("--unit", choices=("mm", "m"), help=_("dxf: unit of the drawing, mm (default) or m"))
+    option(
+        "--position",
+        "N",
+        type=int,
+        help=_("dxf and pictures: number of the position that is drawn (default: 0)"),
+    )
+    option(
+        "--paths",
+        "POINT",
+        nargs="+",
+        help=_(
+            "dxf and pictures: points whose paths are drawn (default in dxf: all that move on curves)",
+        ),
+    )
+    option("--curve", choices=("polyline", "spline"), help=_("paths in DXF as polylines or splines"))
+    option.either("--dimensions", None, help=_("dimensions in DXF"))
+    option.either("--labels", None, help=_("names of points in DXF"))
+    option.either("--accelerations", None, help=_("acceleration equations in Modelica"))
+    option("--form", choices=("rates", "positions"), help=_("Modelica equations of rates or of positions"))
+    option("--name", "NAME", help=_("name of the Modelica model"))
+    option("--timestep", "S", type=float, help=_("time step in MuJoCo, s"))
+    option("--indent", "N", type=int, help=_("spaces of indentation in JSON"))
+    option("--compression", "NAME", help=_("compression in Parquet"))
+    option.count("--width", help=_("width of PNG, pixels"))
+    option("--size", "N", type=float, help=_("size of SVG, pixels"))
+    option("--beside", "FILE", nargs="+", help=_("html: further models on the same page, for comparison"))
     option.fonts()
     option.force()
 

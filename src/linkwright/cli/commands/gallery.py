@@ -13,11 +13,26 @@ from linkwright.errors import with_remedy
 from linkwright.registry import nearest
 from linkwright.words import _
 
+SUMMARY = _("machines and calculations that come with Linkwright: list, show, copy")
+DESCRIPTION = _(
+    """\
+Machines that come with Linkwright, from single dyads to an excavator arm. Each
+file states its purpose, its source and expected numbers. gallery:NAME stands for
+such a file wherever a command takes a model file."""
+)
+EXAMPLES = _(
+    """\
+linkwright gallery list
+linkwright gallery list crusher                  names that contain "crusher"
+linkwright gallery show slider_crank_inline
+linkwright gallery copy jaw_crusher_sixbar .     a file of your own to change"""
+)
+
 
 def arguments(option: Options) -> None:
-    option("action", "list|show|copy", nargs="?", default="list")
-    option("name", "NAME", nargs="?")
-    option("folder", "DIR", nargs="?", default=".")
+    option("action", "list|show|copy", nargs="?", default="list", help=_("what to do (default: list)"))
+    option("name", "NAME", nargs="?", help=_("name of a model; for list: a part of names"))
+    option("folder", "DIR", nargs="?", default=".", help=_("folder for the copy (default: the current one)"))
     option.force()
 
 

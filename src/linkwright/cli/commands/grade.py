@@ -10,13 +10,25 @@ from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import _
 
+SUMMARY = _("grade sheets of variants: which numbers are off, and by what usual mistake")
+DESCRIPTION = _(
+    """\
+Compares the answers of a CSV file (columns student, variant, and one per question)
+with an answer key that "linkwright variants" wrote. Wrong numbers are named, with
+the usual mistake that leads to just these numbers: degrees for radians, wrong
+assembly mode, missing parenthesis, quadrant of the arctangent, sign of the inertia
+couple, missing Coriolis term, mass centre at the wrong end, rpm for rad/s."""
+)
+EXAMPLES = """\
+linkwright grade exercise/key.json answers.csv"""
+
 ENDINGS = (".csv",)
 
 
 def arguments(option: Options) -> None:
-    option("key", "KEY")
-    option("answers", "ANSWERS")
-    option("--output", "FILE")
+    option("key", "KEY", help=_("key.json of the variants"))
+    option("answers", "ANSWERS", help=_("CSV file of the answers"))
+    option("--output", "FILE", help=_("write the grades to a .csv file"))
     option.force()
 
 

@@ -15,29 +15,105 @@ if TYPE_CHECKING:
     from linkwright.cli.machine_options import Wanted
     from linkwright.machine.running import SteadyRunning
 
+SUMMARY = _("motor and flywheel for steady running, and the speed that results")
+DESCRIPTION = _(
+    """\
+Finds what a machine needs to run steadily: mean torque and motor, energy
+fluctuation, flywheel for a required coefficient of speed fluctuation (by the usual
+formula and exactly), and the true speed over the cycle. Instead of a machine, a
+torque diagram can be given by its areas or a torque as an expression of theta."""
+)
+EXAMPLES = """\
+linkwright machine gallery:jaw_crusher_sixbar --fluctuation 0.03
+linkwright machine crusher.yaml --fluctuation 0.03 --ratio 5 --efficiency 0.9 --margin 1.2
+linkwright machine crusher.yaml --rim density=7200kg/m³,width=0.15,thickness=0.1
+linkwright machine --areas "+295, -685, +40, -340, +960, -270" --scale "5 N·m/mm, 1 deg/mm" \\
+    --speed 1800rpm --mass 36kg --gyration 150mm
+linkwright machine --torque "20000 + 9500*sin(2*theta) - 5700*cos(2*theta)" \\
+    --speed 180rpm --fluctuation 0.01
+linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(theta)" \\
+    --speed 150rpm --mass 500kg --gyration 0.4m"""
+
 ENDINGS = (".csv", ".json")
 CURVE_OPTIONS = ("scale", "load", "period", "speed", "inertia", "mass", "gyration")
 
 
 def arguments(option: Options) -> None:
-    option("file", "FILE", nargs="?")
-    what = option.group("what_title")
-    what("--fluctuation", "δ")
-    what("--ratio", "i", default="1")
-    what("--efficiency", "η", default="1")
-    what("--margin", "NUMBER", default="1")
+    option(
+        "file",
+        "FILE",
+        nargs="?",
+        help=_("model file, or gallery:NAME; leave it out with --areas or --torque"),
+    )
+    what = option.group(_("motor and flywheel"))
+    what(
+        "--fluctuation",
+        "δ",
+        help=_("required coefficient of speed fluctuation (of a machine: 0.02 where left out)"),
+    )
+    what(
+        "--ratio",
+        "i",
+        default="1",
+        help=_("speed of the flywheel's shaft over that of the crank (default 1)"),
+    )
+    what(
+        "--efficiency",
+        "η",
+        default="1",
+        help=_("efficiency of all between motor and crank, up to 1 (default 1)"),
+    )
+    what("--margin", "NUMBER", default="1", help=_("factor on the motor's power, 1 or more (default 1)"))
     shape = what.exclusive()
-    for name in ("disk", "rim"):
-        shape(f"--{name}", "KEY=VALUE,…", nargs="?", const="")
-    curves = option.group("curves_title")
+    shape(
+        "--disk",
+        "KEY=VALUE,…",
+        nargs="?",
+        const="",
+        help=_("dimensions as a disk: density=7850kg/m³,width=0.1 (width over diameter)"),
+    )
+    shape(
+        "--rim",
+        "KEY=VALUE,…",
+        nargs="?",
+        const="",
+        help=_("dimensions as a rim: density=…,width=0.1,thickness=0.1 (over the outer diameter)"),
+    )
+    curves = option.group(_("a torque diagram instead of a machine"))
     given = curves.exclusive()
-    given("--areas", "MM²,…")
-    given("--torque", "EXPRESSION")
-    for name in CURVE_OPTIONS:
-        curves(f"--{name}", name.upper())
-    form = option.group("form_title")
-    form.count("--steps", 360)
-    form("--output", "FILE")
+    given(
+        "--areas",
+        "MM²,…",
+        help=_(
+            'areas between torque curve and mean line in mm², in turn: "+295, -685, …"; needs '
+            '--scale; or works: "+580 J, -320 J, …"',
+        ),
+    )
+    given(
+        "--torque", "EXPRESSION", help=_('driving torque in N·m over theta in rad: "5000 + 600*sin(2*theta)"')
+    )
+    curves(
+        "--scale",
+        "SCALE",
+        help=_('scales of the diagram: "5 N·m/mm, 1 deg/mm", or the work of an area: "20 J/mm²"'),
+    )
+    curves(
+        "--load",
+        "LOAD",
+        help=_("resisting torque in N·m over theta (default: constant, the mean of --torque)"),
+    )
+    curves("--period", "PERIOD", help=_("angle of a cycle (default 360deg; four-stroke engines 720deg)"))
+    curves("--speed", "SPEED", help=_("mean speed of the shaft: 180rpm"))
+    curves("--inertia", "INERTIA", help=_('moment of inertia that is on the shaft: "0.81 kg·m²"'))
+    curves("--mass", "MASS", help=_("mass of the flywheel that is there, with --gyration: 36kg"))
+    curves("--gyration", "GYRATION", help=_("its radius of gyration: 150mm"))
+    form = option.group(_("form"))
+    form.count(
+        "--steps",
+        360,
+        help=_("positions over the cycle (default 360); what lies between them is found exactly"),
+    )
+    form("--output", "FILE", help=_("write the curves over the cycle in SI units to a .csv or .json file"))
     form.force()
 
 

@@ -18,6 +18,18 @@ if TYPE_CHECKING:
     from linkwright.metrics.base import MetricValue
     from linkwright.metrics.table import MetricsTable
 
+SUMMARY = _("design numbers: transmission angle, strokes, peak torque and reactions, …")
+DESCRIPTION = _(
+    """\
+Prints all design numbers of a machine that apply to it, each with its value, where
+in the cycle it occurs, the recommended limit and a remark. Warnings stand beneath,
+closeness to a singular position first."""
+)
+EXAMPLES = """\
+linkwright metrics gallery:jaw_crusher_sixbar
+linkwright metrics press.yaml --names stroke,quick_return_ratio,transmission_angle
+linkwright metrics crusher.yaml --output numbers.csv"""
+
 ENDINGS = (".csv", ".json")
 #: Behind numbers about which a warning stands beneath the table.
 MARK = "  !"
@@ -26,11 +38,28 @@ COLUMNS = ("metric", "subject", "value", "unit", "at", "at_unit", "limit", "exac
 
 def arguments(option: Options) -> None:
     option.model()
-    option("--names", "NAME,NAME", nargs="+")
-    option.count("--steps", 360)
-    option.either("--forces", None)
-    option.flag("--mark")
-    option("--output", "FILE")
+    option(
+        "--names",
+        "NAME,NAME",
+        nargs="+",
+        help=_(
+            "names of the numbers, separated by commas (default: all that apply; --json shows the names)",
+        ),
+    )
+    option.count(
+        "--steps",
+        360,
+        help=_("equal steps over the cycle (default 360); extreme values are refined between them"),
+    )
+    option.either(
+        "--forces",
+        None,
+        help=_(
+            "joint forces and what follows from them (default: where the model has masses or loads)",
+        ),
+    )
+    option.flag("--mark", help=_("leave out positions that cannot be reached instead of refusing"))
+    option("--output", "FILE", help=_("write the numbers in SI units to a .csv or .json file"))
     option.force()
 
 

@@ -14,25 +14,80 @@ from linkwright.words import Say, _
 if TYPE_CHECKING:
     from linkwright.designs.optimise.optimum import OptimizeError, Optimum
 
+SUMMARY = _("make a number of the machine least, within what must be kept")
+DESCRIPTION = _(
+    """\
+Varies dimensions within bounds so that one number or several become least (or
+greatest) while others are kept: a global search that judges all designs of a
+generation in one sweep, then exact gradients. The settings stand in the file's
+section "optimize", or here. Prints the design beside the start and writes the
+model file with everything else as it was. Several objectives give a front."""
+)
+EXAMPLES = """\
+linkwright optimize crusher.yaml --output better.yaml
+linkwright optimize gallery:jaw_crusher_sixbar --vary pitman.length=1.1..1.4m toggle.length=1..1.3m \\
+    --minimize peak_input_torque --keep "jaw.angle range=same within 1 %"
+linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot front.svg --state front.state"""
+
 ENDINGS = (".yaml", ".yml", ".json")
 
 
 def arguments(option: Options) -> None:
-    option("file", "FILE")
-    option("--vary", "RANGE", nargs="+")
-    option("--minimize", "NUMBER", nargs="+")
-    option("--maximize", "NUMBER", nargs="+")
-    option("--keep", "DEMAND", nargs="+")
-    option("--define", "NAME", nargs="+")
-    option("--tolerance", "DEVIATION", nargs="+")
-    option("--robust", "worst|yield")
-    option("--yield", "SHARE", dest="least_yield")
-    option.count("--evaluations")
-    option("--seed", "N", type=int)
-    option("--state", "FILE")
-    option("--output", "FILE")
-    option("--plot", "FILE")
-    option("--cluster", "ADDRESS", words="sweep.cluster_help")
+    option("file", "FILE", help=_("a model file, or gallery:NAME"))
+    option(
+        "--vary",
+        "RANGE",
+        nargs="+",
+        help=_("what varies, in place of the file's: ADDRESS=RANGE, such as crank.length=80..120mm"),
+    )
+    option(
+        "--minimize",
+        "NUMBER",
+        nargs="+",
+        help=_("numbers to make least: design numbers, flywheel, summaries such as 'jaw.angle range'"),
+    )
+    option("--maximize", "NUMBER", nargs="+", help=_("numbers to make greatest"))
+    option(
+        "--keep",
+        "DEMAND",
+        nargs="+",
+        help=_(
+            "demands: 'NUMBER=at least 40 deg', 'at most', '1..2 m', 'same within 1 %%' of the start",
+        ),
+    )
+    option(
+        "--define",
+        "NAME",
+        nargs="+",
+        help=_("names for expressions of numbers: NAME=NUMBER, such as T=peak_input_torque"),
+    )
+    option(
+        "--tolerance",
+        "DEVIATION",
+        nargs="+",
+        help=_("± of dimensions: ADDRESS=VALUE, such as crank.length=0.1mm"),
+    )
+    option(
+        "--robust",
+        "worst|yield",
+        help=_(
+            "worst: objectives and demands hold for the worst machine within the tolerances; "
+            "yield: a share of the machines made (--yield) meets the demands",
+        ),
+    )
+    option("--yield", "SHARE", dest="least_yield", help=_("that share, such as 0.99"))
+    option.count(
+        "--evaluations", help=_("most designs of the search; the last steps along gradients come on top")
+    )
+    option("--seed", "N", type=int, help=_("seed of the search; the same seed gives the same result"))
+    option(
+        "--state", "FILE", help=_("keep the search's state in this file, and go on from it where it exists")
+    )
+    option(
+        "--output", "FILE", help=_("write the model file with the best values (a front: NAME_2 … as well)")
+    )
+    option("--plot", "FILE", help=_("draw the front, or the search's progress, in a .svg, .pdf or .png file"))
+    option.cluster()
     option.fonts()
     option.force()
 
@@ -76,7 +131,7 @@ def _searched(options: argparse.Namespace, session: Session) -> int:
         "seed": options.seed,
     }
     try:
-        with on_cluster(options.cluster), progress(session.say, "optimize.searching") as report:
+        with on_cluster(options.cluster), progress(session.say, _("searching")) as report:
             found = optimize(options.file, state=options.state, progress=report, **settings)
     except OptimizeError as error:
         return _unmet(error, session)

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
-from linkwright.cli.positions import places
 from linkwright.cli.session import Session
 from linkwright.errors import LinkwrightError, about
 from linkwright.words import _
@@ -19,6 +18,22 @@ if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
     from linkwright.pictures.diagram import Diagram
 
+SUMMARY = _("diagrams: motion, joint forces, torque, polygons")
+DESCRIPTION = _(
+    """\
+Draws a diagram of a machine over its cycle, or a polygon to scale for one
+position, and writes it as SVG, PDF or PNG. Several models are laid over each
+other. Limit positions, peaks and phases are marked."""
+)
+EXAMPLES = _(
+    """\
+linkwright plot gallery:jaw_crusher_sixbar                 motion of the output
+linkwright plot crusher.yaml --kind torque --output torque.pdf
+linkwright plot crusher.yaml --kind hodograph --joint O5
+linkwright plot crusher.yaml --kind force_polygon --at 30deg --lang zh
+linkwright plot first.yaml second.yaml --kind reactions --joint O5"""
+)
+
 ENDINGS = (".svg", ".pdf", ".png")
 STEPS = 720
 
@@ -26,27 +41,56 @@ STEPS = 720
 def arguments(option: Options) -> None:
     from linkwright.plot.diagrams.diagram_by_name import kinds
 
-    option("files", "FILE", nargs="+")
-    what = option.group("what_title")
+    option(
+        "files", "FILE", nargs="+", help=_("model files, or gallery:NAME; several are laid over each other")
+    )
+    what = option.group(_("what is drawn"))
     what(
         "--kind",
         "KIND",
         default="sva",
-        help=option.say(_("kind of diagram: {kinds} (default: sva)", kinds=", ".join(kinds()))),
+        help=_("kind of diagram: {kinds} (default: sva)", kinds=", ".join(kinds())),
     )
-    what("--of", "NAME", nargs="+", default=[])
-    what("--joint", "JOINT")
-    what("--on", "LINK")
-    what("--axes", "LINK")
-    what("--at", "INPUT")
-    what.count("--steps", STEPS)
-    what("--fluctuation", "δ")
-    what.flag("--static")
-    form = option.group("form_title")
-    form.flag("--no-marks")
-    form("--title", "TEXT")
-    form("--dpi", "N", default="200")
-    form("--output", "FILE")
+    what(
+        "--of",
+        "NAME",
+        nargs="+",
+        default=[],
+        help=_(
+            "outputs, links or points that it is about: jaw, guide, C, jaw.D.x (default: the output)",
+        ),
+    )
+    what(
+        "--joint",
+        "JOINT",
+        help=_("joint of reactions and hodographs (default: the one on the frame that carries most)"),
+    )
+    what("--on", "LINK", help=_("link on which the joint's force acts"))
+    what(
+        "--axes",
+        "LINK",
+        help=_("frame, or a link in whose axes forces are resolved (hodograph: default both)"),
+    )
+    what(
+        "--at",
+        "INPUT",
+        help=_(
+            "input of a polygon: 30deg, 0.2m; 0.5s where a driver follows a law (default: the "
+            "first position)",
+        ),
+    )
+    what.count("--steps", STEPS, help=_("equal steps over the cycle (default: 720)"))
+    what(
+        "--fluctuation",
+        "δ",
+        help=_("speed fluctuation that the flywheel of --kind speed allows (default: 0.02)"),
+    )
+    what.flag("--static", help=_("leave the inertia forces out"))
+    form = option.group(_("form"))
+    form.flag("--no-marks", help=_("leave out limit positions, peaks, phases and inputs along curves"))
+    form("--title", "TEXT", help=_('a title of your own; "" for none'))
+    form("--dpi", "N", default="200", help=_("dots per inch of a PNG (default: 200)"))
+    form("--output", "FILE", help=_("file to write: .svg, .pdf or .png (default: MODEL-KIND.svg here)"))
     form.fonts()
     form.force()
 
@@ -93,7 +137,7 @@ def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
 
     found: dict[str, Motion] = {}
     notes = []
-    with progress(session.say, "plot.solving") as report:
+    with progress(session.say, _("solving")) as report:
         for done, file in enumerate(options.files, 1):
             mechanism, _unused = read_model(file, session)
             motion = solve_motion(mechanism, steps=options.steps, failures="mark")
@@ -150,6 +194,8 @@ def _place(text: str | None, motions: dict[str, Motion], session: Session) -> fl
     first = Source(next(iter(motions.values())))
     if text is None or not first.mechanism.drivers:
         return text
+    from linkwright.cli.positions import places
+
     values = places(text, first.mechanism, first.input_dimension, "--at")
     if len(values) > 1:
         raise UsageError(

@@ -14,6 +14,25 @@ from linkwright.words import _
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
 
+SUMMARY = _(
+    "the whole report: structure, method, worked position, tables, curves, forces, flywheel",
+)
+DESCRIPTION = _(
+    """\
+Writes the report of a machine as PDF, HTML or Word file: task and data, drawing,
+structure, method, one worked position with its polygons, tables over the cycle,
+curves, joint forces, driving torque by both methods, design numbers, flywheel,
+appendix, references. Several files are compared. The section "report" of a model
+file sets title, cover, own chapters and text, sources, order and more."""
+)
+EXAMPLES = _(
+    """\
+linkwright report gallery:swing_conveyor
+linkwright report crusher.yaml --to docx --lang zh
+linkwright report a.yaml b.yaml --output comparison.pdf
+linkwright report crusher.yaml --sections task structure worked tables"""
+)
+
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
@@ -24,24 +43,35 @@ SECTIONS = (
 
 
 def arguments(option: Options) -> None:
-    option("files", "FILE", nargs="+")
+    option("files", "FILE", nargs="+", help=_("model files, or gallery:NAME; several are compared"))
     names = ", ".join(SECTIONS)
     option(
         "--sections",
         "NAME",
         nargs="+",
         default=[],
-        help=option.say(
-            _(
-                "sections in the order wanted, of: {names}; titles of own chapters; rest: all others",
-                names=names,
-            )
+        help=_(
+            "sections in the order wanted, of: {names}; titles of own chapters; rest: all others",
+            names=names,
         ),
     )
-    option("--position", "INPUT", default="")
-    option("--positions", "POSITIONS", nargs="+")
-    option("--to", "pdf|html|docx")
-    option("--output", "FILE")
+    option(
+        "--position",
+        "INPUT",
+        default="",
+        help=_('input of the worked position: "60 deg" (default: a sixth of the cycle)'),
+    )
+    option(
+        "--positions",
+        "POSITIONS",
+        nargs="+",
+        help=_(
+            'positions of the tables: so many (default: 24), or a list: "0..-360 deg:15 deg", "0 '
+            'deg, 60 deg, limits"',
+        ),
+    )
+    option("--to", "pdf|html|docx", help=_("pdf, html or docx (default: what --output says, else pdf)"))
+    option("--output", "FILE", help=_("file to write (default: the model's name)"))
     option.fonts()
     option.force()
 
@@ -65,7 +95,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         else:
             machines.append(read_model(file, session)[0])
             sources.append(file)
-    with progress(session.say, "report.working") as told:
+    with progress(session.say, _("report")) as told:
         found = report(
             machines,
             sources=sources,

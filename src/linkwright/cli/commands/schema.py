@@ -6,10 +6,22 @@ import argparse
 
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.words import _
+
+SUMMARY = _("JSON Schema of models and calculations, for editors")
+DESCRIPTION = _(
+    """\
+Prints the JSON Schema of models and calculations (draft 2020-12), generated from the model itself.
+Editors complete keys and mark mistakes with it: write as the first line of a model
+# yaml-language-server: $schema=./linkwright.schema.json"""
+)
+EXAMPLES = """\
+linkwright schema --output linkwright.schema.json
+linkwright schema | less"""
 
 
 def arguments(option: Options) -> None:
-    option("--output", "FILE")
+    option("--output", "FILE", help=_("write it to a file"))
     option.force()
 
 

@@ -8,19 +8,43 @@ from pathlib import Path
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.sheets.paper import SIZES
 from linkwright.words import _
+
+SUMMARY = _("the drawing sheet, A0 to A4: mechanism, polygons, diagrams, tables, title block")
+DESCRIPTION = _(
+    """\
+Draws the sheet of a course design: the mechanism to a standard scale in one or two
+positions, velocity, acceleration and force polygons, diagrams over the cycle and
+tables, in a frame with a title block; for a cam, its profile. One millimetre on the
+sheet is one on paper. The section "sheet" of the file fills the title block and
+moves, scales or leaves out single panels."""
+)
+EXAMPLES = """\
+linkwright sheet gallery:shaper_quick_return
+linkwright sheet shaper.yaml --size A2 --output shaper.dxf
+linkwright sheet shaper.yaml --size A1 --lang zh"""
 
 ENDINGS = (".pdf", ".svg", ".dxf")
 
 
 def arguments(option: Options) -> None:
+    from linkwright.sheets.paper import SIZES
+
     option.model()
-    option("--size", choices=tuple(SIZES))
-    option("--kind", choices=("mechanism", "cam"))
-    option("--of", "NAME", default="")
-    option("--output", "FILE")
-    option.of("draw")("--fonts", "FILE", nargs="+", default=())
+    option(
+        "--size",
+        choices=tuple(SIZES),
+        help=_("paper size, A0 to A4 (default: what the file says, else A1, A2 for a cam)"),
+    )
+    option("--kind", choices=("mechanism", "cam"), help=_("mechanism or cam (default: what the file holds)"))
+    option(
+        "--of",
+        "NAME",
+        default="",
+        help=_("the part that is meant, where there are several: the joint of a cam"),
+    )
+    option("--output", "FILE", help=_("file to write: .pdf, .svg or .dxf (default: the model's name, .pdf)"))
+    option.fonts("FILE")
     option.force()
 
 

@@ -13,26 +13,79 @@ from linkwright.words import _
 if TYPE_CHECKING:
     from linkwright.cli.solving import Solved
 
+SUMMARY = _("motion, joint forces and drive effort over the cycle")
+DESCRIPTION = _(
+    """\
+Solves a mechanism over one cycle, or at the inputs or times that you name, and
+prints a table: the input, angle, velocity and acceleration of the links, and what
+the driver must supply. Beneath it stand the largest force in every joint and the
+checks of the result. Angles are in degrees (--si: rad), counter-clockwise positive."""
+)
+EXAMPLES = _(
+    """\
+linkwright solve gallery:jaw_crusher_sixbar
+linkwright solve crusher.yaml --at 0..90deg:10        every 10° of the input
+linkwright solve crusher.yaml --at "0 deg, 30 deg" --points C jaw.D
+linkwright solve crusher.yaml --columns "jaw.*" "O5 on jaw"
+linkwright solve crusher.yaml --steps 360 --output crusher.csv
+linkwright solve gallery:excavator --times "0..8 s:0.5" --json"""
+)
+
 ENDINGS = (".csv", ".json")
 
 
 def arguments(option: Options) -> None:
     option.model()
-    where = option.group("where_title").exclusive()
-    where.count("--steps")
-    where("--at", "INPUTS", nargs="+")
-    where("--times", "TIMES", nargs="+")
-    what = option.group("what_title")
-    what("--columns", "PATTERN", nargs="+")
-    what("--points", "POINT", nargs="+")
-    what.either("--forces", None)
-    what.flag("--static")
-    what.flag("--mark")
-    what.flag("--prove")
-    what.flag("--worked", words="worked.help")
-    form = option.group("form_title")
-    form.flag("--si")
-    form("--output", "FILE")
+    where = option.group(_("positions")).exclusive()
+    where.count("--steps", help=_("equal steps over the cycle (default: 24)"))
+    where(
+        "--at",
+        "INPUTS",
+        nargs="+",
+        help=_(
+            'inputs of the first driver in the order wanted: "0 deg, 30 deg", 0..-360deg:15 '
+            '(from..to:step), limit positions: "rocker min, rocker max", limits; several '
+            'drivers: "NAME=…; NAME=…"',
+        ),
+    )
+    where(
+        "--times",
+        "TIMES",
+        nargs="+",
+        help=_(
+            'times in the order wanted: "0 s, 0.1 s", "0..2 s:0.1", limit positions: limits, "boom max"',
+        ),
+    )
+    what = option.group(_("results"))
+    what(
+        "--columns",
+        "PATTERN",
+        nargs="+",
+        help=_('columns by name: "jaw.*", "C.velocity.x", "O5 on jaw"; --json shows all names'),
+    )
+    what("--points", "POINT", nargs="+", help=_("position, velocity and acceleration of points: C, jaw.D"))
+    what.either(
+        "--forces",
+        None,
+        help=_("joint forces and driver effort (default: where the model has masses or loads)"),
+    )
+    what.flag("--static", help=_("forces without inertia"))
+    what.flag(
+        "--mark", help=_("leave gaps where a position cannot be reached, and say why, instead of refusing")
+    )
+    what.flag(
+        "--prove", help=_("prove that the assembly is kept in every step, where groups have no closed form")
+    )
+    what.flag(
+        "--worked",
+        help=_(
+            "the worked solution of the position (of each one named with --at or --times): every "
+            "equation, the numbers put in, the result",
+        ),
+    )
+    form = option.group(_("form"))
+    form.flag("--si", help=_("angles in rad"))
+    form("--output", "FILE", help=_("write all columns in SI units to FILE.csv or FILE.json"))
     form.force()
 
 

@@ -7,6 +7,20 @@ import argparse
 from linkwright.cli.parser import Options
 from linkwright.cli.part import part_arguments, refuse_outputs, run_part, show
 from linkwright.cli.session import Session
+from linkwright.words import _
+
+SUMMARY = _("resultants, reactions of bodies and structures, belts, wedges, balancing of rotors")
+DESCRIPTION = _(
+    """\
+Adds up systems of forces (resultant, moment, wrench, equilibrant), finds the
+reactions of rigid bodies and of pinned structures, the tensions of belts, the
+pushes on wedges and the counterweights of rotors. A structure is a model file
+of links and joints without a drive."""
+)
+EXAMPLES = """\
+linkwright statics gallery:force_system
+linkwright statics gallery:two_bars_equilibrium --worked
+linkwright statics bracket.yaml --plot bracket.svg"""
 
 
 def arguments(option: Options) -> None:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.cli.source import read_model
 from linkwright.core.table import Cell, Table
 from linkwright.words import Say, _
 
@@ -15,15 +14,32 @@ if TYPE_CHECKING:
     from linkwright.formula.program import Program
     from linkwright.mechanism.mechanism import Mechanism
 
+SUMMARY = _("mobility and Assur groups in solving order")
+DESCRIPTION = _(
+    """\
+Prints the structure analysis of a mechanism: how many links and pairs, its
+mobility by Grübler's formula and what special geometry changes about it, and the
+Assur groups in the order in which they are solved, with class and order."""
+)
+EXAMPLES = _(
+    """\
+linkwright structure gallery:shaper_quick_return
+linkwright structure crusher.yaml --program       what is computed, line by line
+linkwright structure crusher.yaml --json"""
+)
+
 
 def arguments(option: Options) -> None:
     option.model()
-    option.flag("--program")
-    option.flag("--forces")
+    option.flag(
+        "--program", help=_("print the straight-line program of the motion, with its operation counts")
+    )
+    option.flag("--forces", help=_("print the program with the joint forces (implies --program)"))
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Prints the structure analysis; with ``--program`` the straight-line program as well."""
+    from linkwright.cli.source import read_model
     from linkwright.kinematics.rank_of_motion import rank_sentence
     from linkwright.kinematics.structure_with_rank import analysed
 

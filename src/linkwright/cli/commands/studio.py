@@ -9,13 +9,25 @@ from linkwright.cli.session import Session
 from linkwright.words import _
 from linkwright.words.sentence import reason_of
 
+SUMMARY = _("draw, change and solve a machine in the browser, its file beside it")
+DESCRIPTION = _(
+    """\
+Opens the studio in the browser: the machine as on a living page, the text of its file beside it, both
+ways in step, findings at their lines, and tools that draw a mechanism from nothing. The server answers
+this machine only and reads and writes model files below the folder it is started in. Every change is
+kept at once; what was not saved is there again after a crash."""
+)
+EXAMPLES = """\
+linkwright studio
+linkwright studio crusher.yaml"""
+
 LAST_PORT = 65535
 
 
 def arguments(option: Options) -> None:
-    option("file", "FILE", nargs="?")
-    option.count("--port", 0)
-    option.flag("--no-browser", words="studio.browser_help")
+    option("file", "FILE", nargs="?", help=_("the model file, below this folder; a new one may be named"))
+    option.count("--port", 0, help=_("the port (default: a free one)"))
+    option.flag("--no-browser", help=_("only print the address"))
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

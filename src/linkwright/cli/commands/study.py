@@ -13,26 +13,75 @@ from linkwright.words import _
 if TYPE_CHECKING:
     from linkwright.designs.study import Study
 
+SUMMARY = _("vary dimensions or parameters and see what becomes of any metric")
+DESCRIPTION = _(
+    """\
+Varies one or several dimensions (pitman.length, frame.O3.x, jaw.mass) or named
+parameters of a model, over a grid or a Sobol sequence, and prints the chosen
+metrics of every design. Designs that cannot move are counted and explained."""
+)
+EXAMPLES = """\
+linkwright study gallery:jaw_crusher_sixbar --vary "pitman.length=1.2..1.3 m:11"
+linkwright study crusher.yaml --vary "pitman.length=1.2..1.3 m:5" "jaw.mass=700, 900 kg" \\
+    --metrics peak_input_torque "reaction O5 on jaw max" --output study.csv
+linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --samples 256"""
+
 ENDINGS = (".csv", ".json")
 
 
 def arguments(option: Options) -> None:
     option.model()
-    option("--vary", "RANGE", nargs="+", required=True)
-    option("--metrics", "METRIC", nargs="+")
-    option("--sampling", choices=("grid", "sobol"), default="grid")
-    option.count("--samples", 64)
-    option("--seed", "N", type=int, default=0)
-    option("--of", "NAME")
-    option("--fluctuation", "δ", type=float)
-    option.count("--steps", 360)
-    option.count("--rows", 40)
-    option("--cluster", "ADDRESS", words="sweep.cluster_help")
-    option("--state", "FILE")
-    option("--output", "FILE")
-    option("--plot", "FILE")
+    vary_argument(option)
+    option(
+        "--metrics",
+        "METRIC",
+        nargs="+",
+        help=_(
+            "design numbers (see linkwright.metrics), travel, flywheel, or summaries of outputs "
+            'in quotes ("driver.effort rms", "C.velocity max")',
+        ),
+    )
+    sampling_arguments(option, samples=64)
+    option("--of", "NAME", help=_("the link or guide whose travel counts (default: the last one solved)"))
+    option(
+        "--fluctuation",
+        "δ",
+        type=float,
+        help=_("coefficient of speed fluctuation for flywheels (default 0.02)"),
+    )
+    option.count("--steps", 360, help=_("positions over the cycle (default 360)"))
+    option.count("--rows", 40, help=_("rows of the printed table (default 40)"))
+    option.cluster()
+    option.state()
+    option("--output", "FILE", help=_("write all designs to a .csv or .json file"))
+    option("--plot", "FILE", help=_("draw the metrics over what varies in a .svg, .pdf or .png file"))
     option.fonts()
     option.force()
+
+
+def vary_argument(option: Options) -> None:
+    """The option that says what varies."""
+    option(
+        "--vary",
+        "RANGE",
+        nargs="+",
+        required=True,
+        help=_(
+            'what varies: "ADDRESS=FROM..TO UNIT:NUMBER" or "ADDRESS=VALUE, VALUE UNIT"; several make a grid',
+        ),
+    )
+
+
+def sampling_arguments(option: Options, *, samples: int) -> None:
+    """The options that say which designs are taken."""
+    option(
+        "--sampling",
+        choices=("grid", "sobol"),
+        default="grid",
+        help=_("grid: every combination (default); sobol: evenly spread designs between the ends"),
+    )
+    option.count("--samples", samples, help=_("designs of a Sobol sequence (default 64)"))
+    option("--seed", "N", type=int, default=0, help=_("seed of the Sobol sequence (default 0)"))
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

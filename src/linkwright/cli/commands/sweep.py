@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from linkwright.cli.commands.study import ranges_of
+from linkwright.cli.commands.study import ranges_of, sampling_arguments, vary_argument
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import _
@@ -13,19 +13,52 @@ from linkwright.words import _
 if TYPE_CHECKING:
     from linkwright.export.sweep_parts import SweepParts
 
+SUMMARY = _("numbers of very many designs, part by part, also on a cluster")
+DESCRIPTION = _(
+    """\
+Computes summaries and design numbers of every combination of ranges, or of a
+Sobol sequence, part by part into a folder of Parquet files. Files are written
+whole; run again after an interruption, it goes on with the missing parts. Memory
+does not grow with the designs. With --cluster the parts are computed by the
+workers of a Dask scheduler, to the same bits; workers may die."""
+)
+EXAMPLES = """\
+linkwright sweep gallery:crank_rocker --vary coupler.length=3..4m:300 rocker.length=2..3m:300 \\
+    --numbers "rocker.angle range" transmission_angle --folder designs
+linkwright sweep crusher.yaml --vary pitman.length=1.1..1.4m --sampling sobol --samples 1000000 \\
+    --numbers peak_input_torque --folder torques --best peak_input_torque --cluster tcp://10.0.0.1:8786"""
+
 
 def arguments(option: Options) -> None:
     option.model()
-    option("--vary", "RANGE", nargs="+", required=True, words="study.vary_help")
-    option("--numbers", "NUMBER", nargs="+", required=True)
-    option("--folder", "FOLDER", required=True)
-    option("--sampling", choices=("grid", "sobol"), default="grid", words="study.sampling_help")
-    option.count("--samples", 65536, words="study.samples_help")
-    option("--seed", "N", type=int, default=0, words="study.seed_help")
-    option.count("--steps", 360, words="study.steps_help")
-    option.count("--part", 16384)
-    option("--cluster", "ADDRESS")
-    option("--best", "NUMBER")
+    vary_argument(option)
+    option(
+        "--numbers",
+        "NUMBER",
+        nargs="+",
+        required=True,
+        help=_("summaries such as 'rocker.angle range' and design numbers such as peak_reaction"),
+    )
+    option(
+        "--folder",
+        "FOLDER",
+        required=True,
+        help=_(
+            "folder of the Parquet files; made where it does not exist, gone on with where it does",
+        ),
+    )
+    sampling_arguments(option, samples=65536)
+    option.count("--steps", 360, help=_("positions over the cycle (default 360)"))
+    option.count("--part", 16384, help=_("designs of a part, rounded up to a power of two (default 16384)"))
+    option.cluster()
+    option(
+        "--best",
+        "NUMBER",
+        help=_(
+            "also the ten designs best in this number: the greatest where more is better, as of "
+            "a transmission angle, else the least",
+        ),
+    )
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -36,7 +69,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     vary = ranges_of(options.vary)
     mechanism, _unused = read_model(options.file, session)
-    with progress(session.say, "sweep.computing") as report:
+    with progress(session.say, _("designs")) as report:
         found = sweep_parts(
             mechanism, vary, options.folder, outputs=options.numbers, sampling=options.sampling,
             samples=options.samples, seed=options.seed, steps=options.steps, part=options.part,

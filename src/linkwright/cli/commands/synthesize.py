@@ -15,6 +15,22 @@ from linkwright.words import Say, _
 if TYPE_CHECKING:
     from linkwright.synthesis.result import Synthesis, SynthesisError
 
+SUMMARY = _("find dimensions from what the machine must do")
+DESCRIPTION = _(
+    """\
+Finds linkages for a task: a path, a free curve, poses, a function, or requirements such as
+stroke and quick-return ratio. Shows every candidate with its error, Grashof
+type, defects over the whole range, smallest transmission angle and ratio of
+longest to shortest link; writes each as a model file. The task stands in the
+section "synthesis" of a file, or on the command line as KEY=VALUE."""
+)
+EXAMPLES = """\
+linkwright synthesize slider_crank stroke="397.5 mm" rod_ratio=3.55 offset_ratio=0.305
+linkwright synthesize crank_rocker swing_angle="40 deg" quick_return_ratio=1.2 frame="300 mm" --output designs
+linkwright synthesize path points="[[20, 20], [20, 30], [20, 40]]" unit=mm --plot path.svg
+linkwright synthesize free_curve file=letter.svg joints=10 --output designs --plot letter.png
+linkwright synthesize press.yaml --json"""
+
 
 def arguments(option: Options) -> None:
     from linkwright.synthesis.task_names import TASK_NAMES
@@ -22,18 +38,37 @@ def arguments(option: Options) -> None:
     option(
         "task",
         "FILE|TASK",
-        help=option.say(
-            _("a file with a section synthesis, or the name of a task: {tasks}", tasks=", ".join(TASK_NAMES))
+        help=_(
+            "a file with a section synthesis, or the name of a task: {tasks}", tasks=", ".join(TASK_NAMES)
         ),
     )
-    option("demands", "KEY=VALUE", nargs="*")
-    option("--output", "FOLDER")
-    option("--plot", "FILE")
-    option.flag("--worked")
-    option("--mass", "KG/M")
-    option("--speed", "SPEED", default="60 rpm")
-    option("--cluster", "ADDRESS", words="sweep.cluster_help")
-    option("--state", "FILE", words="study.state_help")
+    option(
+        "demands",
+        "KEY=VALUE",
+        nargs="*",
+        help=_('demands of the task, such as stroke="40 mm"; lists in brackets as in a file'),
+    )
+    option("--output", "FOLDER", help=_("write every candidate as a model file into this folder"))
+    option("--plot", "FILE", help=_("draw target, candidates and curves in a .svg, .pdf or .png file"))
+    option.flag(
+        "--worked",
+        help=_(
+            "how the first candidate was found: given values, equations with their numbers, check, choice",
+        ),
+    )
+    option(
+        "--mass",
+        "KG/M",
+        help=_("also peak input torque and reaction, for links of this mass per length (kg/m)"),
+    )
+    option(
+        "--speed",
+        "SPEED",
+        default="60 rpm",
+        help=_("speed of the input link in model files and for --mass (default 60 rpm)"),
+    )
+    option.cluster()
+    option.state()
     option.fonts()
     option.force()
 

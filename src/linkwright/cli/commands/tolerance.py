@@ -14,11 +14,24 @@ from linkwright.words import _
 if TYPE_CHECKING:
     from linkwright.designs.tolerance.study import ToleranceStudy
 
+SUMMARY = _("what tolerances and clearances do to a mechanism's numbers")
+DESCRIPTION = _(
+    """\
+Finds the spread of design numbers and curves of a mechanism from tolerances of its
+dimensions and clearances of its pins: linear with exact derivatives, and by Monte
+Carlo; what contributes most; the share of machines within limits. A clearance is
+free, or its pin follows the joint's own reaction."""
+)
+EXAMPLES = """\
+linkwright tolerance gallery:crank_rocker_tolerance
+linkwright tolerance gallery:pressed_pins --plot pins.svg
+linkwright tolerance study.yaml --output machines.csv"""
+
 
 def arguments(option: Options) -> None:
     part_arguments(option)
-    option("--cluster", "ADDRESS", words="sweep.cluster_help")
-    option("--state", "FILE", words="study.state_help")
+    option.cluster()
+    option.state()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

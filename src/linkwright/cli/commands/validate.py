@@ -9,10 +9,23 @@ from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import _
 
+SUMMARY = _("reference numbers and ours: source, digits given, difference")
+DESCRIPTION = _(
+    """\
+Compares every reference number that the package has with what it finds itself, to the
+digits given. A number is printed by its source (course report, textbook, handbook,
+certified data) or derived from what the source gives (by hand, in closed form, by an
+independent solution). Where a source is wrong, the right number and the reason are shown."""
+)
+EXAMPLES = """\
+linkwright validate
+linkwright validate --case crusher --every
+linkwright validate --json"""
+
 
 def arguments(option: Options) -> None:
-    option("--case", "TEXT", default="")
-    option.flag("--every")
+    option("--case", "TEXT", default="", help=_("only cases whose name or source contains this"))
+    option.flag("--every", help=_("a line for every number"))
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -27,7 +40,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         raise UsageError(
             _('no case has "{text}" in its name or source', code="validate.no_case", text=options.case)
         )
-    with progress(session.say, "validate.working") as told:
+    with progress(session.say, _("comparing")) as told:
         found = validate(cases, told)
     if session.json:
         session.show_data({"ok": found.ok, **found.data()})

@@ -12,15 +12,44 @@ from linkwright.cli.session import Session
 from linkwright.core.quantity import number
 from linkwright.words import _
 
+SUMMARY = _("variants of a task for a course: sheets, answer key, PrairieLearn, Moodle, QTI")
+DESCRIPTION = _(
+    """\
+Changes a model's dimensions within limits and writes a sheet per variant, the
+answer key with the numbers that usual mistakes lead to, and questions for
+PrairieLearn, Moodle and QTI. Every variant passes its cycle, transmits as well as
+the model and is as hard. The section "course" of the model says what changes, what
+is asked, and where; without it all lengths change by 8 %."""
+)
+EXAMPLES = """\
+linkwright variants gallery:jaw_crusher_fourbar --count 3 --seed 7
+linkwright variants crusher.yaml --count 30 --to sheets key moodle --output exercise"""
+
 COUNT = 30
 
 
 def arguments(option: Options) -> None:
     option.model()
-    option.count("--count", COUNT)
-    option("--seed", "N", type=int, default=0)
-    option("--to", "FORM", nargs="+", default=[])
-    option("--output", "FOLDER")
+    option.count("--count", COUNT, help=_("how many (default 30)"))
+    option(
+        "--seed",
+        "N",
+        type=int,
+        default=0,
+        help=_("seed of the random numbers (default 0): the same seed gives the same variants"),
+    )
+    option(
+        "--to",
+        "FORM",
+        nargs="+",
+        default=[],
+        help=_("what to write: sheets, key, prairielearn, moodle, qti (default: all)"),
+    )
+    option(
+        "--output",
+        "FOLDER",
+        help=_("folder (default: the model's name with -variants); it must not exist yet"),
+    )
     option.force()
 
 
@@ -53,7 +82,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
             )
         )
     mechanism, _unused = read_model(options.file, session)
-    with progress(say, "variants.working") as told:
+    with progress(say, _("variants")) as told:
         found = variants(mechanism, options.count, seed=options.seed, progress=told)
         files = found.save(folder, options.to, session.language, force=True)
     if session.json:
