@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright import gallery
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import STEPS
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.nodes import Node, below, located
 from linkwright.files.model_file import declared_kind, is_task, read_root, read_tree
@@ -29,8 +30,6 @@ if TYPE_CHECKING:
 
 #: Positions of the cycle that are tried.
 TRIED = 72
-#: Positions of the cycle that other commands solve unless asked for others; they may lie on change points.
-ASKED = 360
 #: A coefficient of friction that no pair of materials has.
 RUBS = 2.0
 
@@ -186,7 +185,7 @@ def _turned(mechanism: Mechanism) -> tuple[list[Finding], list[Finding]]:
 
     motion = try_motion(mechanism, TRIED)
     if motion.whole and motion.notes:
-        motion = try_motion(mechanism, ASKED)
+        motion = try_motion(mechanism, STEPS)  # of other commands; they may lie on change points
     notes = [Finding("note", "", "", note, code=code_of(note)) for note in motion.notes if motion.ok.any()]
     if motion.whole:
         return [], [*_hardly_determined(motion), *notes]

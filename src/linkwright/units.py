@@ -89,6 +89,8 @@ LARGEST_OF_ALL = max(LARGEST.values())
 SMALLEST = 1e-12
 USUAL_UNITS: Mapping[str, str] = {**SI_UNITS, "length": "mm", "angle": "deg", "angular_velocity": "rpm"}
 
+#: Standard acceleration of free fall, m/s².
+GRAVITY = 9.80665
 _FORCE, _ENERGY, _POWER, _PRESSURE = (1, 1, -2, 0), (2, 1, -2, 0), (2, 1, -3, 0), (-1, 1, -2, 0)
 _TURN = 2 * math.pi
 UNITS: Mapping[str, tuple[float, Dimension]] = {
@@ -115,7 +117,7 @@ UNITS: Mapping[str, tuple[float, Dimension]] = {
     "kN": (1e3, _FORCE),
     "MN": (1e6, _FORCE),
     "lbf": (4.4482216152605, _FORCE),
-    "kgf": (9.80665, _FORCE),
+    "kgf": (GRAVITY, _FORCE),
     "J": (1.0, _ENERGY),
     "kJ": (1e3, _ENERGY),
     "W": (1.0, _POWER),

@@ -16,6 +16,7 @@ from linkwright.cams.vibration import residual_amplitude, steady_deviation
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import PROFILE_POINTS
 from linkwright.core.quantity import number
 from linkwright.core.search import ends, first_largest
 from linkwright.core.table import Block
@@ -232,16 +233,16 @@ class CamDesign(Result):
         return None if self.pressure is None else self._largest(self.pressure, self._pressure)
 
     # points -------------------------------------------------------------------------------
-    def profile(self, points: int = 720, wall: int = 0) -> Floats:
+    def profile(self, points: int = PROFILE_POINTS, wall: int = 0) -> Floats:
         """The profile as points (n, 2) m in the cam's axes, exact; of a barrel cam unrolled, from 0 to 2π."""
         contact = self.cam.walls[wall].contact(self.places(points))
         return np.stack([contact.point.real, contact.point.imag], axis=1)
 
-    def pitch_curve(self, points: int = 720, wall: int = 0) -> Floats:
+    def pitch_curve(self, points: int = PROFILE_POINTS, wall: int = 0) -> Floats:
         """The path of the roller's centre or the edge (n, 2) m; raises RequestError for a flat face."""
         return self.cutter_path(self.cam.follower.roller_radius, points, wall)
 
-    def cutter_path(self, radius: float | None = None, points: int = 720, wall: int = 0) -> Floats:
+    def cutter_path(self, radius: float | None = None, points: int = PROFILE_POINTS, wall: int = 0) -> Floats:
         """The centre of a round cutter of ``radius`` (m) along the profile, (n, 2) m.
 
         Raises RequestError for a cutter that does not fit into the hollow parts of the profile.
@@ -280,7 +281,7 @@ class CamDesign(Result):
         return np.linspace(0.0, 2 * math.pi, points + end, endpoint=end)
 
     @attached
-    def save_profile(self, path: str | Path, points: int = 720, *, force: bool = False) -> Path:
+    def save_profile(self, path: str | Path, points: int = PROFILE_POINTS, *, force: bool = False) -> Path:
         """Writes the profile: ``.dxf`` (mm, layers), ``.csv`` (angle, points, normals), ``.txt`` (x y z in mm).
 
         Raises RequestError for another ending, LinkwrightError for a file that exists (without ``force``).

@@ -156,7 +156,7 @@ def closeness(motion: Motion, language: str) -> list[str]:
     cycle = motion
     if not motion.positions.closed:
         with contextlib.suppress(LinkwrightError):
-            cycle = solve_motion(motion.mechanism, steps=360, failures="mark")
+            cycle = solve_motion(motion.mechanism, failures="mark")
     values = Singularity().evaluate(cycle)
     return [f"! {remark.text(language)}" for value in values for remark in value.warnings]
 

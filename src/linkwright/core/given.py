@@ -13,6 +13,9 @@ from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
 T = TypeVar("T")
+#: Positions over a cycle where nobody says how many: of results, of curves that are drawn, of drawings; points of a
+#: cam's profile.
+STEPS, CURVE_STEPS, DRAWING_STEPS, PROFILE_POINTS = 360, 720, 120, 720
 #: Longest text that a sentence repeats.
 LONGEST = 80
 #: Calls that make results of a mechanism, and what is given as an example of other kinds.

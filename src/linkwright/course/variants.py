@@ -25,6 +25,7 @@ from linkwright.files.model_file import load
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import metrics
+from linkwright.metrics.transmission_angle import TransmissionAngle
 from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
@@ -34,7 +35,7 @@ TRIES, DIGITS, STEPS = 60, 3, 90
 #: Variants that can be asked for.
 MOST = 1000
 #: Smallest transmission angle that asks for no more, and how far a variant's may be below the model's, rad.
-GOOD, SLACK = math.radians(40), math.radians(5)
+GOOD, SLACK = TransmissionAngle.limit, math.radians(5)
 #: An answer may be so many times as large or as small as the model's.
 SPREAD = 4.0
 #: Why a design is no variant: it does not pass its cycle, transmits worse than the model, has answers of another sign

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import real, require
+from linkwright.core.given import STEPS, real, require
 from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
 from linkwright.designs.alternatives import Alternative, alternatives
@@ -231,7 +231,7 @@ def compare(
     weights: Mapping[str, float] | None = None,
     output: str | Mapping[str, str] | Sequence[str] | None = None,
     fluctuation: float = FLUCTUATION,
-    steps: int = 360,
+    steps: int = STEPS,
 ) -> Comparison:
     """Compares alternative machines by the motion of an output that they share and by their design numbers.
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
+from linkwright.core.given import STEPS
 from linkwright.core.progress import Progress, paced, part_of
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.formula.machine_code import available
@@ -33,7 +34,7 @@ def side_by_side(
     names: Sequence[str],
     asked: Asked | None = None,
     *,
-    steps: int = 360,
+    steps: int = STEPS,
 ) -> list[MetricsOfDesigns]:
     """What finds those metrics that are found of all designs at once, by formulas, hulls and ranges of motion;
     ``asked``, ``steps``: see ``numbers_of_designs``."""

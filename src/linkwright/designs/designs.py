@@ -13,7 +13,7 @@ from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.attached import Plotted
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import one_of, require, whole
+from linkwright.core.given import STEPS, one_of, require, whole
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import columns_table, unused
@@ -144,7 +144,7 @@ def sweep(
     vary: Mapping[str, ArrayLike],
     *,
     outputs: Iterable[str | tuple[str, str]],
-    steps: int = 360,
+    steps: int = STEPS,
     partial: bool = False,
     threads: int | None = None,
     backend: Backend = "auto",
@@ -290,7 +290,7 @@ def sweep_curves(
     vary: Mapping[str, ArrayLike],
     *,
     outputs: Sequence[str],
-    steps: int = 360,
+    steps: int = STEPS,
     threads: int | None = None,
     backend: Backend = "auto",
     progress: Progress | None = None,

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import one_of, require
+from linkwright.core.given import STEPS, one_of, require
 from linkwright.core.outputs import Output
 from linkwright.designs.design_numbers import side_by_side
 from linkwright.designs.objective_terms import PathError, Terms, number_of_points, weighted
@@ -145,7 +145,7 @@ def objective(
     terms: Terms,
     *,
     vary: Iterable[str],
-    steps: int = 360,
+    steps: int = STEPS,
     at: ArrayLike | None = None,
     backend: Backend = "auto",
 ) -> Objective:

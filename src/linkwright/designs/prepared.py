@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.given import one_of, require
+from linkwright.core.given import STEPS, one_of, require
 from linkwright.core.outputs import Output
 from linkwright.cycle.load_limits import LoadLimits
 from linkwright.cycle.near_limits import NearLimits
@@ -46,7 +46,7 @@ STEP, AT = "step of the input", 1e-9
 
 
 def prepare(
-    mechanism: Mechanism, *, vary: Iterable[str] = (), steps: int = 360, backend: Backend = "auto"
+    mechanism: Mechanism, *, vary: Iterable[str] = (), steps: int = STEPS, backend: Backend = "auto"
 ) -> Prepared:
     """Traces and compiles a mechanism once, so that every further design costs little more than its numbers.
 

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import one_of, one_or_more, require
+from linkwright.core.given import STEPS, one_of, one_or_more, require
 from linkwright.core.read_only import Frozen, locked
 from linkwright.core.table import Amount, Cell, Table, unused
 from linkwright.cycle.summary import Summary
@@ -159,7 +159,7 @@ def sensitivity(
     *,
     of: Iterable[str | tuple[str, str]],
     by: Iterable[str],
-    steps: int = 360,
+    steps: int = STEPS,
     way: Way = "auto",
     backend: Backend = "auto",
 ) -> Sensitivity:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
+from linkwright.core.given import STEPS, require
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import columns_table, csv_text, unused
@@ -200,7 +200,7 @@ def study(
     seed: int = 0,
     output: str | None = None,
     fluctuation: float = FLUCTUATION,
-    steps: int = 360,
+    steps: int = STEPS,
     progress: Progress | None = None,
 ) -> Study:
     """Metrics of the designs that come from varying some dimensions.

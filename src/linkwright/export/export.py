@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import STEPS
 from linkwright.errors import RequestError, require_language
-from linkwright.export.results import STEPS, Results
+from linkwright.export.results import Results
 from linkwright.files.source import ENDINGS
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces

@@ -6,7 +6,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
+from linkwright.core.given import STEPS, require
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -18,8 +18,6 @@ from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.structure import Structure
-
-STEPS = 360
 
 
 @dataclass(frozen=True)

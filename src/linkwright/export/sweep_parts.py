@@ -16,7 +16,7 @@ from linkwright.core import VERSION
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require, whole
+from linkwright.core.given import STEPS, require, whole
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.designs.cluster import connected, current, in_turn
 from linkwright.designs.designs import sweep
@@ -211,7 +211,7 @@ def sweep_parts(
     sampling: Sampling = "grid",
     samples: int = 65536,
     seed: int = 0,
-    steps: int = 360,
+    steps: int = STEPS,
     part: int = PART,
     client: Any = None,
     threads: int | None = None,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
-from linkwright.core.given import require
+from linkwright.core.given import STEPS, require
 from linkwright.core.inputs import mode_groups
 from linkwright.errors import RequestError
 from linkwright.kinematics.change_points import (
@@ -37,7 +37,7 @@ LOOKS = 360
 def solve_motion(
     mechanism: Mechanism,
     *,
-    steps: int = 360,
+    steps: int = STEPS,
     at: ArrayLike | Mapping[str, ArrayLike] | None = None,
     times: ArrayLike | None = None,
     endpoint: bool = False,

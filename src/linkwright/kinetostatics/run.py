@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.given import require
+from linkwright.core.given import STEPS, require
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.quantity import shown
 from linkwright.core.search import first_largest
@@ -38,7 +38,7 @@ class FrictionError(LinkwrightError):
     """Friction for which no finite driver effort is found."""
 
 
-def solve_forces(source: Motion | Mechanism, *, static: bool = False, steps: int = 360) -> Forces:
+def solve_forces(source: Motion | Mechanism, *, static: bool = False, steps: int = STEPS) -> Forces:
     """Reactions of all joints and the effort of every driver, by Assur group in reverse solving order.
 
     Args:

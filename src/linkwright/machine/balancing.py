@@ -10,7 +10,7 @@ from typing import Any
 
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import real, require
+from linkwright.core.given import STEPS, real, require
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import PERCENT, ROUNDING, Amount, Cell, Table
 from linkwright.cycle.summary import Summary
@@ -107,7 +107,7 @@ def _cleared(place: tuple[float, float]) -> tuple[float, float]:
     return x, y
 
 
-def balance(mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: int = 360) -> Balancing:
+def balance(mechanism: Mechanism, *, radius: Radius, share: float = 1.0, steps: int = STEPS) -> Balancing:
     """Counterweights for a four-bar or a slider-crank.
 
     Four-bar: the coupler's mass is shared between its pins by the complex ratio z of its mass centre, and the

@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import STEPS
 from linkwright.curves.curve import Curve, Extreme, Function, Integral, at_nodes, extremes_of
 from linkwright.curves.polynomials import WEIGHTS
 from linkwright.errors import LinkwrightError
@@ -67,7 +68,7 @@ def true_speed(
     speed: float,
     *,
     driver: TorqueCurve | None = None,
-    steps: int = 360,
+    steps: int = STEPS,
 ) -> SpeedCurve:
     """Speed over the cycle from d(½ J ω²)/dφ = T_driver - T_load, periodic, with the mean speed ``speed``.
 
@@ -115,7 +116,7 @@ class SteadyCycle:
         self._first = self._cycles(work.edges, work.values, inertia)
         self._known: dict[float, _Solved] = {}
 
-    def curve(self, flywheel: float = 0.0, *, motor_torque: float, steps: int = 360) -> SpeedCurve:
+    def curve(self, flywheel: float = 0.0, *, motor_torque: float, steps: int = STEPS) -> SpeedCurve:
         """The speed; raises LinkwrightError for a machine that would stop, or has no inertia somewhere."""
         found = self._solved(flywheel)
         start, end = self.work.edges[[0, -1]].tolist()

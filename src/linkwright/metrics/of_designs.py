@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
+from linkwright.core.given import STEPS
 from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine, NotTogether
@@ -79,7 +80,7 @@ def numbers_of_designs(
     varied: Iterable[str],
     names: Iterable[str],
     *,
-    steps: int = 360,
+    steps: int = STEPS,
     asked: Asked | None = None,
 ) -> NumbersOfDesigns | None:
     """Registered metrics (``peak_reaction``, ``peak_reaction O5``) and summaries (``driver.effort rms``) of all

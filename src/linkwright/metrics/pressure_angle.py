@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi, radians
+from math import pi
 from typing import ClassVar
 
 from linkwright.core.quantity import shown
@@ -11,7 +11,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number, Remark
-from linkwright.metrics.transmission_angle import smallest
+from linkwright.metrics.transmission_angle import LIMIT, smallest
 
 
 def _complement(angle: Scalar) -> Scalar:
@@ -26,7 +26,7 @@ class PressureAngle(Metric):
     dimension = "angle"
     source = "Volmer, Getriebetechnik: α = 90° - μ, not above about 50°"
     better: ClassVar[Better | None] = "lower"
-    limit = radians(50)
+    limit = 0.5 * pi - LIMIT
 
     def suits(self, analysis: Analysis) -> bool:
         return super().suits(analysis) and bool(dyads(analysis.motion.structure))

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
+from linkwright.core.given import STEPS, require
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
@@ -222,7 +222,7 @@ class LivingPage:
 
 
 def living_page(
-    machine: Mechanism | Document, *beside: Mechanism | Document, steps: int = 360, language: str = "en"
+    machine: Mechanism | Document, *beside: Mechanism | Document, steps: int = STEPS, language: str = "en"
 ) -> LivingPage:
     """The living page of a machine, with others beside it for comparison.
 

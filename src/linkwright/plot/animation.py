@@ -50,7 +50,6 @@ if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
 
 FILM_RATE = 25
-STEPS = 360
 LABEL_FRAMES = 12
 #: Smallest and largest width of GIF and MP4, pixels.
 WIDTHS = (16, 3840)
@@ -113,7 +112,7 @@ def animate(
     paths, curves = one_or_more(paths), one_or_more(curves)
     for name in paths:
         point_key(machine, name)
-    motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
+    motion = source if isinstance(source, Motion) else solve_motion(source, failures="mark")
     run = frame_indices(motion, frames)
     scene = laid_out(motion, run[0], centres=centres)
     known = solved(motion, forces)

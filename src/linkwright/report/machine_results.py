@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     from linkwright.pictures.diagram import Diagram
     from linkwright.worked.solution import Worked
 
-STEPS = 360
-
 
 class Missing(LinkwrightError):
     """Why a section, or a part of one, has nothing to show."""
@@ -85,7 +83,7 @@ class Case:
     @cached_property
     def motion(self) -> Motion:
         """The whole cycle; positions that are not reached are marked."""
-        found = solve_motion(self.mechanism, steps=STEPS, failures="mark")
+        found = solve_motion(self.mechanism, failures="mark")
         if not found.ok.any():
             raise LinkwrightError(found.outcomes[0].sentence)
         return found

@@ -180,7 +180,7 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
 
             found["mobility"] = structure(mechanism).mobility
             found["optimize"] = dict(mechanism.optimize)
-            motion = solve_motion(mechanism, steps=360)
+            motion = solve_motion(mechanism)
             found["picture"] = completed(found["picture"], motion)
             data, _unused = page_data([(motion, text)], language)
             found["model"] = data["models"][0]

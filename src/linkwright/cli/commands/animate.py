@@ -18,6 +18,7 @@ from linkwright.cli.pictures import (
     vector_arguments,
 )
 from linkwright.cli.session import Session
+from linkwright.core.given import STEPS
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -37,7 +38,6 @@ linkwright animate crusher.yaml --paths C --curves jaw.angle --output crusher.gi
 linkwright animate crusher.yaml --forces --curves driver.effort --seconds 4 --output crusher.mp4"""
 
 ENDINGS = (".svg", ".gif", ".mp4")
-STEPS = 360
 FRAMES = 60
 WIDTH = 640
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, did_you_mean, number_of
 from linkwright.cli.session import Session
+from linkwright.core.given import STEPS
 from linkwright.errors import about
 from linkwright.words import _
 
@@ -49,7 +50,7 @@ def arguments(option: Options) -> None:
         default="1",
         help=_("share that is balanced, from 0 to 1 (default 1: the shaking force vanishes)"),
     )
-    option.count("--steps", 360, help=_("positions over the cycle for the comparison (default 360)"))
+    option.count("--steps", STEPS, help=_("positions over the cycle for the comparison (default 360)"))
     option("--output", "FILE", help=_("write the balanced model to a .yaml file"))
     option.force()
 

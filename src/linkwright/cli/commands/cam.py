@@ -11,6 +11,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.part import part_arguments, read, refuse_outputs, show
 from linkwright.cli.session import Session
+from linkwright.core.given import PROFILE_POINTS
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ def arguments(option: Options) -> None:
     option(
         "--profile", "FILE", help=_("write the profile to a .dxf, .csv or .txt file (x y z in mm for a mill)")
     )
-    option.count("--points", 720, help=_("points of the profile (default: 720)"))
+    option.count("--points", PROFILE_POINTS, help=_("points of the profile (default: 720)"))
     option("--draw", "FILE", help=_("draw cam and follower in a .svg, .pdf or .png file"))
     option(
         "--at",

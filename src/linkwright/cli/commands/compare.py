@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, number_of
 from linkwright.cli.session import Session
+from linkwright.core.given import STEPS
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ def arguments(option: Options) -> None:
         help=_("the link or guide that does the work: one name for all, or one per file"),
     )
     option("--fluctuation", "δ", help=_("coefficient of speed fluctuation for the flywheels (default 0.02)"))
-    option.count("--steps", 360, help=_("positions over the cycle (default 360)"))
+    option.count("--steps", STEPS, help=_("positions over the cycle (default 360)"))
     option("--output", "FILE", help=_("write the numbers to a .csv or .json file"))
     option("--curves", "FILE", help=_("write the curves to overlay to a .csv or .json file"))
     option("--plot", "FILE", help=_("draw the curves over each other in a .svg, .pdf or .png file"))

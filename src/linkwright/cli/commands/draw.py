@@ -20,6 +20,7 @@ from linkwright.cli.pictures import (
     vector_arguments,
 )
 from linkwright.cli.session import Session
+from linkwright.core.given import DRAWING_STEPS
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -44,12 +45,11 @@ linkwright draw crusher.yaml --dimensions pitman jaw O1:O3 --output crusher.svg
 linkwright draw gallery:excavator --time "2 s" --lang zh --output excavator.svg"""
 
 ENDINGS = (".svg", ".png", ".pdf")
-STEPS = 120
 LABELS: dict[str, bool | str] = {"all": True, "points": "points", "none": False}
 
 
 def arguments(option: Options) -> None:
-    source_arguments(option, steps=STEPS)
+    source_arguments(option, steps=DRAWING_STEPS)
     where = option.group(_("positions"))
     one = where.exclusive()
     one(

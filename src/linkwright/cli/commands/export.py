@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.core.given import STEPS
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ def arguments(option: Options) -> None:
         help=_("the format, where the ending does not say it: {names}", names=", ".join(NAMES)),
     )
     where = option.exclusive()
-    where.count("--steps", 360, help=_("positions over the cycle (default: 360)"))
+    where.count("--steps", STEPS, help=_("positions over the cycle (default: 360)"))
     where(
         "--at",
         "INPUTS",

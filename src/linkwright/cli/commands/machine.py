@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.core.given import STEPS
 from linkwright.core.table import Block, csv_text, rows_data, together
 from linkwright.words import _
 
@@ -110,7 +111,7 @@ def arguments(option: Options) -> None:
     form = option.group(_("form"))
     form.count(
         "--steps",
-        360,
+        STEPS,
         help=_("positions over the cycle (default 360); what lies between them is found exactly"),
     )
     form("--output", "FILE", help=_("write the curves over the cycle in SI units to a .csv or .json file"))

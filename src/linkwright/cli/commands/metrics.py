@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.core.given import STEPS
 from linkwright.errors import LinkwrightError, about
 from linkwright.words import _, say
 from linkwright.words.sentence import in_language
@@ -48,7 +49,7 @@ def arguments(option: Options) -> None:
     )
     option.count(
         "--steps",
-        360,
+        STEPS,
         help=_("equal steps over the cycle (default 360); extreme values are refined between them"),
     )
     option.either(

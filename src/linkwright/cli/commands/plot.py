@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.core.given import CURVE_STEPS
 from linkwright.errors import LinkwrightError, about
 from linkwright.words import _
 
@@ -35,7 +36,6 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5"""
 )
 
 ENDINGS = (".svg", ".pdf", ".png")
-STEPS = 720
 
 
 def arguments(option: Options) -> None:
@@ -79,7 +79,7 @@ def arguments(option: Options) -> None:
             "first position)",
         ),
     )
-    what.count("--steps", STEPS, help=_("equal steps over the cycle (default: 720)"))
+    what.count("--steps", CURVE_STEPS, help=_("equal steps over the cycle (default: 720)"))
     what(
         "--fluctuation",
         "δ",

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.core.given import STEPS
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def arguments(option: Options) -> None:
         type=float,
         help=_("coefficient of speed fluctuation for flywheels (default 0.02)"),
     )
-    option.count("--steps", 360, help=_("positions over the cycle (default 360)"))
+    option.count("--steps", STEPS, help=_("positions over the cycle (default 360)"))
     option.count("--rows", 40, help=_("rows of the printed table (default 40)"))
     option.cluster()
     option.state()

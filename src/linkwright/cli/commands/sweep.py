@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.commands.study import ranges_of, sampling_arguments, vary_argument
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.core.given import STEPS
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ def arguments(option: Options) -> None:
         ),
     )
     sampling_arguments(option, samples=65536)
-    option.count("--steps", 360, help=_("positions over the cycle (default 360)"))
+    option.count("--steps", STEPS, help=_("positions over the cycle (default 360)"))
     option.count("--part", 16384, help=_("designs of a part, rounded up to a power of two (default 16384)"))
     option.cluster()
     option(

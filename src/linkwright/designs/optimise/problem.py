@@ -12,6 +12,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import STEPS
 from linkwright.core.quantity import si_of, written
 from linkwright.designs.objective_terms import PathError
 from linkwright.designs.optimise.paths import path_error
@@ -95,7 +96,7 @@ class Problem:
     robust: Robust = ""
     least_yield: float = 0.99
     fluctuation: float = FLUCTUATION
-    steps: int = 360
+    steps: int = STEPS
     evaluations: int = 4000
     population: int = 0
     seed: int = 0
@@ -409,12 +410,8 @@ def _rising(found: Range) -> None:
 
 
 _USUAL = {
-    "yield": 0.99,
-    "fluctuation": FLUCTUATION,
-    "steps": 360,
-    "evaluations": 4000,
-    "population": 0,
-    "seed": 0,
+    "yield": Problem.least_yield,
+    **{key: getattr(Problem, key) for key in ("fluctuation", "steps", "evaluations", "population", "seed")},
 }
 
 

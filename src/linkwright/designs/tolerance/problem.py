@@ -13,6 +13,7 @@ import numpy as np
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import STEPS
 from linkwright.designs.ranges import dimension_of
 from linkwright.fields.base import Quantity, Text, Word, given
 from linkwright.mechanism.link import Link
@@ -122,7 +123,7 @@ class Tolerances(OfMechanism):
     )
     samples: int = given(Whole(LEAST, doc="machines of the Monte Carlo study, 8192 unless given"), 8192)
     seed: int = given(Whole(0, 2**32 - 1, doc="seed of the random numbers"), 1)
-    steps: int = given(Whole(4, doc="positions over the cycle, 360 unless given"), 360)
+    steps: int = given(Whole(4, doc="positions over the cycle, 360 unless given"), STEPS)
     name: str = ""
     source: str = ""
 

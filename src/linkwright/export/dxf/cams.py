@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from linkwright.cams.result import CamDesign
+from linkwright.core.given import PROFILE_POINTS
 from linkwright.errors import RequestError
 from linkwright.export.dxf.sheet import content_of, new_document
 from linkwright.whole_files import refuse_target, write_whole
@@ -18,7 +19,9 @@ LAYERS = {"profile": 7, "pitch": 8, "cutter": 3, "base": 150}
 _MM = 1e3
 
 
-def save_profile(design: CamDesign, path: str | Path, points: int = 720, *, force: bool = False) -> Path:
+def save_profile(
+    design: CamDesign, path: str | Path, points: int = PROFILE_POINTS, *, force: bool = False
+) -> Path:
     """Writes the profile as the file's ending says; raises LinkwrightError where that cannot be."""
     path = Path(path)
     if path.suffix.lower() not in ENDINGS:

@@ -25,10 +25,9 @@ from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, section_field
 from linkwright.parts.fields import Flag, Listed, Named, Table
 from linkwright.parts.motions import plain_motions
+from linkwright.units import GRAVITY
 from linkwright.words import Message, Say, _
 
-#: Acceleration of free fall for the beam's own weight, m/s².
-GRAVITY = 9.80665
 SUPPORTS = ("fixed", "pinned", "roller", "guided", "spring")
 QUANTITIES = ("shear", "moment", "slope", "deflection")
 DIMENSIONS = {"shear": "force", "moment": "torque", "slope": "slope", "deflection": "length"}

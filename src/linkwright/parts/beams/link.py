@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import STEPS
 from linkwright.core.plane import cross
 from linkwright.core.quantity import shown
 from linkwright.core.table import Block, Row
@@ -50,7 +51,7 @@ class LinkBending(OfMechanism):
     safety: float = given(
         Quantity("dimensionless", above=0.0, doc="safety against the strength, for the needed section"), 1.0
     )
-    steps: int = given(Whole(1, doc="positions over the cycle, 360 unless given"), 360)
+    steps: int = given(Whole(1, doc="positions over the cycle, 360 unless given"), STEPS)
     axis: tuple[str, ...] = given(
         Listed(
             Text(), "[A, B, C]", doc="points through which a bent link's axis runs, straight unless given"

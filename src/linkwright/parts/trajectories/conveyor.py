@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import CURVE_STEPS
 from linkwright.core.quantity import shown
 from linkwright.core.table import PERCENT, Block, Row
 from linkwright.equations.steps import Step
@@ -40,7 +41,7 @@ class Conveyor(OfMechanism):
         Quantity("dimensionless", minimum=0.0, doc="in motion, as at rest unless given"), None
     )
     incline: float = given(Quantity("angle", doc="how much the surface rises along +x, 0 unless given"), 0.0)
-    steps: int = given(Whole(36, doc="positions over the cycle, 720 unless given"), 720)
+    steps: int = given(Whole(36, doc="positions over the cycle, 720 unless given"), CURVE_STEPS)
     name: str = ""
     source: str = ""
 

@@ -20,9 +20,9 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem, Result, fault
 from linkwright.parts.mechanism_field import load_beside
+from linkwright.units import GRAVITY
 from linkwright.words import Say, _
 
-GRAVITY = 9.80665
 #: Accuracy of the integration with quadratic drag, and points of the curve.
 ACCURACY, POINTS = 1e-11, 401
 #: Times in which drag stops the particle, within the flight, above which its equation is stiff.

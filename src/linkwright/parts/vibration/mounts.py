@@ -11,6 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.given import STEPS
 from linkwright.core.quantity import number, shown
 from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
@@ -74,7 +75,7 @@ class Mounts(OfMechanism):
     damping_ratio: float = given(
         Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ, 0 unless given"), 0.0
     )
-    steps: int = given(Whole(8, doc="positions over the cycle, 360 unless given"), 360)
+    steps: int = given(Whole(8, doc="positions over the cycle, 360 unless given"), STEPS)
     mounts: Mapping[str, Mount] = given(Named(
         Table.of(Mount), "mount",
         doc="every mount by name: {at: [0 m, 0 m], stiffness_x: 1 MN/m, stiffness_y: 2 MN/m}",

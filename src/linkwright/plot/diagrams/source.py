@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeAlias, TypeVar, cast
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.given import CURVE_STEPS
 from linkwright.core.outputs import RESIDUALS, Output
 from linkwright.cycle.summary import SummaryValue
 from linkwright.errors import LinkwrightError, RequestError
@@ -28,7 +29,6 @@ from linkwright.words.characters import one_line
 from linkwright.words.sentence import Worded
 
 Result: TypeAlias = Mechanism | Motion | Forces | SteadyRunning
-STEPS = 720
 TURN = 2 * np.pi
 T = TypeVar("T")
 Extremes: TypeAlias = Callable[[Kind], SummaryValue | None]
@@ -85,7 +85,7 @@ class Source:
         found = (
             self._result
             if isinstance(self._result, Motion)
-            else solve_motion(self._result, steps=STEPS, failures="mark")
+            else solve_motion(self._result, steps=CURVE_STEPS, failures="mark")
         )
         if not found.ok.any():
             raise LinkwrightError(

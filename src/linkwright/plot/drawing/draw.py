@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.given import one_or_more, real, require, whole
+from linkwright.core.given import DRAWING_STEPS, one_or_more, real, require, whole
 from linkwright.errors import LinkwrightError, RequestError, require_language
 from linkwright.events.limit_positions import limits_of
 from linkwright.kinematics.motion import Motion
@@ -40,7 +40,6 @@ if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces
 
 Names = Sequence[str] | bool
-STEPS = 120
 MOST_FADED = 60
 
 
@@ -104,7 +103,9 @@ def draw(
                 diagonal=diagonal,
             )
         )
-    motion = source if isinstance(source, Motion) else solve_motion(source, steps=STEPS, failures="mark")
+    motion = (
+        source if isinstance(source, Motion) else solve_motion(source, steps=DRAWING_STEPS, failures="mark")
+    )
     shown = _shown(motion, position, at, time)
     ghosts, style = _overlay(motion, overlay)
     scene, index, others = laid_out_beside(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.arrays import Floats, largest
+from linkwright.core.given import CURVE_STEPS
 from linkwright.machine.balancing import Balancing
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.pictures.diagram import COLOURS, INK, Axes, Figure, new_figure
@@ -71,7 +72,6 @@ def _hodograph(
     axes.margins(0.13)
 
 
-STEPS = 720
 #: How far before a jump the curve is drawn, as a share of its period.
 BEFORE = 1e-9
 
@@ -90,4 +90,4 @@ def _angles(curve: TorqueCurve) -> Floats:
     knots = np.array(curve.knots)
     near = np.concatenate([knots - BEFORE * curve.period, knots, [end - BEFORE * curve.period]])
     within = near[(near >= curve.start) & (near <= end)]
-    return np.unique(np.concatenate([np.linspace(curve.start, end, STEPS + 1), within]))
+    return np.unique(np.concatenate([np.linspace(curve.start, end, CURVE_STEPS + 1), within]))
