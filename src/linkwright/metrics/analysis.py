@@ -23,7 +23,7 @@ from linkwright.events.course import Course
 from linkwright.events.limit_positions import limit_positions
 from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.motion import TURN, Motion
-from linkwright.kinematics.names import output_meant
+from linkwright.kinematics.names import HARMONIC, output_meant
 from linkwright.kinetostatics.forces import ROUNDING, Forces
 from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.solver import ForceSolver
@@ -162,6 +162,8 @@ class Analysis:
         meant = self.meant(output)
         if meant.of_course:
             return partial(self._of_course, output=meant)
+        if meant.kind in HARMONIC:
+            return partial(_harmonic, output=meant, inner=self.signal(meant.owner))
 
         def read(solved: Motion | Forces) -> Floats:
             name, rows, evaluate = words_name(output), solved.rows, partial(self._read, solved=solved)
@@ -374,6 +376,12 @@ class Analysis:
         """
         found = self.find(Summary("", kind), signal, of)
         return None if isnan(found.value) and not found.exact else found
+
+
+def _harmonic(solved: Motion | Forces, output: Output, inner: Callable[..., Floats]) -> Floats:
+    """An output times the cosine or sine of a multiple of the first driver's angle, (n,)."""
+    angle = int(output.on) * (solved.motion if isinstance(solved, Forces) else solved).input
+    return np.asarray(inner(solved) * (np.cos(angle) if output.kind == "cosine" else np.sin(angle)))
 
 
 def _value(solved: Solved, part: Summary) -> SummaryValue | None:

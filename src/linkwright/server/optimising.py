@@ -74,7 +74,7 @@ def goals(text: str, language: str) -> list[Plain]:
         if METRICS[row.metric].better is not None:
             names |= {row.metric: None, f"{row.metric} {row.subject}": None}
     for output in mechanism_outputs(mechanism):
-        names |= {f"{output.owner}.{output.kind} {kind}": None for kind in ("range", "max", "min")}
+        names |= {f"{output.name} {kind}": None for kind in ("range", "max", "min")}
     found = []
     for name in names:
         with suppress(LinkwrightError):
