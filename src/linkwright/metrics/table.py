@@ -12,6 +12,7 @@ from linkwright.errors import RequestError
 from linkwright.metrics.base import CELLS, METRICS, MetricValue
 from linkwright.registry import offered
 from linkwright.words import _, say
+from linkwright.words.characters import aligned_within, cells
 from linkwright.words.sentence import in_language, in_words, together
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 #: How many values of one number and subject tables show at most.
 REPEATED = 6
+#: Behind numbers about which a warning stands beneath the table.
+MARK = "  !"
 
 
 def told(rows: Sequence[MetricValue], language: str) -> Iterator[tuple[tuple[str, ...], MetricValue | None]]:
@@ -42,6 +45,15 @@ def _between(values: Sequence[float], dimension: str) -> str:
     """The smallest and the largest of values; empty without any."""
     ends = dict.fromkeys(number(end(values), dimension) for end in (min, max) if values)
     return " … ".join(ends)
+
+
+def _remarks(row: MetricValue | None, language: str) -> str:
+    """Remarks of a row, if it is that of a value; its warnings stand beneath the table, and are marked here."""
+    if row is None:
+        return ""
+    said = [remark.text(language) for remark in row.remarks if not remark.warning]
+    mark = MARK.strip() if row.warnings else ""
+    return f"{mark} {say('finding.semicolon', language).join(said)}".strip()
 
 
 class MetricsTable(Plotted, Sequence[MetricValue]):
@@ -140,17 +152,51 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
             )
         )
 
-    def text(self, language: str = "en") -> str:
-        """The table with aligned columns: name, subject, value, unit, where; then the sentences."""
+    def text(self, language: str = "en", width: int | None = None, *, fold: bool = True) -> str:
+        """Name, subject, value, unit, place, recommended limit and remarks; then the warnings.
+
+        ``width``: characters across; where the table is wider, remarks stand beneath their numbers, and with ``fold``
+        texts are folded.
+        """
         table = self.table(language)
-        return "\n".join([self.title, "", *table.lines(), *([""] if table.notes else []), *table.notes])
+        if not table.rows:
+            nothing = _("none of the design numbers applies to this mechanism").translate(language)
+            return "\n".join([self.title, "", nothing])
+        lines = table.lines()
+        if (
+            width is not None
+            and max(map(cells, lines)) > width
+            and (fold or table.head[-1] == self._remark(language))
+        ):
+            lines = self._beneath(table, width - len(MARK) if fold else None, language)
+        return "\n".join([self.title, "", *lines, *([""] if table.notes else []), *table.notes])
 
     def table(self, language: str = "en") -> Table:
-        """The rows without their limits, and the warnings."""
-        head = [say(f"metrics.column.{name}", language) for name in CELLS[:-1]]
-        rows = [cells[:-1] for cells, _unused in told(self.rows, language)]
+        """The rows, limits and remarks where there are any, and the warnings."""
+        head = [*(say(f"metrics.column.{name}", language) for name in CELLS), self._remark(language)]
+        rows = [[*texts, _remarks(row, language)] for texts, row in told(self.rows, language)]
+        kept = [i for i in range(len(head)) if i < 5 or any(row[i] for row in rows)]
         notes = [f"! {warning}" for warning in self.warnings_in(language)]
-        return Table(head, rows, "<<><>", self.title, notes)
+        align = "".join("<<><>><"[i] for i in kept)
+        return Table(
+            [head[i] for i in kept], [[row[i] for i in kept] for row in rows], align, self.title, notes
+        )
+
+    def _remark(self, language: str) -> str:
+        return say("metrics.column.remark", language)
+
+    def _beneath(self, table: Table, width: int | None, language: str) -> list[str]:
+        """Lines of the table with each remark on a line of its own beneath its number."""
+        rows, remarks, align = table.texts(), [""] * len(table.rows), table.alignment
+        if table.head[-1] == self._remark(language):
+            remarks = [row[-1] for row in rows[1:]]
+            rows, align = [row[:-1] for row in rows], align[:-1]
+        head, *body = aligned_within(rows, align, width)
+        found = list(head)
+        for (first, *rest), said in zip(body, remarks, strict=True):
+            remark = said.removeprefix(MARK.strip()).strip()
+            found += [first + MARK * (said != remark), *rest, *([f"    {remark}"] if remark else [])]
+        return found
 
     def data(self, language: str = "en") -> dict[str, Any]:
         """Plain data, SI, one mapping per row; remarks and warnings in a language."""

@@ -12,7 +12,7 @@ from linkwright.joints.base import JOINTS
 from linkwright.structure.mobility import lower_pairs
 from linkwright.structure.trains import GearTrain, written
 from linkwright.words import Say, _, has, language_of
-from linkwright.words.characters import cells, padded
+from linkwright.words.characters import aligned
 from linkwright.words.sentence import link_said
 
 
@@ -186,7 +186,6 @@ def _train(train: GearTrain, say: Say) -> list[str]:
         rows.append([say(_("all as one")), *["1"] * (len(wheels) + 1)])
         if speeds := train.speeds:
             rows.append([say(_("{carrier} stopped", carrier=frame)), *map(written, speeds.values())])
-    widths = [max(cells(row[i]) for row in rows) for i in range(len(rows[0]))]
     lines = [
         say(
             _(
@@ -196,9 +195,7 @@ def _train(train: GearTrain, say: Say) -> list[str]:
             )
         )
     ]
-    for row in rows:
-        first, *rest = (padded(cell, w) for cell, w in zip(row, widths, strict=True))
-        lines.append("  " + "  ".join([first, *rest]).rstrip())
+    lines += [f"  {line}" for line in aligned(rows, "<" * len(rows[0]))]
     if train.planetary:
         lines += [
             say(
@@ -218,11 +215,7 @@ def _train(train: GearTrain, say: Say) -> list[str]:
 def _table(structure: Structure, say: Say) -> list[str]:
     """The groups, one in a line."""
     rows = [_row(number, group, say) for number, group in enumerate(structure.groups, 1)]
-    widths = [max(cells(row[i]) for row in rows) for i in range(len(rows[0]))] if rows else []
-    return [
-        "  " + "  ".join(padded(cell, w) for cell, w in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    ]
+    return [f"  {line}" for line in aligned(rows, "<<<<<")]
 
 
 def _row(number: int, group: Group, say: Say) -> tuple[str, str, str, str, str]:

@@ -10,13 +10,12 @@ from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.given import STEPS
 from linkwright.errors import LinkwrightError, about
-from linkwright.words import _, say
+from linkwright.words import _
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.metrics.base import MetricValue
     from linkwright.metrics.table import MetricsTable
 
 SUMMARY = _("design numbers: transmission angle, strokes, peak torque and reactions, …")
@@ -32,8 +31,6 @@ linkwright metrics press.yaml --names stroke,quick_return_ratio,transmission_ang
 linkwright metrics crusher.yaml --output numbers.csv"""
 
 ENDINGS = (".csv", ".json")
-#: Behind numbers about which a warning stands beneath the table.
-MARK = "  !"
 COLUMNS = ("metric", "subject", "value", "unit", "at", "at_unit", "limit", "exact", "warning", "remark")
 
 
@@ -84,7 +81,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if session.json:
         session.show_data(data)
     else:
-        session.show("\n".join(_report(table, session)))
+        text = table.text(session.language, session.width, fold=session.room is not None)
+        session.show("\n".join(session.table(text.split("\n"), heads=3)))
         session.show_written(options.output, apart=True)
     for each in troubles:
         session.tell_error(each)
@@ -155,54 +153,3 @@ def _all(
     except LinkwrightError as error:
         return metrics(motion), [], error
     return metrics(forces), [], None
-
-
-def _report(table: MetricsTable, session: Session) -> list[str]:
-    say = session.say
-    if not table.rows:
-        return [
-            session.strong(table.title),
-            "",
-            say(_("none of the design numbers applies to this mechanism")),
-        ]
-    warnings = table.warnings_in(session.language)
-    lines = [session.strong(table.title), "", *session.table(_lines(table, session))]
-    return [
-        *lines,
-        *([""] if warnings else []),
-        *session.table([f"! {warning}" for warning in warnings], heads=0),
-    ]
-
-
-def _lines(table: MetricsTable, session: Session) -> list[str]:
-    """Lines of the table; where it is too wide, each remark on a line of its own beneath its number."""
-    from linkwright.metrics.base import CELLS
-    from linkwright.metrics.table import told
-    from linkwright.words.characters import aligned, aligned_within, cells
-
-    keys = (*CELLS, "remark")
-    rows = [[session.say(f"metrics.column.{key}") for key in keys]]
-    rows += [[*cells, _remarks(row, session.language)] for cells, row in told(table, session.language)]
-    kept = [i for i in range(len(keys)) if i < 5 or any(row[i] for row in rows[1:])]
-    align = "".join("<<><>><"[i] for i in kept)
-    lines = aligned([[row[i] for i in kept] for row in rows], align)
-    if max(map(cells, lines)) <= session.width or (kept[-1] < 6 and session.room is None):
-        return lines
-    if kept[-1] == 6:
-        kept, align = kept[:-1], align[:-1]
-    room = session.room and session.room - len(MARK)
-    head, *body = aligned_within([[row[i] for i in kept] for row in rows], align, room)
-    found = list(head)
-    for (first, *rest), row in zip(body, rows[1:], strict=True):
-        remark = row[-1].removeprefix(MARK.strip()).strip()
-        found += [first + MARK * (row[-1] != remark), *rest, *([f"    {remark}"] if remark else [])]
-    return found
-
-
-def _remarks(row: MetricValue | None, language: str) -> str:
-    """Remarks of a row, if it is that of a value; its warnings stand beneath the table, and are marked here."""
-    if row is None:
-        return ""
-    said = [remark.text(language) for remark in row.remarks if not remark.warning]
-    mark = MARK.strip() if row.warnings else ""
-    return f"{mark} {say('finding.semicolon', language).join(said)}".strip()
