@@ -1,12 +1,12 @@
-"""A worked solution as plain text."""
+"""A worked solution, and how it is printed as plain text."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from unicodedata import east_asian_width
 
+from linkwright.core.dataclass import dataclass
 from linkwright.equations.steps import Equation, Note, Relation, Step, Tabulated, Written
-from linkwright.words.characters import cells
+from linkwright.words.characters import cells, folded
 
 WIDTH = 100
 
@@ -14,7 +14,7 @@ WIDTH = 100
 def page(heading: Iterable[str], steps: Iterable[Step]) -> str:
     """All steps, equal signs in line within a step."""
     title, *legend = heading
-    lines = [title, *(line for text in legend for line in wrapped(text))]
+    lines = [title, *(line for text in legend for line in _folded(text))]
     for step in steps:
         title = f"{step.number}  {step.title}"
         lines += ["", title, ("=" if "." not in step.number else "-") * cells(title), *_step(step)]
@@ -29,7 +29,7 @@ def _step(step: Step) -> Iterator[str]:
         if isinstance(item, Note):
             if not previous_note and item is not step.items[0]:
                 yield ""
-            yield from wrapped(item.text)
+            yield from _folded(item.text)
         elif isinstance(item, Relation):
             yield from _long("    ", item.text, "    ")
         elif isinstance(item, Written | Tabulated):
@@ -80,23 +80,32 @@ def _terms(text: str) -> list[str]:
     return parts
 
 
-def wrapped(text: str) -> Iterator[str]:
-    """A sentence in lines; Chinese text may break anywhere."""
-    line = "  "
-    for word in _words(text):
-        if cells(line) + cells(word.rstrip()) > WIDTH and line.strip():
-            yield line.rstrip()
-            line = "  "
-        line += word
-    yield line.rstrip()
+def _folded(text: str) -> list[str]:
+    """A sentence in lines."""
+    return [f"  {line}".rstrip() for line in folded(text, WIDTH - 2)]
 
 
-def _words(text: str) -> Iterator[str]:
-    word = ""
-    for c in text:
-        word += c
-        if c == " " or east_asian_width(c) in "WF":
-            yield word
-            word = ""
-    if word:
-        yield word
+@dataclass(frozen=True)
+class Solution:
+    """A worked solution: ``steps`` in the order in which a textbook prints them."""
+
+    title: str
+    steps: tuple[Step, ...]
+
+    @property
+    def equations(self) -> tuple[Equation, ...]:
+        """All results in order."""
+        return tuple(equation for step in self.steps for equation in step.equations)
+
+    def text(self) -> str:
+        """Plain text, up to 100 columns wide but for tables and matrices."""
+        return page((self.title,), self.steps)
+
+    def data(self) -> dict[str, object]:
+        """Plain data for programs and reports."""
+        return {"title": self.title, "steps": [step.data() for step in self.steps]}
+
+    def __repr__(self) -> str:
+        return (
+            f"{type(self).__name__}({self.title!r}: {len(self.steps)} steps, {len(self.equations)} equations)"
+        )

@@ -17,8 +17,7 @@ from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.core.table import Table
-from linkwright.equations.steps import Equation, Step
-from linkwright.equations.text import page
+from linkwright.equations.text import Solution
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
@@ -110,7 +109,7 @@ class Derivation:
 
 
 @dataclass(frozen=True)
-class WorkedSynthesis:
+class WorkedSynthesis(Solution):
     """How the first candidate of a synthesis was found, as a textbook prints it.
 
     ``steps`` hold sentences, equations with their numbers, matrices and tables; lengths in mm, or in m where the
@@ -118,25 +117,7 @@ class WorkedSynthesis:
     they belong to.
     """
 
-    title: str
-    steps: tuple[Step, ...]
     pictures: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-
-    @property
-    def equations(self) -> tuple[Equation, ...]:
-        """All results in order."""
-        return tuple(equation for step in self.steps for equation in step.equations)
-
-    def text(self) -> str:
-        """Plain text, up to 100 columns wide but for tables and matrices."""
-        return page((self.title,), self.steps)
-
-    def data(self) -> dict[str, object]:
-        """Plain data for programs."""
-        return {"title": self.title, "steps": [step.data() for step in self.steps]}
-
-    def __repr__(self) -> str:
-        return f"WorkedSynthesis({self.title!r}: {len(self.steps)} steps)"
 
 
 @dataclass(frozen=True, eq=False)

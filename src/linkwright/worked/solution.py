@@ -9,9 +9,9 @@ from linkwright.core.given import require, whole
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Group
 from linkwright.equations.reading import of_file, read_name
-from linkwright.equations.steps import Equation, Step, Written
+from linkwright.equations.steps import Step, Written
 from linkwright.equations.terms import NOTHING, ZERO, Term, symbol, total
-from linkwright.equations.text import page
+from linkwright.equations.text import Solution, page
 from linkwright.errors import LinkwrightError, RequestError, require_language, speaker
 from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.kinematics.motion import Motion
@@ -101,22 +101,15 @@ def _drivers(step: Step, forces: Forces, book: Book, sum_of: Term) -> None:
 
 
 @dataclass(frozen=True)
-class Worked:
+class Worked(Solution):
     """The worked solution of one position: ``steps`` in the order in which a textbook solves it.
 
     Every step holds sentences, relations and equations (formula, numbers put in, result); ``text`` prints them,
     ``data`` gives them as plain data with LaTeX forms.
     """
 
-    title: str
-    legend: tuple[str, ...]
-    position: int
-    steps: tuple[Step, ...]
-
-    @property
-    def equations(self) -> tuple[Equation, ...]:
-        """All results in order."""
-        return tuple(equation for step in self.steps for equation in step.equations)
+    legend: tuple[str, ...] = ()
+    position: int = 0
 
     def text(self) -> str:
         """Plain text, up to 100 columns wide."""
@@ -124,15 +117,7 @@ class Worked:
 
     def data(self) -> dict[str, object]:
         """Plain data for programs and reports."""
-        return {
-            "title": self.title,
-            "legend": list(self.legend),
-            "position": self.position,
-            "steps": [step.data() for step in self.steps],
-        }
-
-    def __repr__(self) -> str:
-        return f"Worked({self.title!r}: {len(self.steps)} steps, {len(self.equations)} equations)"
+        return {**super().data(), "legend": list(self.legend), "position": self.position}
 
 
 def worked(
@@ -169,7 +154,7 @@ def worked(
 
         steps += force_steps(source, book, len(steps) and int(steps[-1].number.split(".")[0]))
     title = say(_("{name}: worked solution of one position", name=motion.mechanism.name))
-    return Worked(title, tuple(_legend(book)), index, tuple(step for step in steps if step.items))
+    return Worked(title, tuple(step for step in steps if step.items), tuple(_legend(book)), index)
 
 
 def _solved_at(source: Forces | Motion, at: float) -> Forces | Motion:
