@@ -16,7 +16,7 @@ SOURCE = Path(linkwright.__file__).parent
 #: Where the code stands among the arguments of calls that note a finding.
 PLACES = {"Saying": 0,
     "Finding": 5, "finding": 3, "error": 4, "remark": 2, "Remark": 4, "_remarks": 3, "_refuse": 3,
-    "add": 3, "_wrong": 2, "wrong": 2, "say": 3, "ExpressionError": 4,
+    "add": 3, "_wrong": 2, "wrong": 2, "say": 3, "ExpressionError": 4, "note": 2,
 }  # fmt: skip
 #: Files whose calls ``wrong(PLACE, KEY)`` have the code in the key of their sentence.
 BY_KEY = ("report/settings.py", "course/task.py")

@@ -154,6 +154,8 @@ ATTACHED.update(
 )
 
 SECTIONS.update({
+    "course": "linkwright.course.task:SECTION",
+    "optimize": "linkwright.designs.optimise.problem:SECTION",
     "report": "linkwright.report.settings:SECTION",
     "synthesis": "linkwright.synthesis.section:SECTION",
 })  # fmt: skip

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from linkwright import gallery
 from linkwright.core.dataclass import dataclass
+from linkwright.core.entry_points import loaded
 from linkwright.core.given import STEPS
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.nodes import Node, below, located
@@ -30,6 +30,12 @@ if TYPE_CHECKING:
 
 #: Positions of the cycle that are tried.
 TRIED = 72
+#: What reads the sections for a mechanism.
+READERS = {
+    "sheet": "linkwright.sheets.settings:check",
+    "course": "linkwright.course.task:task",
+    "optimize": "linkwright.designs.optimise.problem:problem",
+}
 #: A coefficient of friction that no pair of materials has.
 RUBS = 2.0
 
@@ -278,15 +284,12 @@ def _of_settings(mechanism: Mechanism, folder: str, *, moves: bool) -> list[Find
     """What is wrong with sections that only some commands read: report, sheet, course and optimize, the last one's
     numbers where the machine ``moves``."""
     found = _of_report(mechanism.report, mechanism, folder)
-    reading: Mapping[str, Callable[[Mechanism], None]] = {
-        "sheet": _sheet,
-        "course": _course,
-        "optimize": partial(_optimize, moves=moves),
-    }
-    for key, read in reading.items():
+    for key, target in READERS.items():
         try:
             if getattr(mechanism, key):
-                read(mechanism)
+                asked = loaded(target)(mechanism)
+                if key == "optimize" and moves:
+                    loaded("linkwright.designs.optimise.task:Task")(asked)
         except ModelError as error:
             found += error.findings
         except LinkwrightError as error:
@@ -302,24 +305,3 @@ def _of_report(given: Mapping[str, Any], mechanism: Mechanism | None, folder: st
     except ModelError as error:
         return list(error.findings)
     return []
-
-
-def _sheet(mechanism: Mechanism) -> None:
-    from linkwright.sheets.settings import check
-
-    check(mechanism)
-
-
-def _course(mechanism: Mechanism) -> None:
-    from linkwright.course.task import task
-
-    task(mechanism)
-
-
-def _optimize(mechanism: Mechanism, *, moves: bool) -> None:
-    from linkwright.designs.optimise.problem import problem
-    from linkwright.designs.optimise.task import Task
-
-    asked = problem(mechanism, mechanism.optimize)
-    if moves:
-        Task(asked)

@@ -13,7 +13,11 @@ from linkwright.core.outputs import Output
 from linkwright.course.calculation_chain import Line
 from linkwright.course.mistakes import Sheet
 from linkwright.designs.ranges import dimension_of
-from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError, RequestError
+from linkwright.errors import LinkwrightError, QuantityError, RequestError
+from linkwright.fields.base import Schema
+from linkwright.fields.reading import Saying, Sayings
+from linkwright.fields.tables import AsWritten, Keys
+from linkwright.files.reader import SectionReading
 from linkwright.files.write import flow
 from linkwright.kinematics.names import result_meant
 from linkwright.mechanism.mechanism import Mechanism
@@ -22,7 +26,24 @@ from linkwright.units import DIMENSIONS, not_a_number
 from linkwright.words import _
 from linkwright.words.sentence import Sentence
 
-KEYS = ("vary", "ask", "at", "tolerance")
+_SHARE: Schema = {"type": ["string", "number"]}
+SECTION = Keys({
+    "vary": AsWritten(
+        {"type": "object", "additionalProperties": {"anyOf": [_SHARE, {"type": "array", "items": _SHARE}]}},
+        doc="dimensions that change, by a share (8 %) or between two values",
+    ),
+    "ask": AsWritten({"type": "array", "items": {"type": "string"}}, doc="results that are asked for"),
+    "at": AsWritten({"type": "string"}, doc="input at which they are asked for, such as 60 deg"),
+    "tolerance": AsWritten(_SHARE, doc="how far an answer may be off, such as 1 %"),
+})  # fmt: skip
+SAYINGS: Sayings = {
+    "unknown_key": Saying(
+        "unknown-key",
+        lambda key_, names, **more: _(
+            'there is no "{name}" in the section course; {hint}', name=key_, hint=offered(key_, names)
+        ),
+    )
+}
 #: By how much lengths change, and how far an answer may be off, where nobody says.
 SHARE, TOLERANCE = 0.08, 0.01
 #: The position at which numbers are asked for where nobody says which.
@@ -82,38 +103,29 @@ def task(mechanism: Mechanism) -> Task:
     return _Reading(mechanism, mechanism.course).task()
 
 
-class _Reading:
-    """Reads the settings and collects what is wrong with them."""
+class _Reading(SectionReading):
+    """The settings for a mechanism."""
 
     def __init__(self, mechanism: Mechanism, given: Mapping[str, Any]) -> None:
-        self.mechanism, self.given = mechanism, given
-        self.findings: list[Finding] = []
+        super().__init__(SECTION, "course", given, SAYINGS)
+        self.mechanism, self.given = mechanism, self.values
 
     def task(self) -> Task:
-        for key in self.given:
-            if key not in KEYS:
-                self._wrong(key, "unknown_key", name=key, hint=offered(str(key), KEYS))
         across = self.mechanism.across
         at = self._quantity("at", self.given.get("at", USUAL_PLACE[across]), across)
         ranges, tolerance = self._ranges(), self._tolerance(self.given.get("tolerance", TOLERANCE))
-        if at is None:
-            raise ModelError(self.findings)
+        questions: tuple[Question, ...] = ()
         try:
-            questions = self._questions(Sheet(self.mechanism, at))
+            questions = () if at is None else self._questions(Sheet(self.mechanism, at))
         except LinkwrightError as error:
-            self._note("at", error)
-        if self.findings:
-            raise ModelError(self.findings)
+            self.note("at", error)
+        self.settle()
+        assert at is not None
         return Task(self.mechanism, ranges, questions, at, tolerance)
 
     def _wrong(self, key: str, sentence: str, **values: object) -> None:
         """Notes what is wrong with a setting: the sentence ``course.SENTENCE``."""
-        told = Sentence(f"course.{sentence}", **values)
-        self.findings.append(Finding("error", "", f"course.{key}", told, code=sentence.replace("_", "-")))
-
-    def _note(self, key: str, error: LinkwrightError) -> None:
-        """Notes an error that a setting makes."""
-        self.findings.append(Finding("error", "", f"course.{key}", error.sentence, code=error.code))
+        self.note(key, Sentence(f"course.{sentence}", **values), sentence.replace("_", "-"))
 
     def _quantity(self, key: str, given: Any, dimension: str) -> float | None:
         try:
@@ -121,7 +133,7 @@ class _Reading:
                 raise not_a_number(flow(given), dimension)
             return amount(str(given), dimension)
         except QuantityError as error:
-            self._note(key, error)
+            self.note(key, error)
             return None
 
     def _tolerance(self, value: Any) -> float:
@@ -144,7 +156,7 @@ class _Reading:
             try:
                 value = self.mechanism.dimension(str(address))
             except LinkwrightError as error:
-                self._note(f"vary.{address}", error)
+                self.note(f"vary.{address}", error)
                 continue
             if (between := self._limits(str(address), value, limits)) is not None:
                 found[str(address)] = between

@@ -126,7 +126,8 @@ class PlainReader:
         the same ``values`` where no other is given; or what the section says of its own."""
         if key in self._own:
             own = self._own[key]
-            self.error(node, place, own.said(**values), "", own.code, severity=severity)
+            name = (place if isinstance(place, str) else place.key).rpartition(".")[2]
+            self.error(node, place, own.said(**{"key_": name, **values}), "", own.code, severity=severity)
             return
         told = remedy or Sentence(f"model.{key}_do", **values)
         self.error(node, place, Sentence(f"model.{key}", **values), told, code, severity=severity)

@@ -44,8 +44,12 @@ HEADER: Mapping[str, Field] = {
         doc="title, own text, order of sections and more for the command report", section="report"
     ),
     "sheet": SHEET_SECTION,
-    "course": Free(doc="what the command variants changes, within which limits, and what it asks"),
-    "optimize": Free(doc="what varies, what is made least and what is kept, for the command optimize"),
+    "course": Free(
+        section="course", doc="what the command variants changes, within which limits, and what it asks"
+    ),
+    "optimize": Free(
+        section="optimize", doc="what varies, what is made least and what is kept, for the command optimize"
+    ),
     "gravity": GRAVITY,
 }
 SECTIONS = (

@@ -6,13 +6,14 @@ import re
 from collections import ChainMap
 from collections.abc import Iterator, MutableMapping
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any, Literal
 
 from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output
-from linkwright.errors import Finding, QuantityError
+from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence, node_of, noun
@@ -25,14 +26,6 @@ from linkwright.words.sentence import Sentence
 
 #: A name with dots in a text; superscripts belong to units.
 _WORD = re.compile(r"(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d](?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[\w'-])*(?:\.[^\W\d][\w'-]*)*")
-
-
-def read_data(field: Field, given: Any, key: str, own: Sayings) -> tuple[Any, list[Finding]]:
-    """What a field reads from plain data under a key, and the findings, whose places are keys alone; ``own``:
-    sentences that the section has of its own."""
-    reader = Reader("")
-    with reader.saying(own):
-        return field.read(reader, node_of(given), Place(key, key), {}), reader.findings
 
 
 class Reader(PlainReader):
@@ -339,3 +332,29 @@ class Reader(PlainReader):
             self.error(value, place.child("over"), message, remedy, "unit")
             return None, "length"
         return found, found.dimension if found else self.input_dimension()
+
+
+class SectionReading:
+    """A section that is kept as plain data, read by its field; what is wrong with it is noted once.
+
+    ``values``: what the field gives; ``where``: stands for the file; ``own``: the section's own sentences.
+    """
+
+    def __init__(self, field: Field, key: str, given: Any, own: Sayings, where: str = "") -> None:
+        self.key, self.where, reader = key, where, Reader("")
+        with reader.saying(own):
+            self.values = field.read(reader, node_of(given), Place(key, key), {})
+        self.findings = dict.fromkeys(replace(each, where=where) for each in reader.findings)
+
+    def note(self, key: str, told: str | LinkwrightError, code: str = "") -> None:
+        """Notes what is wrong at a key of the section: a sentence, or an error that it makes."""
+        remedy = told.remedy if isinstance(told, QuantityError) else ""
+        if isinstance(told, LinkwrightError):
+            code = code or told.code
+            told = told.message if isinstance(told, QuantityError) else told.sentence
+        self.findings[Finding("error", self.where, f"{self.key}.{key}", told, remedy, code)] = None
+
+    def settle(self) -> None:
+        """Raises ModelError with all findings, where there are any."""
+        if self.findings:
+            raise ModelError([*self.findings])

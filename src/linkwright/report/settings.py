@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
-from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError, RequestError
+from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.events.position_list import PositionList, known_outputs, of_value
 from linkwright.fields.base import Field, Schema, Text, given, given_by_file, table_schema
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader, Saying, Sayings
 from linkwright.fields.tables import AsWritten, ByAddress, Either, Keys, Line, Listed, Table
-from linkwright.files.reader import read_data
+from linkwright.files.reader import SectionReading
 from linkwright.files.write import flow
 from linkwright.kinematics.names import place_meant
 from linkwright.machine.flywheel import FLUCTUATION
@@ -248,8 +248,7 @@ def settings(
     """
     reading = _Reading(given, mechanism, folder)
     found = [reading.all_of(each) for each in (*(each for each in LANGUAGES if each != language), language)]
-    if reading.findings:
-        raise ModelError([*reading.findings])
+    reading.settle()
     return found[-1]
 
 
@@ -262,20 +261,19 @@ def worked_place(mechanism: Mechanism, position: str) -> float | None:
     return amount(position, mechanism.across)
 
 
-class _Reading:
-    """Reads the settings and collects what is wrong with them, each once."""
+class _Reading(SectionReading):
+    """The settings, of a mechanism where there is one; pictures lie in a folder."""
 
     def __init__(self, given: Mapping[str, Any], mechanism: Mechanism | None, folder: str) -> None:
+        super().__init__(SECTION, "report", _present(given), SAYINGS)
         self.mechanism, self.folder = mechanism, folder
-        self.values, findings = read_data(SECTION, _present(given), "report", SAYINGS)
-        self.findings = dict.fromkeys(findings)
 
     def all_of(self, language: str) -> Settings:
         """The settings in a language."""
         own = self.values.get(language) or {}
         given = {key: each for key, each in {**self.values, **own}.items() if each is not None}
         given = {key: each for key, each in given.items() if key not in LANGUAGES}
-        places = {key: f"report.{language}.{key}" if key in own else f"report.{key}" for key in OWN}
+        places = {key: f"{language}.{key}" if key in own else key for key in OWN}
         sources = self.references(given.get("references", ()), places["references"])
         for place, text in self.texts(given, places):
             self.own(text, place, sources)
@@ -295,9 +293,6 @@ class _Reading:
     def wrong(self, place: str, key: str, **values: object) -> None:
         """Notes what is wrong at a place: the sentence ``report.KEY``, by the same word as its code."""
         self.note(place, Sentence(f"report.{key}", **values), key.replace("_", "-"))
-
-    def note(self, place: str, told: str, code: str, remedy: str = "") -> None:
-        self.findings[Finding("error", "", place, told, remedy, code)] = None
 
     def texts(self, given: Mapping[str, Any], places: Mapping[str, str]) -> Iterator[tuple[str, str]]:
         """Own texts with their places."""
@@ -351,25 +346,25 @@ class _Reading:
         try:
             return picture_of(name, self.folder).svg if name else ""
         except LinkwrightError as error:
-            self.note(place, error.sentence, code="wrong-picture")
+            self.note(place, error, code="wrong-picture")
             return ""
 
     def position(self, text: str, place: str) -> None:
         try:
             _unused = self.mechanism and worked_place(self.mechanism, text)
         except QuantityError as error:
-            self.note(place, error.message, error.code, error.remedy)
+            self.note(place, error)
 
     def numbered(self, text: str) -> None:
         """An output with the limit at which the numbers begin."""
         name, _unused, limit = text.partition(" ")
         if limit not in ("", *LIMITS):
-            self.wrong("report.numbered_from", "no_limit", text=text, limit=limit, name=name)
+            self.wrong("numbered_from", "no_limit", text=text, limit=limit, name=name)
         elif name and self.mechanism is not None:
             try:
                 place_meant(self.mechanism, name)
             except RequestError as error:
-                self.note("report.numbered_from", error.sentence, error.code)
+                self.note("numbered_from", error)
 
     def positions(self, value: Any) -> int | PositionList | None:
         """So many positions, or those that are listed."""
@@ -377,16 +372,14 @@ class _Reading:
         if text.isdecimal() and 2 <= int(text) <= MOST:
             return int(text)
         if re.fullmatch(r"[-+]?[\d.]+", text) or isinstance(value, bool) or value is None:
-            self.wrong("report.positions", "bad_positions", text=flow(value), most=MOST)
+            self.wrong("positions", "bad_positions", text=flow(value), most=MOST)
             return None
         try:
             listed = of_value(value, self.dimensions)
             if self.mechanism is not None:
                 known_outputs(self.mechanism, listed)
         except LinkwrightError as error:
-            remedy = error.remedy if isinstance(error, QuantityError) else ""
-            said = error.message if isinstance(error, QuantityError) else error.sentence
-            self.note("report.positions", said, error.code, remedy)
+            self.note("positions", error)
             return None
         return listed
 
@@ -405,7 +398,7 @@ class _Reading:
         except (TypeError, ValueError):
             found = 0.0
         if not 0.0 < found < 1.0:
-            self.wrong("report.fluctuation", "bad_fluctuation", text=flow(value))
+            self.wrong("fluctuation", "bad_fluctuation", text=flow(value))
         return found
 
 

@@ -8,11 +8,9 @@ from typing import Any, cast
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError, QuantityError
-from linkwright.fields.reading import Place
 from linkwright.fields.sheet import SHEET, WORDS
-from linkwright.files.compose import compose
-from linkwright.files.reader import Reader
-from linkwright.files.write import flow
+from linkwright.fields.tables import Keys
+from linkwright.files.reader import SectionReading
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.report.settings import worked_place
 from linkwright.sheets.paper import Paper, Standard
@@ -51,15 +49,9 @@ class Settings:
 
 def read_section(given: Mapping[str, Any]) -> dict[str, Any]:
     """The values of a section ``sheet`` by its keys, SI; raises ModelError with all findings."""
-    if not given:
-        return {}
-    root, _ = compose(flow(given))
-    assert root is not None
-    reader = Reader("sheet")
-    values = reader.table(root, Place("sheet", "sheet"), SHEET)
-    if reader.findings:
-        raise ModelError(reader.findings)
-    return {key: value for key, value in (values or {}).items() if value is not None}
+    reading = SectionReading(Keys(SHEET), "sheet", given, {})
+    reading.settle()
+    return {key: value for key, value in reading.values.items() if value is not None}
 
 
 def settings(

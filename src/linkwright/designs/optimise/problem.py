@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import field
 from typing import Any, Literal
 
@@ -18,7 +18,12 @@ from linkwright.designs.objective_terms import PathError
 from linkwright.designs.optimise.paths import path_error
 from linkwright.designs.ranges import Range, parse_range
 from linkwright.designs.varied_dimensions import between, checked_addresses, gives_part_of_tooth
-from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.fields.base import Field, Schema, Word, given, given_by_file
+from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place, Reader, Saying, Sayings
+from linkwright.fields.tables import AsWritten, ByAddress, Keys
+from linkwright.files.reader import SectionReading
 from linkwright.files.write import flow
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
@@ -26,10 +31,6 @@ from linkwright.registry import offered
 from linkwright.words import _
 
 Robust = Literal["", "worst", "yield"]
-SETTINGS = (
-    "vary", "minimize", "maximize", "keep", "define", "tolerance", "robust", "yield", "fluctuation", "steps",
-    "evaluations", "population", "seed",
-)  # fmt: skip
 _SPAN = re.compile(r"^(?P<low>.+?)\s*\.\.\s*(?P<high>.+)$")
 _NUMBER = re.compile(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$")
 
@@ -82,6 +83,36 @@ class Demand:
     same: str | None = None
 
 
+@dataclass(frozen=True)
+class Number(Field):
+    """A number from ``low`` to ``high``."""
+
+    low: float
+    high: float
+    make: Callable[[float], float] = float
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> float | None:
+        value = reader.free(node)
+        try:
+            found = float(value)
+        except (TypeError, ValueError, OverflowError):
+            found = math.nan
+        if self.low <= found <= self.high:
+            return self.make(found)
+        told = _(
+            "{key_}: {given} is no number between {low} and {high}; give one",
+            key_=place.key.rpartition(".")[2],
+            given=flow(value),
+            low=self.low,
+            high=self.high,
+        )
+        reader.error(node, place, told, "", "range")
+        return None
+
+    def shape(self) -> Schema:
+        return {"type": "number", "minimum": self.low, "maximum": self.high}
+
+
 @dataclass(frozen=True, eq=False)
 class Problem:
     """All of it; ``paths``: path errors by name; ``tolerances``: ± of dimensions, SI."""
@@ -93,13 +124,18 @@ class Problem:
     define: Mapping[str, str] = field(default_factory=dict)
     paths: Mapping[str, PathError] = field(default_factory=dict)
     tolerances: Mapping[str, float] = field(default_factory=dict)
-    robust: Robust = ""
-    least_yield: float = 0.99
-    fluctuation: float = FLUCTUATION
-    steps: int = STEPS
-    evaluations: int = 4000
-    population: int = 0
-    seed: int = 0
+    robust: Robust = given(Word(("worst", "yield"), doc="how the tolerances count"), "")
+    least_yield: float = given(
+        Number(
+            1e-12, 1.0, key="yield", doc="share of the machines made that meets the demands; default 0.99"
+        ),
+        0.99,
+    )
+    fluctuation: float = given(Number(1e-12, 1.0, doc="coefficient of speed fluctuation"), FLUCTUATION)
+    steps: int = given(Number(1.0, 1e6, int, doc="positions of the cycle; default 360"), STEPS)
+    evaluations: int = given(Number(1.0, 1e9, int, doc="designs that are judged at most; default 4000"), 4000)
+    population: int = given(Number(0.0, 1e6, int, doc="designs of a generation; chosen unless given"), 0)
+    seed: int = given(Number(0.0, 1e9, int, doc="of the random numbers; default 0"), 0)
 
     @property
     def addresses(self) -> tuple[str, ...]:
@@ -112,42 +148,67 @@ class Problem:
         return np.array([self.mechanism.dimension(each.address) for each in self.variables])
 
 
-def problem(mechanism: Mechanism, given: Mapping[str, Any], source: str = "") -> Problem:
-    """A problem from the section ``optimize`` or the arguments of :func:`optimize`.
+_TEXTS: Schema = {"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}]}
+SECTION = Keys({
+    "vary": ByAddress(AsWritten(), doc="bounds of dimensions and parameters, such as 80..120 mm"),
+    "minimize": AsWritten(_TEXTS, doc="numbers that are made least"),
+    "maximize": AsWritten(_TEXTS, doc="numbers that are made greatest"),
+    "keep": ByAddress(AsWritten(), doc="demands on numbers, such as at least 40 deg"),
+    "define": ByAddress(AsWritten(), doc="names for numbers, and errors of paths"),
+    "tolerance": ByAddress(AsWritten(), doc="± of dimensions, such as 0.1 mm"),
+    **given_by_file(Problem),
+})  # fmt: skip
+SAYINGS: Sayings = {
+    "unknown_key": Saying(
+        "unknown-key",
+        lambda key_, names, **more: _(
+            '"{key_}" is no setting of an optimisation; {hint}', key_=key_, hint=offered(key_, names)
+        ),
+    ),
+    "where_mapping": Saying(
+        "type",
+        lambda key_, **more: _(
+            "{key_}: must be names with their values; write NAME: VALUE on lines of their own", key_=key_
+        ),
+    ),
+    "unknown_word": Saying(
+        "unknown-word",
+        lambda text, **more: _(
+            'robust: "{given}" is neither worst nor yield; write one of them, or leave it out', given=text
+        ),
+    ),
+}
+
+
+def problem(mechanism: Mechanism, given: Mapping[str, Any] | None = None, source: str = "") -> Problem:
+    """A problem from the section ``optimize``, or from what is ``given`` in its place.
 
     Raises ModelError with all findings.
     """
-    return _Reading(mechanism, given, source or mechanism.name).problem()
+    return _Reading(
+        mechanism, mechanism.optimize if given is None else given, source or mechanism.name
+    ).problem()
 
 
-class _Reading:
-    """Reads the settings and collects what is wrong with them."""
+class _Reading(SectionReading):
+    """The settings for a mechanism; those that may be objects in programs are taken as they are given."""
 
     def __init__(self, mechanism: Mechanism, given: Mapping[str, Any], source: str) -> None:
-        self.mechanism, self.given, self.source = mechanism, given, source
-        self.findings: list[Finding] = []
+        self.mechanism = mechanism
+        self.given = {key: each for key, each in given.items() if each is not None and not _empty(each)}
+        plain = {key: "" if key in ("minimize", "maximize") else each for key, each in self.given.items()}
+        super().__init__(SECTION, "optimize", plain, SAYINGS, source)
 
     def problem(self) -> Problem:
-        for key in self.given:
-            if key not in SETTINGS:
-                self._wrong(
-                    key,
-                    _(
-                        '"{key_}" is no setting of an optimisation; {hint}',
-                        key_=key,
-                        hint=offered(key, SETTINGS),
-                    ),
-                    "unknown-key",
-                )
         variables = self._variables()
         define, paths = self._defined()
-        goals = [
+        goals = tuple(
             Goal(text, sign)
             for key, sign in (("minimize", 1.0), ("maximize", -1.0))
             for text in self._texts(key, paths)
-        ]
+        )
         if not goals:
-            self._wrong(
+            self.note(
                 "minimize",
                 _(
                     "nothing is made least or greatest; give minimize: or maximize: with a number such "
@@ -157,66 +218,27 @@ class _Reading:
             )
         sought = [goal.text.strip() for goal in goals]
         for text in sorted({each for each in sought if sought.count(each) > 1}):
-            self._wrong(
+            self.note(
                 "maximize",
                 _("{text} is sought twice; give it once, under minimize: or under maximize:", text=text),
                 "goal-twice",
             )
-        demands = self._demands()
-        tolerances = self._tolerances()
-        robust = str(self.given.get("robust") or "")
-        if robust not in ("", "worst", "yield"):
-            self._wrong(
-                "robust",
-                _(
-                    'robust: "{given}" is neither worst nor yield; write one of them, or leave it out',
-                    given=robust,
-                ),
-                "unknown-word",
-            )
-        if robust and not tolerances:
-            self._wrong(
+        demands, tolerances = tuple(self._demands()), self._tolerances()
+        if "robust" in self.given and not tolerances:
+            self.note(
                 "tolerance",
                 _("robust: needs tolerance: with ± of dimensions, such as crank.length: 0.1 mm"),
                 "no-tolerance",
             )
-        numbers = {key: self._number(key, usual) for key, usual in _USUAL.items()}
-        if self.findings:
-            raise ModelError(self.findings)
-        kind: Robust = "worst" if robust == "worst" else "yield" if robust else ""
+        self.settle()
+        numbers = {key: self.values[key] for key in given_by_file(Problem) if key in self.values}
         return Problem(
-            self.mechanism,
-            tuple(variables),
-            tuple(goals),
-            tuple(demands),
-            define,
-            paths,
-            tolerances,
-            kind,
-            numbers["yield"],
-            numbers["fluctuation"],
-            int(numbers["steps"]),
-            int(numbers["evaluations"]),
-            int(numbers["population"]),
-            int(numbers["seed"]),
-        )
-
-    def _wrong(self, key: str, told: str, code: str) -> None:
-        self.findings.append(Finding("error", self.source, f"optimize.{key}", told, code=code))
+            self.mechanism, tuple(variables), goals, demands, define, paths, tolerances, **numbers
+        )  # fmt: skip
 
     def _mapping(self, key: str) -> dict[str, Any]:
-        value = self.given.get(key) or {}
-        if not isinstance(value, Mapping):
-            self._wrong(
-                key,
-                _(
-                    "{key_}: must be names with their values; write NAME: VALUE on lines of their own",
-                    key_=key,
-                ),
-                "type",
-            )
-            return {}
-        return {str(name): each for name, each in value.items()}
+        value = self.given.get(key)
+        return {str(name): each for name, each in value.items()} if isinstance(value, Mapping) else {}
 
     def _defined(self) -> tuple[dict[str, str], dict[str, PathError]]:
         """Texts and path errors by name."""
@@ -225,7 +247,7 @@ class _Reading:
             try:
                 path = path_error(value)
             except LinkwrightError as error:
-                self._wrong(f"define.{name}", error.sentence, error.code)
+                self.note(f"define.{name}", error)
                 continue
             if path is None:
                 texts[name] = value if isinstance(value, str) else flow(value)
@@ -246,7 +268,7 @@ class _Reading:
             elif isinstance(each, str):
                 found.append(each)
             else:
-                self._wrong(
+                self.note(
                     key,
                     _(
                         "{key_}: must be a number's name or a list of them, such as [peak_input_torque, "
@@ -258,28 +280,6 @@ class _Reading:
                 return []
         return found
 
-    def _number(self, key: str, usual: float) -> float:
-        value = self.given.get(key, usual)
-        try:
-            found = float(value)
-        except (TypeError, ValueError, OverflowError):
-            found = float("nan")
-        low = 0.0 if key in ("seed", "population") else 1.0 if key in ("steps", "evaluations") else 1e-12
-        high = 1.0 if key in ("yield", "fluctuation") else 1e6 if key in ("steps", "population") else 1e9
-        if not low <= found <= high:
-            self._wrong(
-                key,
-                _(
-                    "{key_}: {given} is no number between {low} and {high}; give one",
-                    key_=key,
-                    given=flow(value),
-                    low=low,
-                    high=high,
-                ),
-                "range",
-            )
-        return found
-
     def _variables(self) -> list[Variable]:
         found = []
         for address, value in self._mapping("vary").items():
@@ -287,9 +287,9 @@ class _Reading:
                 checked_addresses(self.mechanism, [address])
                 found.append(self._variable(address, value))
             except LinkwrightError as error:
-                self._wrong(f"vary.{address}", error.sentence, error.code)
+                self.note(f"vary.{address}", error)
         if not found and not self.findings:
-            self._wrong(
+            self.note(
                 "vary",
                 _(
                     'nothing varies; give dimensions with ranges: {{"crank.length": "20..30 mm:11"}}',
@@ -371,7 +371,7 @@ class _Reading:
         for text, value in self._mapping("keep").items():
             demand = _demand(text, value)
             if demand is None:
-                self._wrong(
+                self.note(
                     f"keep.{text}",
                     _(
                         '"{given}" is no demand; write at least 40 deg, at most 60 kN, 1..2 m, or same '
@@ -392,7 +392,7 @@ class _Reading:
                 text = value if isinstance(value, str) else flow(value)
                 found[address] = abs(parse_range(self.mechanism, address, text.lstrip("±+- ")).high)
             except LinkwrightError as error:
-                self._wrong(f"tolerance.{address}", error.sentence, error.code)
+                self.note(f"tolerance.{address}", error)
         return found
 
 
@@ -407,12 +407,6 @@ def _rising(found: Range) -> None:
                 code="optimize.falling",
             ).format(address=found.address, **said)
         )
-
-
-_USUAL = {
-    "yield": Problem.least_yield,
-    **{key: getattr(Problem, key) for key in ("fluctuation", "steps", "evaluations", "population", "seed")},
-}
 
 
 def _demand(text: str, value: Any) -> Demand | None:
@@ -445,3 +439,8 @@ def _demand(text: str, value: Any) -> Demand | None:
     if bare is not None and not bare[2] and unit is not None:
         low = f"{low} {unit[2]}".strip()
     return Demand(text, low, high)
+
+
+def _empty(value: Any) -> bool:
+    """Whether nothing is given behind a key."""
+    return isinstance(value, str | Mapping | list | tuple) and not value
