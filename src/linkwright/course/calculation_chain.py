@@ -96,13 +96,3 @@ class Calculation:
             (moved.discard if value == right[number] else moved.add)(line.result.plain)
             found.append(value)
         return found
-
-
-def with_terms(term: Term, replace: Callable[[Term], Term | None]) -> Term:
-    """A term with parts of it replaced, from the outside in."""
-    new = replace(term)
-    if new is not None:
-        return new
-    if not term.args:
-        return term
-    return Term(term.op, tuple(with_terms(each, replace) for each in term.args), term.signs)

@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import partial
 
 from linkwright.core.dataclass import dataclass
-from linkwright.course.calculation_chain import Calculation, Change, Line, Values, lines_of, with_terms
+from linkwright.course.calculation_chain import Calculation, Change, Line, Values, lines_of
 from linkwright.equations.terms import TWO, ZERO, Term
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.positions import at_inputs
@@ -97,7 +97,7 @@ def wrong_assembly_mode(sheet: Sheet) -> Made:
 
         def change(number: int, _: Term, formula: Term, group: str = group, start: int = start) -> Term:
             line = sheet.lines[number]
-            return with_terms(formula, _negated("ρ")) if line.group == group and number > start else formula
+            return formula.replaced(_negated("ρ")) if line.group == group and number > start else formula
 
         yield group, sheet.reckoned(change)
 
@@ -146,14 +146,14 @@ def _slips(formula: Term) -> Iterator[Term]:
                 rest = zip(factor.args[1:], factor.signs[1:], strict=True)
                 tail = [Term("product", (last, *product.args[place + 1 :])) for last, _ in rest]
                 signs = (1, *factor.signs[1:])
-                yield with_terms(formula, _put(product, Term("sum", (head, *tail), signs)))
+                yield formula.replaced(_put(product, Term("sum", (head, *tail), signs)))
     for quotient in _parts(formula, "quotient"):
         above, below = quotient.args
         if above.op == "sum" and len(above.args) > 1:
-            yield from (with_terms(formula, _put(quotient, wrong)) for wrong in _undivided(above, below))
+            yield from (formula.replaced(_put(quotient, wrong)) for wrong in _undivided(above, below))
         if below.op == "product":
             first = Term("quotient", (above, below.args[0]))
-            yield with_terms(formula, _put(quotient, Term("product", (first, *below.args[1:]))))
+            yield formula.replaced(_put(quotient, Term("product", (first, *below.args[1:]))))
 
 
 def _undivided(above: Term, below: Term) -> Iterator[Term]:
@@ -218,7 +218,7 @@ def missing_coriolis(sheet: Sheet) -> Made:
         slides = any(name.startswith("s'") and not name.startswith("s''") for name in names)
         return ZERO if slides and any(name.startswith("ω") for name in names) else None
 
-    yield "", sheet.reckoned(lambda _, __, formula: with_terms(formula, coriolis))
+    yield "", sheet.reckoned(lambda _, __, formula: formula.replaced(coriolis))
 
 
 def mass_centre_wrong_end(sheet: Sheet) -> Made:

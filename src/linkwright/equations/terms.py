@@ -87,11 +87,15 @@ class Term:
         except (ValueError, ZeroDivisionError, OverflowError):
             return math.nan
 
+    def replaced(self, change: Callable[[Term], Term | None]) -> Term:
+        """The term with parts of it replaced, from the outside in."""
+        if (new := change(self)) is not None:
+            return new
+        return replace(self, args=tuple(each.replaced(change) for each in self.args)) if self.args else self
+
     def put(self, known: Mapping[str, Term]) -> Term:
         """The term with symbols, by their plain names, replaced by what is known of them."""
-        if not self.args:
-            return known.get(self.plain, self) if self.op == "symbol" else self
-        return replace(self, args=tuple(each.put(known) for each in self.args))
+        return self.replaced(lambda each: known.get(each.plain) if each.op == "symbol" else None)
 
     def leaves(self) -> list[Term]:
         """All symbols and numbers in it."""
