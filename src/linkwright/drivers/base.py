@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, ClassVar
 from linkwright.core.dataclass import dataclass
 from linkwright.formula.late_import import numpy as np
 from linkwright.registry import Registry
+from linkwright.words import Message, _
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Floats
@@ -126,3 +127,11 @@ class Driver:
 LAWS: Registry[type[Law]] = Registry(
     "driver_law", "linkwright.drivers", entry_points="linkwright.drivers", attribute="key"
 )
+
+#: Kinds of laws in words.
+LABELS: Mapping[str, Message] = {
+    "speed": _("constant speed"),
+    "table": _("table"),
+    "program": _("motion program"),
+    "position": _("expression of the time"),
+}

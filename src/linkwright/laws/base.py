@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import field
 from functools import cached_property
 from typing import Any, ClassVar
@@ -13,6 +14,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.curves.curve import Curve
 from linkwright.fields.base import GivenByFile
 from linkwright.registry import Registry
+from linkwright.words import Message, _
 
 #: Below this share of the largest value a velocity or acceleration at an end is zero.
 SMALL = 1e-9
@@ -83,7 +85,7 @@ class MotionLaw(ABC):
     @cached_property
     def ends(self) -> Ends:
         """Velocity and acceleration at both ends."""
-        _, v, a, _ = self.curves(np.array([_BESIDE, 1.0 - _BESIDE]))
+        _place, v, a, _jerk = self.curves(np.array([_BESIDE, 1.0 - _BESIDE]))
         first, last = np.asarray(v, dtype=float), np.asarray(a, dtype=float)
         return Ends((float(first[0]), float(first[1])), (float(last[0]), float(last[1])))
 
@@ -127,3 +129,36 @@ class MeetingLaw(MotionLaw):
 MOTION_LAWS: Registry[type[MotionLaw]] = Registry(
     "motion_law", "linkwright.laws", entry_points="linkwright.laws", attribute="key"
 )
+
+#: Names of the laws in words.
+LABELS: Mapping[str, Message] = {
+    "dwell": _("dwell"),
+    "constant_acceleration": _("constant acceleration (parabolic)"),
+    "constant_velocity": _("constant velocity"),
+    "cycloidal": _("cycloidal (sine acceleration)"),
+    "double_harmonic": _("double harmonic"),
+    "freudenstein": _("Freudenstein 1-3"),
+    "freudenstein_135": _("Freudenstein 1-3-5"),
+    "gutman": _("Gutman 1-3"),
+    "harmonic_combination": _("sum of harmonics"),
+    "inclined_sine": _("inclined sine"),
+    "modified_sine": _("modified sine"),
+    "modified_sine_cv20": _("modified sine, 20 % constant velocity"),
+    "modified_sine_cv33": _("modified sine, 33 % constant velocity"),
+    "modified_sine_cv50": _("modified sine, 50 % constant velocity"),
+    "modified_sine_cv66": _("modified sine, 66 % constant velocity"),
+    "modified_trapezoidal": _("modified trapezoidal"),
+    "optimized_spline": _("optimised spline"),
+    "polydyne": _("polydyne"),
+    "polynomial": _("polynomial"),
+    "polynomial_23": _("polynomial 2-3"),
+    "polynomial_345": _("polynomial 3-4-5"),
+    "polynomial_4567": _("polynomial 4-5-6-7"),
+    "polynomial_5": _("polynomial of degree 5 that meets its neighbours"),
+    "polynomial_7": _("polynomial of degree 7 that meets its neighbours"),
+    "simple_harmonic": _("simple harmonic"),
+    "sine_constant_cosine": _("sine, constant, cosine"),
+    "smoothed_table": _("smoothed table"),
+    "spline": _("spline"),
+    "triple_harmonic": _("triple harmonic"),
+}

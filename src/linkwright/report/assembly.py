@@ -92,7 +92,7 @@ def _add(document: Document, within: Part, part: Section, *, asked: bool) -> Non
     """Adds a section; what it cannot show becomes a paragraph that says why, and one without content nothing."""
     say, cases = document.say, within.cases
     shift, prefix = (1, f"{within.within}: ") if within.within else (0, "")
-    title = say(f"report.title_{part.name}")
+    title = say(part.title)
     found: list[Block] = []
     text = within.own.text.get(part.name, "")
     own = _own(text, within.own, document, prefix + title) if text else ()

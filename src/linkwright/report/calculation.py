@@ -11,16 +11,17 @@ from linkwright.parts.base import Problem, Result
 from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal, noted, symbols
 from linkwright.report.given_data import given_data
 from linkwright.report.machine_results import picture
+from linkwright.report.section import SECTIONS
 from linkwright.report.sections.errata import errata_blocks
 from linkwright.report.sections.method import printed
 from linkwright.report.settings import Settings
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _
 from linkwright.words.sentence import in_language
 from linkwright.words.titles import title_said
 
-#: Sections of machines' reports whose own text stands behind a heading of a calculation, by the heading's key.
-PLACES: Mapping[str, str] = {
-    "purpose_of_calculation": "task", "sketch": "drawing", "way": "worked",
+#: Sections of machines' reports whose own text stands behind a heading of a calculation, by the heading.
+PLACES: Mapping[Message, str] = {
+    _("Purpose"): "task", _("Sketch"): "drawing", _("Solution"): "worked",
 }  # fmt: skip
 #: Share of the page's width of a sketch, and its greatest height, mm.
 WIDE, TALLEST = 0.8, 90.0
@@ -38,14 +39,14 @@ def calculation(problem: Problem, own: Settings, say: Say, language: str) -> Ite
     LinkwrightError where it has no result."""
     found = problem.solve()
     texts = dict(own.text)
-    places = {say(f"report.{key}"): name for key, name in PLACES.items()}
+    places = {say(heading): name for heading, name in PLACES.items()}
     for block in _chapters(problem, found, own, say, language):
         yield block
         name = places.get(block.text) if isinstance(block, Heading) else None
         if name is not None and name in texts:
             yield OwnText(texts.pop(name))
     for name, text in texts.items():
-        yield Heading(say(f"report.title_{name}"), 2)
+        yield Heading(say(SECTIONS[name].title), 2)
         yield OwnText(text)
     if own.errata:
         yield Heading(say(_("Mistakes of the source")), 2)
@@ -84,7 +85,7 @@ def numbers_and_way(found: Result, say: Say, language: str, level: int) -> Itera
 
 
 def _results(found: Result, say: Say) -> Iterator[Block]:
-    head = tuple(say(f"report.{key}") for key in ("name", "value", "unit", "remark"))
+    head = (say(_("name")), say(_("value")), say(_("unit")), say(_("remark")))
     for block in tidy(found.blocks(say)):
         rows = [row.cells(found.area, say) for row in block.rows]
         remarked = any(row[3] for row in rows)

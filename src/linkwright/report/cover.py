@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkwright.report.document import Cover, Document
-from linkwright.report.settings import Settings
+from linkwright.report.settings import COVER_ROWS, Settings
 from linkwright.words import _
 
 
@@ -12,7 +12,7 @@ def cover(own: Settings, document: Document) -> Cover | None:
     given, say = own.cover, document.say
     if given is None:
         return None
-    rows = [(say(f"report.cover_{key}"), value) for key, value in given.rows]
+    rows = [(say(COVER_ROWS[key]), value) for key, value in given.rows]
     above = tuple(filter(None, (given.school, own.course)))
     return Cover(
         given.kind or say(_("Course design report")),

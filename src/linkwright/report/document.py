@@ -17,7 +17,7 @@ from linkwright.equations.notation import Row
 from linkwright.equations.reading import read_name
 from linkwright.report.formula import formula
 from linkwright.report.formula_lines import width
-from linkwright.words import Say
+from linkwright.words import Say, _
 from linkwright.words.characters import cells
 
 #: Signs that switch a style on and off, and those around the target of a link, a source, the label of a link.
@@ -32,6 +32,16 @@ _MARKS = re.compile(
 _HIDDEN = {"$": "\ue000", "*": "\ue001", "`": "\ue002", "[": "\ue003", "]": "\ue004"}
 _INDEXED = re.compile(r"(?<![\w\ue000-\ue004])([A-Za-zα-ωΑ-Ω])_([A-Za-z0-9]+(?:,\d+)?)(?!\w)", re.ASCII)
 _SHOWN = {code: sign for sign, code in _HIDDEN.items()}
+#: How blocks are called, by their class.
+NAMES = {
+    "heading": _("section {number}"),
+    "table": _("Table {number}"),
+    "figure": _("Figure {number}"),
+    "code": _("Listing {number}"),
+    "formula": _("equation ({number})"),
+    "paragraph": _("{number}"),
+    "source": _("{number}"),
+}
 
 
 def literal(text: str) -> str:
@@ -328,7 +338,7 @@ class Numbers:
         """How a block is called in a sentence: ``Table 3.1``."""
         block, say = self.blocks[index], self.document.say
         kind = type(block).__name__.lower()
-        return say(f"report.name_{kind}", number=self.of.get(index, ""))
+        return say(NAMES[kind], number=self.of.get(index, ""))
 
 
 def _numbered_sources(blocks: Sequence[Block]) -> dict[str, int]:

@@ -10,6 +10,7 @@ from linkwright import units
 from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem
 from linkwright.report.document import Block, Table, literal, noted
+from linkwright.report.key_names import CALCULATION_KEYS
 from linkwright.words import Say, _
 
 #: Symbols of single values, by key, or by kind and key where a kind has another one.
@@ -55,7 +56,7 @@ def given_data(problem: Problem, say: Say) -> Iterator[Block]:
         else:
             single += list(_rows(problem.kind, (key,), value, say))
     if single:
-        head = tuple(say(f"report.{key}") for key in ("name", "symbol", "value", "unit"))
+        head = (say(_("name")), say(_("symbol")), say(_("value")), say(_("unit")))
         yield Table(say(_("Given data")), head, tuple(single), "<^><")
     yield from tables
 
@@ -102,12 +103,8 @@ def _flat(
 
 def _word(kind: str, key: str, say: Say) -> str:
     """What a key is called; a name that the user chose is itself."""
-    for each in (f"{kind}_{key}", key):
-        try:
-            return say(f"given_data.{each}")
-        except KeyError:
-            continue
-    return key
+    named = CALCULATION_KEYS.get(f"{kind}_{key}") or CALCULATION_KEYS.get(key)
+    return say(named) if named else key
 
 
 def _symbol(kind: str, path: tuple[str, ...]) -> str:

@@ -34,6 +34,13 @@ if TYPE_CHECKING:
     from linkwright.worked.solution import Worked
 
 
+#: Why a machine has no forces.
+NO_LOADS = _(
+    "the links have no mass and nothing acts on them, so no forces arise; give masses (mass: 5 kg) or loads",
+    code="report.no_loads",
+)
+
+
 class Missing(LinkwrightError):
     """Why a section, or a part of one, has nothing to show."""
 
@@ -92,7 +99,7 @@ class Case:
     def forces(self) -> Forces:
         """Joint forces over the cycle; raises Missing where nothing acts."""
         if not self.mechanism.has_loads:
-            raise Missing("report.no_loads")
+            raise Missing(NO_LOADS)
         return solve_forces(self.motion)
 
     @cached_property
@@ -260,7 +267,7 @@ class Case:
     def numbered_forces(self) -> Forces:
         """Forces at the numbered positions."""
         if not self.mechanism.has_loads:
-            raise Missing("report.no_loads")
+            raise Missing(NO_LOADS)
         return solve_forces(self.numbered.motion)
 
     @cached_property

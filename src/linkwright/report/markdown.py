@@ -32,8 +32,7 @@ from linkwright.report.document import (
 )
 from linkwright.report.formula import formula
 from linkwright.report.pictures import picture_of
-from linkwright.words import _
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 if TYPE_CHECKING:
     from markdown_it import MarkdownIt
@@ -158,8 +157,8 @@ class _Reader:
         found, self.faults = self.faults, []
         return found
 
-    def wrong(self, key: str, code: str = "", **values: object) -> None:
-        self.faults.append(Fault(Sentence(f"report.{key}", **values), code))
+    def wrong(self, sentence: Message, code: str = "") -> None:
+        self.faults.append(Fault(sentence, code))
 
     def blocks(self, nodes: Sequence[SyntaxTreeNode]) -> Iterator[Block]:
         """Blocks of nodes; a paragraph that is the caption of the table beside it goes there."""
@@ -236,7 +235,14 @@ class _Reader:
                 found += part
             elif isinstance(part, Figure):
                 found += part.caption
-                self.wrong("picture_in_line", text=part.caption)
+                self.wrong(
+                    _(
+                        'the picture "{text}" stands in a heading, a table or a link, where no picture can '
+                        "stand; give it a paragraph of its own",
+                        code="report.picture_in_line",
+                        text=part.caption,
+                    )
+                )
             elif isinstance(part, Formula):
                 found += f"${part.sides[0]}$"
         return found
@@ -266,7 +272,13 @@ class _Reader:
         match node.type:
             case "text" | "text_special":
                 if spaced := _SPACED.search(node.content):
-                    self.wrong("spaced_formula", text=spaced[0])
+                    self.wrong(
+                        _(
+                            '"{text}" is printed as it is; a formula has no spaces next to its dollar signs: $x + y$',
+                            code="report.spaced_formula",
+                            text=spaced[0],
+                        )
+                    )
                 return literal(node.content)
             case "softbreak":
                 after = behind[0].content[:1] if behind else ""
@@ -307,7 +319,16 @@ class _Reader:
             if name in self.beside.sources:
                 found.append(cited(self.beside.sources[name]))
             else:
-                self.wrong("no_source", code="no-source", name=name, hint=offered(name, self.beside.sources))
+                hint = offered(name, self.beside.sources)
+                self.wrong(
+                    _(
+                        'no source is named "{name}"; {hint}; own sources stand in the list references',
+                        code="report.no_source",
+                        name=name,
+                        hint=hint,
+                    ),
+                    "no-source",
+                )
                 found.append(literal(f"[@{name}]"))
         return ", ".join(found)
 

@@ -1,6 +1,6 @@
 """What every section of a report supplies, and their registry.
 
-A section is one function, registered under its name; its title is the word ``report.title_NAME``.
+A section is one function, registered under its name.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import TypeVar
 from linkwright.core.dataclass import dataclass
 from linkwright.registry import Registry
 from linkwright.report.document import Block
+from linkwright.words import Message
 
 
 @dataclass(frozen=True)
@@ -22,6 +23,7 @@ class Section:
     none."""
 
     name: str
+    title: Message
     rank: float
     optional: bool
     common: bool
@@ -34,13 +36,13 @@ SECTIONS: Registry[Section] = Registry("report_section", "linkwright.report.sect
 
 
 def section(
-    name: str, rank: float, *, optional: bool = False, common: bool = False
+    name: str, title: Message, rank: float, *, optional: bool = False, common: bool = False
 ) -> Callable[[Blocks], Blocks]:
     """Decorator that registers a function as a section: of one machine, or with ``common`` of all of them."""
 
     def registered(blocks: Blocks) -> Blocks:
         of_all = blocks if common else lambda cases: blocks(cases[0])
-        SECTIONS.register(name)(Section(name, rank, optional, common, of_all))
+        SECTIONS.register(name)(Section(name, title, rank, optional, common, of_all))
         return blocks
 
     return registered

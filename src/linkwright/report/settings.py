@@ -20,8 +20,7 @@ from linkwright.kinematics.names import place_meant
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import listed, offered
-from linkwright.words import LANGUAGES, _
-from linkwright.words.sentence import Sentence
+from linkwright.words import LANGUAGES, Message, _
 
 if TYPE_CHECKING:
     from linkwright.report.markdown import Beside
@@ -29,7 +28,14 @@ if TYPE_CHECKING:
 #: What a list of sections can name beside these: all that are not named, and calculations among the files.
 BESIDE_SECTIONS = ("rest", "calculations")
 #: Lines of a cover, in their order, that are a row each.
-COVER_ROWS = ("faculty", "major", "class", "author", "student_number", "adviser")
+COVER_ROWS: Mapping[str, Message] = {
+    "faculty": _("Faculty"),
+    "major": _("Major"),
+    "class": _("Class"),
+    "author": _("Author"),
+    "student_number": _("Student number"),
+    "adviser": _("Adviser"),
+}
 #: Limits of an output that numbers can begin at.
 LIMITS = ("min", "max")
 #: Most numbered positions.
@@ -290,10 +296,6 @@ class _Reading(SectionReading):
             "folder": self.folder,
         })  # fmt: skip
 
-    def wrong(self, place: str, key: str, **values: object) -> None:
-        """Notes what is wrong at a place: the sentence ``report.KEY``, by the same word as its code."""
-        self.note(place, Sentence(f"report.{key}", **values), key.replace("_", "-"))
-
     def texts(self, given: Mapping[str, Any], places: Mapping[str, str]) -> Iterator[tuple[str, str]]:
         """Own texts with their places."""
         for name, text in given.get("text", {}).items():
@@ -320,7 +322,15 @@ class _Reading(SectionReading):
         for i, each in enumerate(given):
             key, text = (each.key, each.text) if isinstance(each, OwnSource) else (each or "", each or "")
             if isinstance(each, OwnSource) and key in found:
-                self.wrong(f"{place}.{i}", "source_twice", name=key)
+                self.note(
+                    f"{place}.{i}",
+                    _(
+                        'two sources are named "{name}"; give each a name of its own',
+                        code="report.source_twice",
+                        name=key,
+                    ),
+                    "source-twice",
+                )
             found[key] = text
         return found
 
@@ -359,7 +369,15 @@ class _Reading(SectionReading):
         """An output with the limit at which the numbers begin."""
         name, _unused, limit = text.partition(" ")
         if limit not in ("", *LIMITS):
-            self.wrong("numbered_from", "no_limit", text=text, limit=limit, name=name)
+            told = _(
+                '"{text}": numbers begin at the limit min or max of an output, not at "{limit}"; write '
+                '"{name} min"',
+                code="report.no_limit",
+                text=text,
+                limit=limit,
+                name=name,
+            )
+            self.note("numbered_from", told, "no-limit")
         elif name and self.mechanism is not None:
             try:
                 place_meant(self.mechanism, name)
@@ -372,7 +390,13 @@ class _Reading(SectionReading):
         if text.isdecimal() and 2 <= int(text) <= MOST:
             return int(text)
         if re.fullmatch(r"[-+]?[\d.]+", text) or isinstance(value, bool) or value is None:
-            self.wrong("positions", "bad_positions", text=flow(value), most=MOST)
+            told = _(
+                '"{text}" is no number of positions; give 2 to {most}',
+                code="report.bad_positions",
+                text=flow(value),
+                most=MOST,
+            )
+            self.note("positions", told, "bad-positions")
             return None
         try:
             listed = of_value(value, self.dimensions)
@@ -398,7 +422,12 @@ class _Reading(SectionReading):
         except (TypeError, ValueError):
             found = 0.0
         if not 0.0 < found < 1.0:
-            self.wrong("fluctuation", "bad_fluctuation", text=flow(value))
+            told = _(
+                '"{text}" is no coefficient; give a number between 0 and 1, such as 0.02',
+                code="report.bad_fluctuation",
+                text=flow(value),
+            )
+            self.note("fluctuation", told, "bad-fluctuation")
         return found
 
 

@@ -237,7 +237,7 @@ class _Writer:
         contents = (
             ""
             if not document.contents
-            else f"#outline(title: [{_words(document.say('report.contents'))}], depth: 2)\n"
+            else f"#outline(title: [{_words(document.say(_('Contents')))}], depth: 2)\n"
         )
         if document.contents and document.cover is not None:
             contents += "#if not lw-is-html { pagebreak(weak: true) }\n"

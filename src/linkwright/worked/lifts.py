@@ -11,8 +11,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import ZERO, Term, number, symbol
 from linkwright.joints.cam import CamJoint
+from linkwright.laws.base import LABELS
 from linkwright.laws.program import MotionProgram
-from linkwright.words import _, has
+from linkwright.words import _
 from linkwright.worked.symbols import Book
 
 
@@ -117,13 +118,12 @@ class LiftWriter:
             return
         law, scale = program.moved_by[k]
         assert law is not None
-        word = f"report.law_{law.key}"
         step.say(
             say(
                 _(
                     "Segment {number}: {law}; u runs from 0 to 1.",
                     number=k + 1,
-                    law=say(word) if has(word) else law.key,
+                    law=LABELS.get(law.key, law.key),
                 )
             )
         )

@@ -22,7 +22,7 @@ from linkwright.report import report
 from linkwright.report.document import Figure, Formula, Heading, Paragraph, Table, plain
 from linkwright.report.formula import formula
 from linkwright.report.typst_formula import typst
-from linkwright.words import say
+from linkwright.words import _, say
 
 NAMES = parts.gallery_names()
 
@@ -35,8 +35,8 @@ def headings(found: object, level: int) -> list[str]:
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_a_calculation_is_a_chapter_like_a_textbook_example(language: str) -> None:
     found = report("gallery:simple_beam", language=language)
-    keys = ("purpose_of_calculation", "given_data", "sketch", "way", "results")
-    assert headings(found, 2) == [say(f"report.{key}", language) for key in keys]
+    expected = (_("Purpose"), _("Given data"), _("Sketch"), _("Solution"), _("Results"))
+    assert headings(found, 2) == [say(each, language) for each in expected]
     assert len(headings(found, 1)) == 1 and not found.missing
     blocks = found.document.blocks
     assert sum(isinstance(b, Figure) for b in blocks) == 2
@@ -60,7 +60,7 @@ def test_given_data_are_those_of_the_file_with_symbol_and_unit() -> None:
     assert rows["θ"] == ("225", "°") and rows["μ"] == ("0.3", "")
     assert rows["M"] == ("150", "N·m") and rows["r"] == ("100", "mm")
     beam = report("gallery:simple_beam").document.blocks
-    loads = next(b for b in beam if isinstance(b, Table) and say("given_data.loads") in b.caption)
+    loads = next(b for b in beam if isinstance(b, Table) and say(_("loads")) in b.caption)
     assert [plain(row[0]) for row in loads.rows] == ["q", "M0"]
 
 
@@ -128,7 +128,7 @@ def test_every_chapter_is_complete_in_both_languages(name: str) -> None:
     for language in ("en", "zh"):
         found = report(f"gallery:{name}", language=language)
         assert not found.missing and not found.broken
-        assert say("report.given_data", language) in headings(found, 2)
+        assert say(_("Given data"), language) in headings(found, 2)
 
 
 def test_given_data_follow_what_is_changed_in_code() -> None:
@@ -170,10 +170,10 @@ def test_own_text_errata_and_title_of_a_calculation(tmp_path: Path) -> None:
     found = report(str(path))
     assert found.document.title == "Beams" and found.document.lines == ("Li",)
     blocks = found.document.blocks
-    at = next(i for i, b in enumerate(blocks) if isinstance(b, Heading) and b.text == say("report.way"))
+    at = next(i for i, b in enumerate(blocks) if isinstance(b, Heading) and b.text == say(_("Solution")))
     after = blocks[at + 1]
     assert isinstance(after, Paragraph) and plain(after.text) == "Own words."
-    assert headings(found, 2)[-2:] == [say("report.title_appendix"), say("report.title_errata")]
+    assert headings(found, 2)[-2:] == [say(_("Appendix: all numbers")), say(_("Mistakes of the source"))]
     assert report(str(path), language="zh").document.title == "梁"
 
 

@@ -23,13 +23,14 @@ from linkwright.mechanism.cam_shape import CamShape
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.pictures.svg.render import natural_size
 from linkwright.report.document import Figure, Formula, Heading, Paragraph, Table, plain
+from linkwright.report.key_names import MODEL_KEYS
 from linkwright.report.machine_results import Case
 from linkwright.report.numbers import typeset, without_rounding
 from linkwright.report.report import report
 from linkwright.report.section import SECTIONS
 from linkwright.report.sections.reactions import loaded_joints
 from linkwright.report.settings import settings
-from linkwright.words import LANGUAGES, _, has, pgettext, say
+from linkwright.words import LANGUAGES, _, pgettext, say
 from linkwright.words.titles import title_said
 
 typst = pytest.importorskip("typst")
@@ -43,13 +44,13 @@ def test_a_report_of_every_kind_of_machine(name: str) -> None:
     found = report(f"gallery:{name}", sections=LIGHT, language=language)
     assert not found.broken
     titles = [plain(b.text) for b in found.document.blocks if isinstance(b, Heading) and b.level == 1]
-    assert titles == [say(f"report.title_{each}", language) for each in LIGHT]
+    assert titles == [say(SECTIONS[each].title, language) for each in LIGHT]
 
 
 def test_every_section_has_a_title_and_the_command_knows_all() -> None:
     from linkwright.cli.commands.report import SECTIONS as OFFERED
 
-    assert all(has(f"report.title_{name}") for name in every(SECTIONS))
+    assert all(SECTIONS[name].title for name in every(SECTIONS))
     assert list(OFFERED) == sorted(SECTIONS, key=lambda name: SECTIONS[name].rank)
 
 
@@ -128,7 +129,7 @@ def test_pdf_html_and_word_hold_the_same_sections() -> None:
     page = found.content(".html").decode()
     file = docx.Document(io.BytesIO(found.content(".docx")))
     heads = [p.text.split("  ", 1)[1] for p in file.paragraphs if p.style.name == "Heading 1"]
-    assert heads == [say(f"report.title_{each}", "en") for each in sections]
+    assert heads == [SECTIONS[each].title for each in sections]
     assert all(head in page for head in heads)
     assert len(file.tables) == sum(isinstance(b, Table) for b in found.document.blocks)
     formulas = sum(isinstance(b, Formula) for b in found.document.blocks)
@@ -322,7 +323,7 @@ def test_a_machine_that_cannot_be_assembled_has_a_report_that_says_so_in_every_s
     found = report(stretched)
     assert not found.broken and found.content(".pdf").startswith(b"%PDF")
     told = {sentence.partition(":")[0] for sentence in found.missing}
-    assert {say(f"report.title_{each}", "en") for each in ("drawing", "method", "tables", "curves")} <= told
+    assert {SECTIONS[each].title for each in ("drawing", "method", "tables", "curves")} <= told
     assert any(isinstance(b, Formula) and b.label == "mobility" for b in found.document.blocks)
 
 
@@ -424,7 +425,7 @@ def test_what_a_model_gives_stands_in_words_of_the_report() -> None:
         "cam": "bell_crank", "follower": "lower_rack", "at": "P",
     }  # fmt: skip
     for key, value in given.items():
-        assert any(f"{say(f'given.{key}', 'zh')}：{value}" in cell for cell in shown), key
+        assert any(f"{MODEL_KEYS[key].translate('zh')}：{value}" in cell for cell in shown), key
 
 
 def keys_of(shape: Any) -> set[str]:
@@ -439,7 +440,7 @@ def keys_of(shape: Any) -> set[str]:
 @pytest.mark.parametrize("section", ["joints", "loads", "driver"])
 def test_every_key_of_joints_drivers_and_loads_has_words(section: str) -> None:
     keys = keys_of(json_schema()["properties"][section]) - {"kind"}
-    assert len(keys) > 10 and not [key for key in keys if not has(f"given.{key}")]
+    assert len(keys) > 10 and not [key for key in keys if key not in MODEL_KEYS]
 
 
 LIFTED_OFF = """

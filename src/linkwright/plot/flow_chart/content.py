@@ -11,6 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.drivers.base import LABELS
 from linkwright.elements.topology import Group
 from linkwright.groups.base import DYADS
 from linkwright.joints.cam import CamJoint
@@ -19,7 +20,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.wheel_sizes import wheel_sizes
-from linkwright.words import Message, Say, _, has, say
+from linkwright.words import Message, Say, _, say
 from linkwright.words.sentence import link_said
 
 Shape = Literal["terminator", "data", "preparation", "process", "call", "decision"]
@@ -235,10 +236,7 @@ class _Writer:
             unit = "rad/s" if law.rotary else "m/s"
             speed = f"{law.constant_speed:.6g}\u00a0{unit}".replace("-", "−")
             return self.say(_("constant speed {speed}", speed=speed))
-        key = f"report.kind_{law.key}"
-        return self.say(
-            _("coordinate and rates at t: {law}", law=say(key, self.language) if has(key) else law.key)
-        )
+        return self.say(_("coordinate and rates at t: {law}", law=LABELS.get(law.key, law.key)))
 
     def _driven_within(self, group: Group) -> list[str]:
         """Drivers inside a group that is closed by other joints."""

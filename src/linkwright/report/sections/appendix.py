@@ -15,7 +15,7 @@ from linkwright.report.sections.cycle_tables import varying
 from linkwright.words import _
 
 
-@section("appendix", 30.0)
+@section("appendix", _("Appendix: all numbers"), 30.0)
 def blocks(case: Case) -> Iterator[Block]:
     """Every column of the result."""
     say = case.say
@@ -33,4 +33,4 @@ def blocks(case: Case) -> Iterator[Block]:
     )
     alone = len(case.mechanism.drivers) < 2
     names = [each for each in columns if each.kind != "input" or not alone]
-    yield from varying(case, "report.appendix_table", columns, names)
+    yield from varying(case, _("All results"), columns, names)

@@ -11,14 +11,19 @@ from linkwright.report.document import Block
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.report.sections.method import printed
+from linkwright.words import _
 
 
-@section("balance", 8.4, optional=True)
+@section("balance", _("Equilibrium in matrix form"), 8.4, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Names of unknowns and rows, the matrix, and its solution, of a machine without drivers."""
-    if case.mechanism.drivers or not isinstance(case.result, Forces):
-        raise Missing("report.no_balance")
-    balance = structure_balance(case.result)
-    if balance is None:
-        raise Missing("report.no_balance")
-    yield from printed(balance_step(balance, "1", case.say))
+    result = None if case.mechanism.drivers else case.result
+    found = structure_balance(result) if isinstance(result, Forces) else None
+    if found is None:
+        raise Missing(
+            _(
+                "only a structure of pins, guides and welds without drivers has a matrix of equilibrium",
+                code="report.no_balance",
+            )
+        )
+    yield from printed(balance_step(found, "1", case.say))

@@ -10,10 +10,18 @@ from linkwright.report.document import Block, Code, Heading, Paragraph, Table, l
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import typeset
 from linkwright.report.section import section
-from linkwright.words import _
+from linkwright.words import _, pgettext
+
+#: Why steps have no call of their own.
+KINDS = {
+    "weld": _("it is fixed to a link solved before"),
+    "slider": _(
+        "its displacement along the guide is given, so p, vp and ap of its points are written at once"
+    ),
+}
 
 
-@section("calls", 14.0, optional=True)
+@section("calls", _("Calls of the teaching subprograms"), 14.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Numbering, the calls in solving order, a table of formal and actual arguments for every subprogram."""
     say = case.say
@@ -21,7 +29,7 @@ def blocks(case: Case) -> Iterator[Block]:
     forces = case.mechanism.has_loads
     made = calls(plan(numbered.motion, numbered.rows), case.heads.numbers, forces=forces)
     if not made.motion:
-        raise Missing("calls.none")
+        raise Missing(_("no group of this machine has a subprogram of these texts", code="calls.none"))
     yield Paragraph(
         say(
             _(
@@ -36,10 +44,13 @@ def blocks(case: Case) -> Iterator[Block]:
     yield _points(case, made.points)
     yield _links(case, made)
     yield from _others(case, made)
-    for title, group in (("calls.motion", made.motion), ("calls.forces", made.forces)):
+    for title, program, group in (
+        (_("Motion, in solving order"), _("calls for the motion"), made.motion),
+        (_("Joint forces, from the last group to the first"), _("calls for the joint forces"), made.forces),
+    ):
         if group:
             yield Heading(say(title), 2)
-            yield Code(_program(group), "", say(f"{title}_program"))
+            yield Code(_program(group), "", say(program))
             yield from _tables(case, group)
     for note in dict.fromkeys(map(str, made.notes)):
         said = next(each for each in made.notes if str(each) == note)
@@ -53,7 +64,7 @@ def _points(case: Case, points: Sequence[NumberedPoint]) -> Table:
         links = ", ".join(say(_("frame")) if link == "frame" else link for link in point.links)
         place = "–" if point.place is None else f"({length(point.place.real)}, {length(point.place.imag)})"
         rows.append((str(point.number), literal(case.sentence(point.name)), literal(links), literal(place)))
-    head = tuple(say(f"calls.head_{key}") for key in ("n", "point", "links", "place"))
+    head = (say(_("n")), say(_("point")), say(pgettext("calls", "on")), say(_("fixed place / m")))
     return Table(say(_("Numbers of the points")), head, tuple(rows), "><<<")
 
 
@@ -67,7 +78,13 @@ def _links(case: Case, made: Calls) -> Table:
         name = link.name if part else say(_("direction of guide {guide}", guide=link.name))
         cells = (str(link.number), literal(name), literal(_direction(case, link)), mass, inertia)
         rows.append(tuple(map(typeset, cells[:width])))
-    head = tuple(say(f"calls.head_{key}") for key in ("k", "link", "direction", "mass", "inertia")[:width])
+    head = (
+        say(_("k")),
+        say(_("link")),
+        say(_("t(k)")),
+        say(_("mass / kg")),
+        say(_("moment of inertia / kg·m²")),
+    )[:width]
     return Table(say(_("Numbers of the links")), head, tuple(rows), "><<>>"[:width])
 
 
@@ -80,8 +97,9 @@ def _direction(case: Case, link: NumberedLink) -> str:
         return say(_("along guide {guide}", guide=link.along))
     if link.name in case.mechanism.links:
         return say(_("x axis of the link"))
-    key = "calls.fixed" if not link.against else "calls.against"
-    return say(key, angle=length(link.angle), link=link.against)
+    if not link.against:
+        return say(_("{angle} rad, constant", angle=length(link.angle)))
+    return say(_("t({link}) + {angle} rad", angle=length(link.angle), link=link.against))
 
 
 def _others(case: Case, made: Calls) -> Iterator[Paragraph]:
@@ -89,7 +107,7 @@ def _others(case: Case, made: Calls) -> Iterator[Paragraph]:
     say = case.say
     groups: dict[str, list[str]] = {}
     for step in made.others:
-        reason: str = say(f"calls.{step.kind}") if step.kind else case.sentence(step.reason)
+        reason: str = say(KINDS[step.kind]) if step.kind else case.sentence(step.reason)
         groups.setdefault(reason, []).append(
             say(_("{signature} ({links})", signature=step.group.signature, links=", ".join(step.group.links)))
         )

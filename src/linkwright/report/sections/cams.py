@@ -12,20 +12,28 @@ from linkwright.cams.result import CamDesign
 from linkwright.core.quantity import number
 from linkwright.errors import with_remedy
 from linkwright.joints.cam import CamJoint
+from linkwright.laws.base import LABELS
 from linkwright.laws.program import MotionProgram
 from linkwright.report.calculation import numbers_and_way
 from linkwright.report.document import Block, Heading, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
-from linkwright.words import _, has
+from linkwright.words import _
+
+#: What a follower touches its cam with.
+TOUCH = {
+    "roller": _("a roller"),
+    "knife": _("an edge"),
+    "flat": _("a flat face"),
+}
 
 
-@section("cams", 8.6, optional=True)
+@section("cams", _("Cams"), 8.6, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Every cam with its motion program, its profile, and the checks that a cam is designed by."""
     joints = [joint for joint in case.mechanism.joints.values() if isinstance(joint, CamJoint)]
     if not joints:
-        raise Missing("report.no_cams")
+        raise Missing(_("there are no cams", code="report.no_cams"))
     for joint in joints:
         cam = cam_of(case.mechanism, joint.name, speed=_speed(case, joint))
         yield Heading(literal(joint.name), 2)
@@ -40,17 +48,21 @@ def blocks(case: Case) -> Iterator[Block]:
 
 def _about(case: Case, joint: CamJoint) -> str:
     say = case.say
-    motion = say(f"report.cam_{'oscillating' if joint.side else 'translating'}")
-    key = "report.cam_law" if joint.program is not None else "report.cam_table"
+    motion = _("pivoted") if joint.side else _("guided")
+    law = (
+        _("The lift follows a motion program; numbers below are per turn of the cam.")
+        if joint.program is not None
+        else _("The lift is the smooth curve through {count} given points.", count=len(joint.angles))
+    )
     return say(
         _(
             "{cam} moves {follower}, which is {motion}, through {touch}. ",
             cam=literal(joint.cam),
             follower=literal(joint.follower),
             motion=motion,
-            touch=say(f"report.cam_{joint.touch}"),
+            touch=TOUCH[joint.touch],
         )
-    ) + say(key, count=len(joint.angles))
+    ) + say(law)
 
 
 def _speed(case: Case, joint: CamJoint) -> float:
@@ -69,11 +81,11 @@ def _program(case: Case, program: MotionProgram, lift_unit: str) -> Table:
     lifts = list(itertools.pairwise(program.lift_at_edges))
     rows = tuple(
         (str(index), *(number(each, "angle") for each in place), *(number(each, kind) for each in lift),
-         literal(say(f"report.law_{law}") if has(f"report.law_{law}") else law))
+         literal(say(LABELS[law]) if law in LABELS else law))
         for index, (place, lift, law) in enumerate(zip(ends, lifts, program.law_names, strict=True), 1)
     )  # fmt: skip
     head = (
         say(_("no.")), say(_("from $\\varphi$ / °")), say(_("to $\\varphi$ / °")),
-        f"{say('report.from_lift')} / {lift_unit}", f"{say('report.to_lift')} / {lift_unit}", say(_("law")),
+        f"{say(_('lift from'))} / {lift_unit}", f"{say(_('lift to'))} / {lift_unit}", say(_("law")),
     )  # fmt: skip
     return Table(say(_("Motion program")), head, rows, ">>>>><")

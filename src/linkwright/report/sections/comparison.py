@@ -12,13 +12,15 @@ from linkwright.report.section import section
 from linkwright.words import _
 
 
-@section("comparison", 20.0, optional=True, common=True)
+@section("comparison", _("Comparison and evaluation"), 20.0, optional=True, common=True)
 def blocks(cases: Sequence[Case]) -> Iterator[Block]:
     """Design numbers side by side, best values marked; ranking with reasons; evaluation."""
     from linkwright.designs.compare import compare
 
     if len(cases) < 2:
-        raise Missing("report.one_machine")
+        raise Missing(
+            _("there is one machine only; name two or more files to compare them", code="report.one_machine")
+        )
     first = cases[0]
     say = first.say
     try:
@@ -37,10 +39,13 @@ def blocks(cases: Sequence[Case]) -> Iterator[Block]:
     yield Heading(say(_("Evaluation")), 2)
     for line in sentences(found, first.language):
         yield Paragraph(literal(line))
-    for kind in ("comparison", "pivot_hodograph"):
+    for kind, caption in (
+        ("comparison", _("The alternatives over each other")),
+        ("pivot_hodograph", _("Hodographs of the force in the output's pivot")),
+    ):
         try:
             picture = first.diagram(kind, found)
         except LinkwrightError as error:
             yield Paragraph(literal(first.told(error)), "missing")
             continue
-        yield Figure(say(f"report.caption_{kind}"), ((picture, 0.95),), kind)
+        yield Figure(say(caption), ((picture, 0.95),), kind)

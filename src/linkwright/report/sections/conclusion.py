@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from functools import partial, reduce
+from functools import reduce
 
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import shown
@@ -22,7 +22,7 @@ from linkwright.report.improvements import EFFORT, broken, improvements
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import typeset
 from linkwright.report.section import section
-from linkwright.words import Message, Say, _
+from linkwright.words import Message, _
 from linkwright.words.sentence import in_words
 
 #: Joint forces nearer to each other than this share are equal; a mean below this share of the peak is zero.
@@ -33,38 +33,61 @@ WORTH = 1.05
 SMALLEST = 1e-6
 #: Outputs of which the sentences tell, at most.
 MOST = 3
+#: What one of several drivers supplies, and what the only one does: a torque, a force.
+SUPPLIED = (
+    _(
+        "Driver {driver} must supply a torque of at most {peak} (at q = {at}), {mean} on average "
+        "and {rms} as root mean square."
+    ),
+    _(
+        "Driver {driver} must supply a force of at most {peak} (at q = {at}), {mean} on average "
+        "and {rms} as root mean square."
+    ),
+)
+SUPPLIED_ALONE = (
+    _(
+        "The driver must supply a torque of at most {peak} (at q = {at}), {mean} on average and "
+        "{rms} as root mean square."
+    ),
+    _(
+        "The driver must supply a force of at most {peak} (at q = {at}), {mean} on average and "
+        "{rms} as root mean square."
+    ),
+)
 
 
-@section("conclusion", 21.0, optional=True)
+@section("conclusion", _("Conclusion"), 21.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Motion, transmission of force, limits, forces, flywheel, and what to change."""
     found = list(_Conclusion(case).all())
     if not found:
-        raise Missing("conclusion.nothing")
+        raise Missing(
+            _("there are no results of a motion or of forces to conclude from", code="conclusion.nothing")
+        )
     yield from found
 
 
 class _Conclusion:
     def __init__(self, case: Case) -> None:
         self.case = case
-        self.say: Say = partial(_word, case)
+        self.say = case.say
         self.moves = bool(case.mechanism.drivers)
 
     def all(self) -> Iterator[Block]:
         """The paragraphs, each with its subject first."""
         if self.moves:
-            yield from self._paragraph("motion", self._motion())
-            yield from self._paragraph("transmission", self._transmission())
+            yield from self._paragraph(_("**Motion.**"), self._motion())
+            yield from self._paragraph(_("**Transmission of force.**"), self._transmission())
             yield from self._limits()
         if self.case.mechanism.has_loads:
-            yield from self._paragraph("forces", self._forces())
+            yield from self._paragraph(_("**Forces.**"), self._forces())
         if self.moves:
-            yield from self._paragraph("flywheel", self._flywheel())
-            yield from self._paragraph("changes", self._changes())
+            yield from self._paragraph(_("**Flywheel.**"), self._flywheel())
+            yield from self._paragraph(_("**What a designer would change.**"), self._changes())
 
-    def _paragraph(self, key: str, sentences: Iterator[str]) -> Iterator[Block]:
+    def _paragraph(self, subject: Message, sentences: Iterator[str]) -> Iterator[Block]:
         if text := self._joined(*sentences):
-            yield Paragraph(self._joined(self.say(key), text))
+            yield Paragraph(self._joined(self.say(subject), text))
 
     def _joined(self, *sentences: str) -> str:
         """Sentences of one paragraph; between Chinese ones there is no space."""
@@ -81,10 +104,22 @@ class _Conclusion:
     def _motion(self) -> Iterator[str]:
         say = self.say
         for row in self._rows("stroke", "swing_angle")[:MOST]:
-            yield say(row.metric, subject=literal(row.subject), value=_value(row))
+            moved = (
+                _("The stroke of {subject} is {value}.")
+                if row.metric == "stroke"
+                else _("The swing angle of {subject} is {value}.")
+            )
+            yield say(moved, subject=literal(row.subject), value=_value(row))
         for row in self._rows("quick_return_ratio")[:MOST]:
-            key = "ratio" if abs(row.value - 1.0) > 1e-6 else "no_ratio"
-            yield say(key, subject=literal(row.subject), ratio=_value(row))
+            ratio = (
+                _(
+                    "The slow stroke of {subject} takes {ratio} times as long as the fast one (quick-return "
+                    "ratio K)."
+                )
+                if abs(row.value - 1.0) > 1e-6
+                else _("Both strokes of {subject} take the same time (quick-return ratio K = 1).")
+            )
+            yield say(ratio, subject=literal(row.subject), ratio=_value(row))
         for output in main_outputs(self.case.motion)[:MOST]:
             yield from self._rates(output)
         if not self.case.motion.whole:
@@ -126,8 +161,18 @@ class _Conclusion:
     def _transmission(self) -> Iterator[str]:
         say = self.say
         if (row := _lowest(self._rows("transmission_angle"))) is not None and row.limit is not None:
-            key = "angle_below" if broken(row) else "angle_above"
-            yield say(key, **_told(row), limit=typeset(shown(row.limit, row.dimension)))
+            kept = (
+                _(
+                    "The transmission angle falls to {value} (group {subject}, at q = {at}), below the "
+                    "recommended {limit}."
+                )
+                if broken(row)
+                else _(
+                    "The transmission angle is at least {value} (group {subject}, at q = {at}) and so keeps "
+                    "the recommended limit of {limit}."
+                )
+            )
+            yield say(kept, **_told(row), limit=typeset(shown(row.limit, row.dimension)))
         if (row := _lowest(self._rows("singularity"))) is not None:
             yield say(
                 (
@@ -179,8 +224,12 @@ class _Conclusion:
             top = max(peaks, key=lambda row: row.value)
             equal = [row for row in peaks if abs(row.value - top.value) <= EQUAL * abs(top.value)]
             joints = say(_(", ")).join(literal(in_words(row.subject, case.language)) for row in equal)
-            key = "largest_reaction_rest" if top.at is None or not self.moves else "largest_reaction"
-            yield say(key, value=_value(top), joints=joints, at=_at(top))
+            largest = (
+                _("The largest joint force is {value} (joint {joints}).")
+                if top.at is None or not self.moves
+                else _("The largest joint force is {value} (joint {joints}, at q = {at}).")
+            )
+            yield say(largest, value=_value(top), joints=joints, at=_at(top))
         if not self.moves:
             return
         for row in self._rows("peak_input_torque"):
@@ -201,9 +250,9 @@ class _Conclusion:
         if not roots:
             return
         small = abs(mean) <= NOTHING * abs(peak.value)
-        alone = "only_" if len(self.case.mechanism.drivers) == 1 else ""
+        torque, force = SUPPLIED if len(self.case.mechanism.drivers) > 1 else SUPPLIED_ALONE
         yield self.say(
-            f"{alone}{'torque' if peak.dimension == 'torque' else 'force'}",
+            torque if peak.dimension == "torque" else force,
             driver=literal(in_words(peak.subject, self.case.language)),
             peak=_value(peak),
             at=_at(peak),
@@ -319,7 +368,3 @@ def _value(row: MetricValue) -> str:
 
 def _at(row: MetricValue) -> str:
     return "–" if row.at is None else typeset(shown(row.at, row.at_dimension))
-
-
-def _word(case: Case, key: str, **values: object) -> str:
-    return case.say(key if isinstance(key, Message) else f"conclusion.{key}", **values)

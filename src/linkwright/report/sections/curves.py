@@ -9,20 +9,28 @@ from linkwright.plot.diagrams.outputs import main_outputs
 from linkwright.report.document import Block, Figure, Paragraph, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
-from linkwright.words import _
+from linkwright.words import _, pgettext
 
 KINDS = ("sva", "angles", "paths")
 #: What is no fault of a machine: none of its links turns.
 WITHOUT = ("picture.none_turns",)
 #: Share of the text's width of a diagram, and its height, mm: two of them share a page.
 SHARE, TALLEST = 0.78, 104.0
+#: Captions of diagrams over the cycle.
+CAPTIONS = {
+    "sva": _("Displacement, velocity and acceleration of the output over the input"),
+    "angles": _("Angles of the links over the input"),
+    "paths": _("Paths of the points"),
+    "torque": _("Driving effort over the input"),
+    "energy": _("Torque, work and excess energy over the cycle"),
+}
 
 
-@section("curves", 7.0, optional=True)
+@section("curves", pgettext("report", "Curves"), 7.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Diagrams of the motion."""
     if not case.mechanism.drivers:
-        raise Missing("report.no_motion")
+        raise Missing(_("the machine has no driver, so nothing moves", code="report.no_motion"))
     yield Paragraph(case.say(_("The marks on the curves are limit positions and peaks.")))
     outputs = main_outputs(case.motion)
     if len(outputs) == 1:
@@ -39,7 +47,7 @@ def blocks(case: Case) -> Iterator[Block]:
 def pictures(case: Case, kinds: tuple[str, ...]) -> Iterator[Block]:
     """A figure per kind of diagram, or why there is none."""
     for kind in kinds:
-        shown = _figure(case, kind, case.say(f"report.caption_{kind}"))
+        shown = _figure(case, kind, case.say(CAPTIONS[kind]))
         if shown is not None:
             yield shown
 

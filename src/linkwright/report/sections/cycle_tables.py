@@ -15,10 +15,10 @@ from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import column, faded, residual, typeset, without_rounding
 from linkwright.report.section import section
-from linkwright.words import _
+from linkwright.words import Message, _
 
 
-@section("tables", 6.0)
+@section("tables", _("Tables over the cycle"), 6.0)
 def blocks(case: Case) -> Iterator[Block]:
     """Angles and rates of links, guides, points; joint forces and driver effort: at the numbered positions."""
     say, numbered = case.say, case.numbered
@@ -74,26 +74,39 @@ def blocks(case: Case) -> Iterator[Block]:
         return
     sizes = [each for each in _of(columns, "reaction", "reaction_direction", "couple") if not each.component]
     efforts = _of(columns, "effort")
-    yield from varying(case, "report.reactions_table", columns, sizes)
+    yield from varying(
+        case,
+        _(
+            "Joint forces ($F_{A,2}$: force of joint A on link 2; $\\beta$: its direction from the "
+            "$x$ axis; $M$: couple of a guide)"
+        ),
+        columns,
+        sizes,
+    )
     if efforts:
         shaking = _of(columns, "shaking_force", "shaking_moment")
-        yield from varying(case, "report.effort_table", columns, [*efforts, *shaking])
+        yield from varying(
+            case,
+            _("Driving effort (index d), shaking force and its moment (index S)"),
+            columns,
+            [*efforts, *shaking],
+        )
 
 
-def _motion_tables(case: Case, columns: Mapping[Output, Floats]) -> Iterator[tuple[str, list[Output]]]:
+def _motion_tables(case: Case, columns: Mapping[Output, Floats]) -> Iterator[tuple[Message, list[Output]]]:
     """Titles and columns: of links that turn, of guides, of outputs that the model names, of points."""
     links = [each for each in columns if KINDS[each.kind].of == "link" and each in case.varying]
     points = [each for each in columns if KINDS[each.kind].of == "point" and each in case.varying]
     places = _of(points, "position")
     for title, found in (
-        ("links", links),
-        ("guides", _of(columns, *SLIDE)),
-        ("outputs", _of(columns, *NAMED)),
-        ("points", places),
-        ("rates", [each for each in points if each not in places]),
+        (_("Angles, angular velocities and angular accelerations of the links"), links),
+        (_("Displacement, velocity and acceleration of the blocks in their guides"), _of(columns, *SLIDE)),
+        (_("Outputs that the model names"), _of(columns, *NAMED)),
+        (_("Places of the points"), places),
+        (_("Velocities and accelerations of the points"), [each for each in points if each not in places]),
     ):
         if found:
-            yield f"report.{title}_table", found
+            yield title, found
 
 
 def _of(columns: Iterable[Output], *kinds: str) -> list[Output]:
@@ -118,7 +131,7 @@ def _unreached(case: Case) -> Iterator[Block]:
 
 
 def varying(
-    case: Case, title: str, columns: Mapping[Output, Floats], names: Sequence[Output]
+    case: Case, title: Message, columns: Mapping[Output, Floats], names: Sequence[Output]
 ) -> Iterator[Block]:
     """What does not change over the cycle in a sentence, the others in a table; all in it without a driver."""
     moving = [name for name in names if name in case.varying] if case.mechanism.drivers else names

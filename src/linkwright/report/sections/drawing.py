@@ -16,7 +16,7 @@ from linkwright.words import _
 WIDE, TALLEST = 0.85, 104.0
 
 
-@section("drawing", 2.0)
+@section("drawing", _("Kinematic drawing"), 2.0)
 def blocks(case: Case) -> Iterator[Block]:
     """The machine at the worked position, and its limit positions."""
     say = case.say

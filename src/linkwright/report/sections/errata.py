@@ -11,12 +11,12 @@ from linkwright.report.settings import Erratum
 from linkwright.words import Say, _
 
 
-@section("errata", 13.0, optional=True)
+@section("errata", _("Mistakes of the source"), 13.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """What is printed in the source, what is right, and why."""
     say, found = case.say, case.settings.errata
     if not found:
-        raise Missing("report.no_errata")
+        raise Missing(_("the file tells of no mistakes of its source", code="report.no_errata"))
     yield from errata_blocks(found, case.origin, say)
 
 
@@ -31,6 +31,6 @@ def errata_blocks(found: Sequence[Erratum], source: str, say: Say) -> Iterator[B
             )
         )
     )
-    head = tuple(say(f"report.{key}") for key in ("where", "printed", "right", "why"))
+    head = (say(_("where")), say(_("printed")), say(_("right")), say(_("why")))
     rows = tuple(tuple(map(literal, (e.where, e.printed, e.right, e.why))) for e in found)
     yield Table(say(_("Mistakes of the source")), head, rows, "<<<<", "errata")

@@ -13,7 +13,7 @@ from linkwright.report.section import section
 from linkwright.words import _
 
 
-@section("flow", 3.5)
+@section("flow", _("Flow chart of the solution"), 3.5)
 def blocks(case: Case) -> Iterator[Block]:
     """The steps of the solution over the numbered positions, in as many pages as they need."""
     say, numbered = case.say, case.numbered

@@ -18,7 +18,7 @@ from linkwright.words import _
 WITHOUT = ("running.one_driver", "running.not_constant", "running.not_whole_turns", "running.no_work")
 
 
-@section("flywheel", 11.0, optional=True)
+@section("flywheel", _("Motor and flywheel"), 11.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Mean torque, motor, energy fluctuation, flywheel by the formula and exactly."""
     say, running = case.say, _running(case)
@@ -52,7 +52,7 @@ def blocks(case: Case) -> Iterator[Block]:
         )
     cells = (row.cells("machine", say) for block in running.blocks(say) for row in block.rows)
     rows = tuple(tuple(literal(cell.strip()) for cell in each) for each in cells)
-    head = tuple(say(f"report.{key}") for key in ("number", "value", "unit", "at_input"))
+    head = (say(_("design number")), say(_("value")), say(_("unit")), say(_("at the input")))
     yield Table(say(_("Motor, energy fluctuation and flywheel")), head, rows, "<><>", "flywheel")
     yield from _speed(case)
     yield from pictures(case, ("energy",))

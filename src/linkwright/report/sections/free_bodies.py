@@ -8,7 +8,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.plot.free_bodies.actions import idle_loads
 from linkwright.plot.free_bodies.page import free_body_pages
 from linkwright.report.document import Block, Figure, Paragraph, literal
-from linkwright.report.machine_results import Case, Missing
+from linkwright.report.machine_results import NO_LOADS, Case, Missing
 from linkwright.report.own_size import own_share
 from linkwright.report.section import section
 from linkwright.words import _
@@ -17,13 +17,13 @@ from linkwright.words import _
 TALLEST, FIRST = 228.0, 178.0
 
 
-@section("free_bodies", 8.45, optional=True)
+@section("free_bodies", _("Free-body diagrams"), 8.45, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """All that acts on each link, drawn and in numbers."""
     say = case.say
     forces, index = case.worked_result
     if not isinstance(forces, Forces):
-        raise Missing("report.no_loads")
+        raise Missing(NO_LOADS)
     pages = free_body_pages(forces, index, say, case.language, first=FIRST)
     place = literal(case.worked_text)
     key = "free_bodies.text" if place else "free_bodies.text_rest"

@@ -20,14 +20,14 @@ from linkwright.words import _, pgettext
 from linkwright.words.sentence import link_said
 
 
-@section("gears", 8.5, optional=True)
+@section("gears", _("Gears, racks and belts"), 8.5, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Pairs of wheels and racks with their sizes, ratios of trains, teeth where module and numbers are given."""
     mechanism = case.mechanism
     found = {joint.name: wheel_sizes(joint, mechanism) for joint in mechanism.joints.values()}
     pairs = {name: sizes for name, sizes in found.items() if sizes is not None}
     if not pairs:
-        raise Missing("report.no_gears")
+        raise Missing(_("there are no gears, racks or belts", code="report.no_gears"))
     yield Paragraph(
         case.say(
             _(

@@ -17,19 +17,24 @@ from linkwright.words import _
 ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")
 
 
-@section("limits", 10.0, optional=True)
+@section("limits", _("Limit positions and design numbers"), 10.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Design numbers of the motion and the forces, with the limits that are recommended."""
     say = case.say
     rows = [row for row in case.metrics if row.metric not in ELSEWHERE]
     if not rows:
-        raise Missing("report.no_numbers")
+        raise Missing(_("no design number applies to this machine", code="report.no_numbers"))
     yield Paragraph(say(_("Largest and smallest values are exact, found between the solved positions.")))
     yield from _quick_return(case, rows)
     for metric in dict.fromkeys(row.metric for row in rows):
         case.used[metric] = None
-    head = tuple(
-        say(f"report.{key}") for key in ("number", "subject", "value", "unit", "at_input", "recommended")
+    head = (
+        say(_("design number")),
+        say(_("of")),
+        say(_("value")),
+        say(_("unit")),
+        say(_("at the input")),
+        say(_("recommended")),
     )
     body = tuple(tuple(map(literal, cells)) for cells, _unused in told(rows, case.language))
     yield Table(say(_("Design numbers")), head, body, "<<><>>", "numbers")

@@ -47,7 +47,7 @@ VECTOR_N = Accent("vec", letter("n"))
 LINE = 36.0
 
 
-@section("method", 4.0)
+@section("method", _("Method"), 4.0)
 def blocks(case: Case) -> Iterator[Block]:
     """Closure of every group as vectors, then the formulas of positions, rates and forces, without numbers."""
     say, steps = case.say, list[Step]()

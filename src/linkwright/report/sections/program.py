@@ -13,7 +13,7 @@ from linkwright.report.section import section
 from linkwright.words import _
 
 
-@section("program", 14.5, optional=True)
+@section("program", _("Program listing"), 14.5, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """The program, at the positions of the tables."""
     say, numbered = case.say, case.numbered

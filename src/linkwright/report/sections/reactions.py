@@ -22,9 +22,14 @@ from linkwright.words.sentence import in_words
 #: Joint forces in one figure; hodographs in one where there are more, two rows, of which a page has room for two
 #: figures; the height of one of hodographs, mm.
 MOST, IN_ROWS, TALLEST = 12, 6, 225.0
+#: Captions of diagrams of the joint forces.
+CAPTIONS = {
+    "reactions": _("Sizes of the joint forces over the input"),
+    "hodographs": _("Hodographs of the joint forces, in the axes of the frame"),
+}
 
 
-@section("reactions", 8.0, optional=True)
+@section("reactions", _("Joint forces"), 8.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Sizes of all joint forces, the largest of each, and their hodographs."""
     say, _unused = case.say, case.forces
@@ -42,7 +47,7 @@ def blocks(case: Case) -> Iterator[Block]:
          "" if row.at is None else shown(faded(row.at), row.at_dimension)) for row in peaks
     )  # fmt: skip
     if rows:
-        head = tuple(say(f"report.{key}") for key in ("joint", "largest_force", "at_input"))
+        head = (say(_("joint")), say(_("largest force")), say(_("at the input")))
         yield Table(say(_("Largest force in every joint")), head, rows, "<>>", "peaks")
     if rubbing := rubbing_guides(case.mechanism):
         yield Paragraph(
@@ -91,7 +96,7 @@ def _figures(
     case: Case, kind: str, parts: list[list[str]], shares: list[float], tallest: float
 ) -> Iterator[Block]:
     """A figure of some joints each, or why there is none."""
-    caption = case.say(f"report.caption_{kind}")
+    caption = case.say(CAPTIONS[kind])
     for number, (joints, share) in enumerate(zip(parts, shares, strict=True)):
         try:
             picture = case.diagram(kind, of=joints)

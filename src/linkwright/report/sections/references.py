@@ -18,7 +18,7 @@ from linkwright.report.settings import Settings
 from linkwright.words import _
 
 
-@section("references", 31.0, common=True)
+@section("references", _("References"), 31.0, common=True)
 def blocks(cases: Sequence[Case]) -> Iterator[Block]:
     """Own sources of the files, sources of the machines and of the groups' formulas, each once; where the design
     numbers are defined. Nothing where none is known."""

@@ -14,10 +14,10 @@ from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.structure.analysis import numeral
 from linkwright.structure.mobility import lower_pairs
-from linkwright.words import _
+from linkwright.words import _, pgettext
 
 
-@section("structure", 3.0)
+@section("structure", _("Structure analysis"), 3.0)
 def blocks(case: Case) -> Iterator[Block]:
     """Mobility, Assur groups in solving order, class of the mechanism."""
     say, built = case.say, case.structure
@@ -81,7 +81,13 @@ def _groups(case: Case) -> Table:
         rows.append(tuple(map(literal, (
             str(number), kind, ", ".join(group.links), level, str(group.assur_order), outer, inner or "–",
         ))))  # fmt: skip
-    head = tuple(
-        say(f"report.{key}") for key in ("step", "group", "of_links", "class", "order", "outer", "inner")
+    head = (
+        say(_("step")),
+        say(_("group")),
+        say(_("links")),
+        say(_("class")),
+        say(pgettext("report", "order")),
+        say(_("outer joints")),
+        say(_("inner joints")),
     )
     return Table(say(_("Assur groups in solving order")), head, tuple(rows), "<<<<<<<", "groups")

@@ -20,11 +20,11 @@ from linkwright.words.sentence import in_language
 WIDTH, WIDE = 0.75, 1.0
 
 
-@section("synthesis", 12.0, optional=True)
+@section("synthesis", _("Synthesis"), 12.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """The way to the first candidate, pictures and the choice."""
     if not case.mechanism.synthesis or not case.source:
-        raise Missing("report.no_synthesis")
+        raise Missing(_("the file has no task for a synthesis", code="report.no_synthesis"))
     yield from of_task(case.source, case.language)
 
 

@@ -10,11 +10,14 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.quantity import number
+from linkwright.drivers.base import LABELS as DRIVER_LAWS
 from linkwright.files.write import to_data
+from linkwright.laws.base import LABELS
 from linkwright.report.document import Block, Paragraph, Table, literal
+from linkwright.report.key_names import MODEL_KEYS, VALUES
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
-from linkwright.words import Say, _, has, pgettext
+from linkwright.words import Message, Say, _, has, pgettext
 
 #: Entries of a list that is printed whole.
 LONGEST = 12
@@ -26,9 +29,23 @@ CHOICES = (
     "turn", "over",
 )  # fmt: skip
 _QUANTITY = re.compile(r"([+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?)((?: \S+)?)")
+#: Kinds of joints and loads, and laws of drivers, in words.
+KINDS: Mapping[str, Message] = {
+    **DRIVER_LAWS,
+    "prismatic": _("guide"),
+    "revolute": _("pin"),
+    "weld": pgettext("report", "weld"),
+    "force": _("force"),
+    "torque": _("torque"),
+    "spring": _("spring"),
+    "damper": _("damper"),
+    "pressure": _("pressure"),
+    "torsion_spring": _("torsion spring"),
+    "torsion_damper": _("torsion damper"),
+}
 
 
-@section("task", 1.0)
+@section("task", _("Task and data"), 1.0)
 def blocks(case: Case) -> Iterator[Block]:
     """What the machine is for, and everything that is given about it."""
     say, mechanism = case.say, case.mechanism
@@ -46,15 +63,15 @@ def blocks(case: Case) -> Iterator[Block]:
         yield Table(say(_("Parameters")), (say(_("name")), say(_("value"))), rows, "<>")
     drivers = {"driver": data["driver"]} if "driver" in data else data.get("drivers", {})
     for title, part in (
-        ("joints", data.get("joints", {})),
-        ("drivers", drivers),
-        ("loads", data.get("loads", {})),
+        (_("Joints beside the pins"), data.get("joints", {})),
+        (_("Drivers"), drivers),
+        (_("Loads"), data.get("loads", {})),
     ):
         if part:
-            head = tuple(say(f"report.{key}") for key in ("name", "kind", "as_given"))
+            head = (say(_("name")), say(_("kind")), say(pgettext("report", "given")))
             body = tuple((literal(name), literal(kind_of(value, say)), literal(given(value, say)))
                          for name, value in part.items())  # fmt: skip
-            yield Table(say(f"report.{title}"), head, body, "<<<")
+            yield Table(say(title), head, body, "<<<")
     if any(mechanism.gravity):
         x, y = (f"{value:g}" for value in mechanism.gravity)
         yield Paragraph(say(_("Gravity acts with ({x}; {y}) m/s².", x=x, y=y)))
@@ -103,10 +120,9 @@ def _or_dash(value: float) -> str:
 def kind_of(value: Any, say: Say) -> str:
     """The kind of a joint, a load, or a driver's law, in words; of another package by its own name."""
     kind = str(value.get("kind", "")) or next((law for law in LAWS if law in value), "")
-    for key in (f"report.kind_{kind}", f"nouns.pair_{kind}"):
-        if has(key):
-            return say(key)
-    return kind or "–"
+    if kind in KINDS:
+        return say(KINDS[kind])
+    return say(f"nouns.pair_{kind}") if has(f"nouns.pair_{kind}") else kind or "–"
 
 
 def given(value: Any, say: Say) -> str:
@@ -119,7 +135,7 @@ def written(value: Any, say: Say, key: str = "") -> str:
     their ends."""
     if isinstance(value, Mapping):
         parts = [
-            say(_("{name}: {value}", name=say(f"given.{name}") if has(f"given.{name}") else name, value=told))
+            say(_("{name}: {value}", name=MODEL_KEYS.get(name, name), value=told))
             for name, told in ((name, written(each, say, name)) for name, each in value.items())
         ]
         return (
@@ -137,10 +153,10 @@ def written(value: Any, say: Say, key: str = "") -> str:
 
 def _word(text: str, key: str, say: Say) -> str:
     """A value that is a word of the model language; empty for names, numbers and expressions."""
-    if key == "law" and has(f"report.law_{text}"):
-        return say(f"report.law_{text}")
-    known = (text == "frame" or key in CHOICES) and has(f"given.value_{text}")
-    return say(f"given.value_{text}") if known else ""
+    if key == "law" and text in LABELS:
+        return say(LABELS[text])
+    known = (text == "frame" or key in CHOICES) and text in VALUES
+    return say(VALUES[text]) if known else ""
 
 
 def _rounded(text: str) -> str:

@@ -18,11 +18,11 @@ from linkwright.report.sections.cycle_tables import leading
 from linkwright.words import _
 
 
-@section("torque", 9.0, optional=True)
+@section("torque", _("Driving effort by two methods"), 9.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
     """Effort from the joint forces beside effort from the powers of all forces."""
     if not case.mechanism.drivers:
-        raise Missing("report.no_motion")
+        raise Missing(_("the machine has no driver, so nothing moves", code="report.no_motion"))
     say, forces, numbered = case.say, case.forces, case.numbered
     unit = "N·m" if case.rotary else "N"
     letter = "M" if case.rotary else "F"
@@ -46,8 +46,8 @@ def blocks(case: Case) -> Iterator[Block]:
         key, first = leading(case)
         body = tuple((*first[k], printed[0][k], printed[1][k], gaps[k]) for k in range(len(rows)))
         head = (
-            *key, f"{say('report.from_joints')} / {unit}",
-            f"{say('report.from_power')} / {unit}", f"{say('report.difference')} / {unit}",
+            *key, f"{say(_('from joint forces'))} / {unit}",
+            f"{say(_('from powers'))} / {unit}", f"{say(_('difference'))} / {unit}",
         )  # fmt: skip
         yield Table(
             say(_("Driving effort from the joint forces and from the powers")),

@@ -27,9 +27,15 @@ from linkwright.worked.solution import Worked
 TEXT, TALLEST = 170.0, 225.0
 #: Links whose force polygons share a page; a page that would be smaller than this share is parted.
 ON_PAGE, SMALL = 5, 0.6
+#: Captions of polygons.
+CAPTIONS = {
+    "velocity_polygon": _("Velocity polygon, beside the position"),
+    "acceleration_polygon": _("Acceleration polygon, beside the position"),
+    "force_polygon": _("Force polygons of the links, group by group"),
+}
 
 
-@section("worked", 5.0)
+@section("worked", _("One position worked out"), 5.0)
 def blocks(case: Case) -> Iterator[Block]:
     """Every equation of the position with the numbers put in; polygons of velocities, accelerations and forces."""
     say = case.say
@@ -110,7 +116,7 @@ def share_of(picture: str) -> float:
 def to_scale(case: Case, kind: str, picture: str, *, again: bool = False) -> Figure:
     """A polygon in its own size, so that a millimetre is one; where it must be smaller the caption says so."""
     wide, share = natural_size(picture)[0] / PIXELS, share_of(picture)
-    caption = case.say(f"report.caption_{kind}")
+    caption = case.say(CAPTIONS[kind])
     if again:
         caption = case.say(_("{caption} (continued)", caption=caption))
     if share < 0.995:

@@ -10,12 +10,13 @@ import numpy as np
 
 from linkwright.cams.result import CamDesign
 from linkwright.core.quantity import fixed, significant
+from linkwright.laws.base import LABELS
 from linkwright.laws.smoothest import FoundProgram
 from linkwright.pictures.picture import Runs, Words, as_runs, indexed, joined
 from linkwright.sheets.cams.division import Phase, divided, phases
 from linkwright.sheets.cams.geometry import pitch_of
 from linkwright.sheets.panel import Drawn, TablePanel
-from linkwright.words import Say, _, has
+from linkwright.words import Say, _
 
 Row = list[Words]
 #: Most parts of the table of points side by side.
@@ -60,7 +61,7 @@ def _phase(phase: Phase, number: int, say: Say) -> Row:
     degrees = f"{significant(math.degrees(phase.angle), 5)}°"
     if phase.way == "dwell":
         return [name, symbol, degrees]
-    laws = ", ".join(say(f"report.law_{law}") if has(f"report.law_{law}") else law for law in phase.laws)
+    laws = ", ".join(say(LABELS[law]) if law in LABELS else law for law in phase.laws)
     return [name, symbol, f"{degrees}, {laws}"]
 
 
