@@ -12,6 +12,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.entry_points import loaded
 from linkwright.core.given import STEPS
 from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, below, located
 from linkwright.files.model_file import declared_kind, is_task, read_root, read_tree
 from linkwright.files.source import GALLERY, read_source
@@ -83,14 +84,16 @@ def checked_text(text: str, place: str, folder: str = "", source: str = "") -> C
         if problem is not None:
             found = [*found, *_placed(_of_report(problem.report, None, folder), source, root, place)]
         return Checked(found, {"kind": kind})
-    if not faults and below(root, "synthesis") is not None:
-        from linkwright.synthesis.section import check_task, read_section
+    if not faults and is_task(root):
+        from linkwright.synthesis.section import check_task
 
-        if is_task(root):
-            found, task = check_task(root, place, folder)
-            return Checked(found, {"kind": f"synthesis, {task}"})
-        _unused, _unused2, faults = read_section(below(root, "synthesis"), place, folder)
+        found, task = check_task(root, place, folder)
+        return Checked(found, {"kind": f"synthesis, {task}"})
     mechanism, found = read_tree(root, faults, place)
+    if isinstance(section := below(root, "synthesis"), MappingNode):
+        from linkwright.synthesis.section import read_section
+
+        found = [*found, *read_section(section, place, folder)[2]]
     if mechanism is None:
         return Checked(found)
     rests = any(each.code == "no-motion" for each in found)

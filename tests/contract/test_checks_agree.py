@@ -32,6 +32,7 @@ SECTIONS = {
     "sheet: {size: A7, positions: [60 mm], panels: {}}": "sheet.size",
     "synthesis: {task: slider_crank, stroke: 30 mm, time_ratio: 1.2}": "",
     "synthesis: {task: slider_crank, strok: 30 mm}": "synthesis.strok",
+    "synthesis: {task: nope}\noptimize: {vari: {}, minimize: 3}": "optimize.vari",
     "loads: {push: {kind: torque, on: rocker, torque: 1 N·m, phase: {of: crank, from: min, to: max}}}": "loads.push",
 }
 #: Whole files.

@@ -195,7 +195,8 @@ class _Reading(SectionReading):
 
     def __init__(self, mechanism: Mechanism, given: Mapping[str, Any], source: str) -> None:
         self.mechanism = mechanism
-        self.given = {key: each for key, each in given.items() if each is not None and not _empty(each)}
+        known = SECTION.fields.keys() | {"yield"}
+        self.given = {key: each for key, each in given.items() if key not in known or not _empty(each)}
         plain = {key: "" if key in ("minimize", "maximize") else each for key, each in self.given.items()}
         super().__init__(SECTION, "optimize", plain, SAYINGS, source)
 
@@ -443,4 +444,4 @@ def _demand(text: str, value: Any) -> Demand | None:
 
 def _empty(value: Any) -> bool:
     """Whether nothing is given behind a key."""
-    return isinstance(value, str | Mapping | list | tuple) and not value
+    return value is None or (isinstance(value, str | Mapping | list | tuple) and not value)
