@@ -61,8 +61,9 @@ def set_lines(sides: Sequence[Row], widest: float, left: float) -> Iterator[Line
     first, *rest = sides
     yield Line("left", first)
     place, margin = ("below", 1.5) if width(first) > left else ("right", width(first) + 1.5)
-    for side in _joined(rest, widest - margin):
-        for number, row in enumerate(lines(side, widest - margin - 1.0)):
+    room = widest - margin - 1.0
+    for side in _joined(rest, room):
+        for number, row in enumerate(lines(side, room)):
             yield Line("further", row) if number else Line(place, Row((EQUAL, *row.items)))
         place = "sign"
 
