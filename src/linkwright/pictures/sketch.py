@@ -13,7 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.pictures.drawing import Box, Drawing, bounds, document
 from linkwright.pictures.labels import Label, Obstacles, place, written
 from linkwright.pictures.picture import Anchor, Circle, Line, SvgNode, Text, Vec, Words, as_runs
-from linkwright.pictures.svg.element import group
+from linkwright.pictures.svg.element import group, number
 from linkwright.pictures.symbols.base import SYMBOLS, Shape, placed, points, vec
 
 #: Size of the letters of a sketch.
@@ -23,7 +23,8 @@ LETTERS = 14.0
 class Sketch:
     """Symbols, lines and names in the units of the paper, y down; names are put where nothing is drawn.
 
-    ``extent``: the corners of texts, which have room on the paper but keep no name away.
+    ``extent``: the corners of texts, which have room on the paper but keep no name away; ``notes``: sentences on what
+    was asked for and cannot be seen.
     """
 
     def __init__(self) -> None:
@@ -31,6 +32,7 @@ class Sketch:
         self.ink: list[Floats] = []
         self.extent: list[Floats] = []
         self.labels: list[Label] = []
+        self.notes: list[str] = []
 
     def put(self, name: str, **values: object) -> None:
         """A symbol of kinematic drawings."""
@@ -44,6 +46,12 @@ class Sketch:
         """Whatever SVG holds, with the lines along which it has ink."""
         self.content += content
         self.ink += ink
+
+    def put_sketch(self, other: Sketch, at: Vec, **attributes: str) -> None:
+        """Another sketch, its origin at a place; its box has room on the paper."""
+        shift = f"translate({number(at[0])} {number(at[1])})"
+        self.content.append(group(other.content, None, transform=shift, **attributes))
+        self.extent.append(np.reshape(other.box, (2, 2)) + at)
 
     def line(self, places: ArrayLike, style: str = "lw-ground", *, closed: bool = False) -> None:
         """A polyline or a polygon."""
@@ -106,7 +114,8 @@ class Sketch:
         """Left, top, right and bottom of all that is drawn."""
         return bounds([*self.ink, *self.extent])
 
-    def drawing(self, title: str, *, millimetre: float | None = None) -> Drawing:
-        """The finished drawing; ``millimetre``: the printed width of a unit, mm."""
+    def drawing(self, title: str, size: float | None = None, *, millimetre: float | None = None) -> Drawing:
+        """The finished drawing; ``size``: longer side in pixels; ``millimetre``: printed width of a unit, mm."""
         self.write_names()
-        return Drawing(document(self.content, self.box, title, None, millimetre=millimetre))
+        svg = document(self.content, self.box, title, size, millimetre=millimetre)
+        return Drawing(svg, tuple(self.notes))

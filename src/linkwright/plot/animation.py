@@ -368,7 +368,7 @@ class Animation:
 
     @cached_property
     def _still(self) -> list[SvgNode]:
-        return [*(self._panel.elements if self._panel is not None else ()), *self._legend.elements]
+        return [*(self._panel.elements if self._panel is not None else ()), *self._legend.content]
 
     @cached_property
     def _box(self) -> Box:

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from linkwright.core.arrays import Floats
 from linkwright.elements.topology import Group
 from linkwright.pictures.drawing import bounds, document
+from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import group
 from linkwright.pictures.svg.render import natural_size
-from linkwright.plot.drawing.draw import Sheet, laid_out_beside
+from linkwright.plot.drawing.draw import laid_out_beside
 from linkwright.plot.drawing.machine import Part
 from linkwright.plot.drawing.positions import Shown
 from linkwright.plot.drawing.scene import Scene, point_labels
@@ -21,20 +22,19 @@ def group_picture(case: Case, chosen: Group) -> str:
     motion, index = case.worked_motion
     scene, place, _ = laid_out_beside(motion, Shown(motion, index), (), inputs=False, centres=False)
     own = Scene(scene.machine, tuple(part for part in scene.parts if _belongs(scene, part, chosen)))
-    sheet = Sheet(own, place, index)
-    sheet.elements.append(group(scene.at(place), "lw-faded"))
+    sketch = Sketch()
     ink = own.ink(place)
-    sheet.add(own.at(place), ink)
+    sketch.draw([group(scene.at(place), "lw-faded"), *own.at(place)], ink)
     names = {connection.joint for connection in chosen.joints}
     inside = bounds(ink)
-    sheet.more_labels = [
+    sketch.labels = [
         label
         for label in point_labels(scene.machine, place)
         if label.point.partition(".")[0] in chosen.links or label.text in names
     ]
-    sheet.labels(False)
-    box = bounds([*_corners(inside), *sheet.extent])
-    return str(document(sheet.elements, box, chosen.name, None))
+    sketch.write_names()
+    box = bounds([*_corners(inside), *sketch.extent])
+    return str(document(sketch.content, box, chosen.name, None))
 
 
 def to_one_scale(pictures: Sequence[str]) -> tuple[tuple[str, float], ...]:

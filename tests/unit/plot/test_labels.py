@@ -93,8 +93,8 @@ def test_lines_of_a_legend_keep_together_what_belongs_together(text: str, kept: 
     """Whatever the width: a number and its unit or name, and a Chinese mark with what it follows."""
     for wide in range(300, 520, 7):
         legend = Legend((0.0, 0.0, float(wide), 10.0))
-        legend.text(text)
-        rows = ["".join(text for text, _ in each.runs).strip() for each in legend.elements]
+        legend.sentence(text)
+        rows = ["".join(text for text, _ in each.runs).strip() for each in legend.content]
         assert "".join(rows).replace(" ", "") == text.replace(" ", "")
         assert any(kept in row for row in rows)
         assert not any(row[0] in "，。；" for row in rows)

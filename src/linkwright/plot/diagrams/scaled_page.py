@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.picture import Runs, Words, indexed, joined
 from linkwright.pictures.sketch import Sketch
-from linkwright.pictures.svg.element import element, group
+from linkwright.pictures.svg.element import element
 from linkwright.pictures.svg.text import fold
 from linkwright.plot.diagrams.axes import round_up
 from linkwright.plot.drawing.machine import View
@@ -33,6 +34,21 @@ FLAT, WIDE, HIGH, THIN, SIDE = 12.0, 190.0, 110.0, 3.0, 3.0
 LEAST_ARROW, POSITION, WITH_SYMBOLS = 0.1, 75.0, 95.0
 #: A text in a style.
 Written = tuple[Words, str]
+
+
+class Placed(Protocol):
+    """What stands in a cell of a page, below the lines of its title."""
+
+    @property
+    def title(self) -> tuple[Words, ...]:
+        """The lines of its title."""
+
+    @property
+    def width(self) -> float:
+        """Its width with the space beside it, units."""
+
+    def put(self, page: Sketch, left: float, top: float, head: int) -> float:
+        """Puts it on the page below ``head`` lines of titles; where it ends below."""
 
 
 @dataclass(frozen=True)
@@ -57,9 +73,7 @@ class Cell:
             y += LINE
             page.text((left, y), line, size=TITLE)
         x0, y0, x1, y1 = self.sketch.box
-        shift = np.array([left + 0.5 * (self.width - APART - (x1 - x0)) - x0, y + 20.0 - y0])
-        page.content.append(group(self.sketch.content, transform=f"translate({shift[0]:.2f} {shift[1]:.2f})"))
-        page.extent.append(np.array([(x0, y0), (x1, y1)]) + shift)
+        page.put_sketch(self.sketch, (left + 0.5 * (self.width - APART - (x1 - x0)) - x0, y + 20.0 - y0))
         y += 20.0 + (y1 - y0) + 24.0
         for tick in ([(0, 0), (BAR, 0)], [(0, -3.6), (0, 3.6)], [(BAR, -3.6), (BAR, 3.6)]):
             page.line(np.add(tick, (left, y)))
@@ -71,7 +85,7 @@ class Cell:
 
 
 def page(
-    cells: Sequence[Cell],
+    cells: Sequence[Placed],
     columns: int,
     below: Sequence[Sequence[tuple[Written, float]]],
     heading: str,
@@ -87,10 +101,11 @@ def page(
     for line in fold(heading, page_width(cells, columns), HEADING) if heading else ():
         y += 20.0
         paper.text((0.0, y), line, size=HEADING)
+    y += 6.0 if heading else 0.0
     for row in rows:
         head, left, ends = max(len(cell.title) for cell in row), 0.0, []
         for cell in row:
-            ends.append(cell.put(paper, left, y + 8.0, head))
+            ends.append(cell.put(paper, left, y + 2.0, head))
             left += cell.width
         y = max(ends)
     for texts in below:
@@ -100,7 +115,7 @@ def page(
     return paper.drawing(title, millimetre=MILLIMETRE)
 
 
-def page_width(cells: Sequence[Cell], columns: int) -> float:
+def page_width(cells: Sequence[Placed], columns: int) -> float:
     """The width of a page of cells, units."""
     rows = (cells[i : i + columns] for i in range(0, len(cells), columns))
     return max(LEAST, *(sum(cell.width for cell in row) for row in rows))

@@ -7,18 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
 from linkwright.core.given import DRAWING_STEPS, one_or_more, real, require, whole
 from linkwright.errors import LinkwrightError, RequestError, require_language
 from linkwright.events.limit_positions import limits_of
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.pictures.drawing import Drawing, bounds, document
-from linkwright.pictures.labels import Label, Obstacles, place, written
-from linkwright.pictures.picture import SvgNode
+from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.labels import Label
+from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import group
-from linkwright.pictures.symbols.base import points
 from linkwright.plot.drawing.dimensions import Dimension, dimension_lines
 from linkwright.plot.drawing.legend import Legend
 from linkwright.plot.drawing.loads import load_labels, load_marks, unmarked
@@ -111,18 +109,18 @@ def draw(
     scene, index, others = laid_out_beside(
         motion, shown, ghosts, inputs=inputs, centres=centres, diagonal=diagonal
     )
-    sheet = Sheet(scene, index, shown.index)
-    sheet.ghosts(others, style)
+    sketch = MachineSketch(scene, index, shown.index)
+    sketch.ghosts(others, style)
     paths = one_or_more(paths)
-    sheet.add(scene.traces(paths), [scene.trace(name) for name in paths])
+    sketch.draw(scene.traces(paths), [scene.trace(name) for name in paths])
     known = _forces_shown(motion, shown, forces)
     arrows = all_arrows(shown.motion, velocities, accelerations, known, reactions_of)
-    sheet.machine(pushes=known is None)
-    sheet.vectors(arrows)
-    sheet.dimensions(dimensions)
-    sheet.labels(labels)
-    sheet.legend(arrows, language)
-    return sheet.drawing(
+    sketch.machine(pushes=known is None)
+    sketch.vectors(arrows)
+    sketch.dimensions(dimensions)
+    sketch.write_wanted_names(labels)
+    sketch.legend(arrows, language)
+    return sketch.drawing(
         _("Kinematic drawing of {name}", name=in_language(motion.mechanism.name, language)).translate(
             language
         ),
@@ -130,37 +128,28 @@ def draw(
     )
 
 
-class Sheet:
-    """A drawing in the making: elements in order, ink, and vectors with their scales.
+class MachineSketch(Sketch):
+    """The drawing of a machine in the making, with vectors to their scales.
 
     ``index``: the position in the scene; ``shown``: the same position in the motion of the vectors.
     """
 
     def __init__(self, scene: Scene, index: int, shown: int) -> None:
+        super().__init__()
         self.scene, self.index, self.shown = scene, index, shown
-        self.elements: list[SvgNode] = []
-        self.ink: list[Floats] = []
-        self.extent: list[Floats] = []
-        self.notes: list[str] = []
-        self.more_labels: list[Label] = []
         self.load_labels: list[Label] = []
-
-    def add(self, elements: Sequence[SvgNode], ink: Sequence[Floats]) -> None:
-        """Put elements on top of what is there."""
-        self.elements += elements
-        self.ink += ink
 
     def ghosts(self, indices: Sequence[int], style: str) -> None:
         """The moving links at other positions."""
         for index in indices:
-            self.elements.append(group(self.scene.at(index, moving_only=True), style))
-            self.ink += self.scene.ink(index, moving_only=True)
+            ghost = group(self.scene.at(index, moving_only=True), style)
+            self.draw([ghost], self.scene.ink(index, moving_only=True))
 
     def machine(self, *, pushes: bool) -> None:
         """The mechanism itself, with the symbols of its loads; ``pushes``: forces and torques among them."""
         marks = load_marks(self.scene.machine, self.index, forces=pushes)
-        self.add(self.scene.at(self.index), self.scene.ink(self.index))
-        self.add(marks.elements, marks.ink)
+        self.draw(self.scene.at(self.index), self.scene.ink(self.index))
+        self.add(marks)
         self.load_labels = load_labels(self.scene.machine, self.index, forces=pushes)
 
     def vectors(self, arrows: Sequence[Arrows]) -> None:
@@ -168,33 +157,27 @@ class Sheet:
         view = self.scene.machine.view
         for each in arrows:
             scale = scale_of(each.vectors, [self.shown])
-            shape = each.shape(self.shown, view, scale)
-            self.add(shape.elements, shape.ink)
-            self.more_labels += each.labels(self.shown, view, scale)
+            self.add(each.shape(self.shown, view, scale))
+            self.labels += each.labels(self.shown, view, scale)
 
     def dimensions(self, wanted: Sequence[Dimension] | bool) -> None:
         """Dimension lines; their values become labels."""
         for each in dimension_lines(self.scene.machine, wanted, self.index, self.ink):
-            self.add(each.shape.elements, each.shape.ink)
-            self.more_labels.append(each.label)
+            self.add(each.shape)
+            self.labels.append(each.label)
 
-    def labels(self, wanted: bool | str) -> None:
+    def write_wanted_names(self, wanted: bool | str) -> None:
         """Names, placed clear of all ink so far."""
-        chosen = list(self.more_labels)
         if wanted:
-            chosen += point_labels(self.scene.machine, self.index)
+            self.labels += point_labels(self.scene.machine, self.index)
         if wanted is True or wanted == "all":
-            chosen += [*link_labels(self.scene, self.index), *self.load_labels]
-        places = place(chosen, Obstacles.of(self.ink))
-        for label, candidate in zip(chosen, places, strict=True):
-            self.elements += written(label, candidate)
-            left, top, right, bottom = candidate.box
-            self.extent.append(points([(left, top), (right, bottom)]))
+            self.labels += [*link_labels(self.scene, self.index), *self.load_labels]
+        self.write_names()
 
     def legend(self, arrows: Sequence[Arrows], language: str) -> None:
         """Scales, sizes and names of the vectors, below everything; what was asked for and is nothing, as a note."""
         mechanism = self.scene.machine.motion.mechanism
-        below = Legend(bounds([*self.ink, *self.extent]))
+        below = Legend(self.box)
         below.scales(arrows, [self.shown], language)
         below.values(arrows, self.shown)
         if any(each.kind == "force" and not each.empty([self.shown]) for each in arrows):
@@ -205,19 +188,14 @@ class Sheet:
                     language
                 )
             )
-            below.text(self.notes[-1])
         for each in arrows:
             if each.empty([self.shown]):
                 word = "nothing" if each.kind == "force" and not mechanism.has_loads else "zero"
                 self.notes.append(say(f"drawing.{word}_{each.kind}", language))
-                below.text(self.notes[-1])
-        self.elements += below.elements
+        for note in self.notes:
+            below.sentence(note)
+        self.content += below.content
         self.extent += below.extent
-
-    def drawing(self, title: str, size: float | None) -> Drawing:
-        """The finished drawing."""
-        svg = document(self.elements, bounds([*self.ink, *self.extent]), title, size)
-        return Drawing(svg, tuple(self.notes))
 
 
 def laid_out_beside(

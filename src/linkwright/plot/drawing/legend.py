@@ -6,12 +6,11 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from linkwright.core.arrays import Floats
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.drawing import Box
-from linkwright.pictures.picture import Runs, SvgNode, Text, indexed, joined, line_width, name_runs
+from linkwright.pictures.picture import Runs, indexed, joined, line_width, name_runs
+from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.text import fold
-from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.plot.drawing.vectors import Arrows, Torques, Vectors, round_length, scale_of, with_unit
 from linkwright.words import _, say
 from linkwright.words.sentence import links_said
@@ -24,12 +23,11 @@ SIZE, ROW = 12.0, 19.0
 LEAST = 300.0
 
 
-class Legend:
+class Legend(Sketch):
     """Rows below a drawing, each at the left edge of a box, no wider than the box."""
 
     def __init__(self, box: Box) -> None:
-        self.elements: list[SvgNode] = []
-        self.extent: list[Floats] = []
+        super().__init__()
         self._left, self._y = box[0], box[3] + 12.0
         self._wide = max(box[2] - box[0], LEAST)
 
@@ -45,8 +43,7 @@ class Legend:
         self._y += ROW
         value = round_length(scale)
         end = self._left + value * scale
-        arrow = SYMBOLS["arrow"](start=(self._left, self._y), end=(end, self._y), style=family.style)
-        self.elements += arrow.elements
+        self.arrow((self._left, self._y), (end, self._y), family.style)
         text = f"{with_unit(value, family.unit)}  {say(f'drawing.{family.kind}', language)}"
         self._write(end + 8.0, name_runs(text), "lw-legend")
 
@@ -68,20 +65,18 @@ class Legend:
     def numbers(self, mechanism: Mechanism, language: str) -> None:
         """What the indices of joint forces mean."""
         links = links_said(link_numbers(mechanism), language)
-        self.text(_("F₁₂: force of link 1 on link 2; {links}", links=tuple(links)).say(language))
+        self.sentence(_("F₁₂: force of link 1 on link 2; {links}", links=tuple(links)).say(language))
         if any(len(joint.joined) > 2 for joint in mechanism.joints.values()):
-            self.text(_("F with a pin's name: force of the pin on the link").translate(language))
+            self.sentence(_("F with a pin's name: force of the pin on the link").translate(language))
 
-    def text(self, text: str) -> None:
+    def sentence(self, text: str) -> None:
         """A sentence in as many lines as it takes."""
         for line in fold(text, self._wide, SIZE):
             self._y += ROW
             self._write(self._left, name_runs(line), "lw-legend")
 
     def _write(self, x: float, runs: Runs, style: str) -> None:
-        self.elements.append(Text((x, self._y + 0.35 * SIZE), runs, style, SIZE))
-        end = x + line_width(runs, SIZE)
-        self.extent.append(points([(x, self._y - SIZE), (end, self._y + 0.6 * SIZE)]))
+        self.text((x, self._y + 0.35 * SIZE), runs, style, SIZE)
 
 
 def _sizes(family: Vectors | Torques, index: int) -> list[tuple[Runs, str]]:

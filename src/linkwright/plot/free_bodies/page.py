@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import ClassVar
 
 import numpy as np
 
@@ -11,15 +12,21 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import fixed
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
-from linkwright.pictures.drawing import document
-from linkwright.pictures.picture import Line, SvgNode, Text, indexed, name_runs, sentence_runs
-from linkwright.pictures.svg.element import group, number
+from linkwright.pictures.picture import indexed, name_runs, sentence_runs
+from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.text import fold
-from linkwright.pictures.symbols.base import points
+from linkwright.plot.diagrams.scaled_page import page
 from linkwright.plot.drawing.vectors import with_unit
 from linkwright.plot.free_bodies.actions import STYLES, Action, FreeBody, free_bodies
-from linkwright.plot.free_bodies.arrows import MILLIMETRE, SHORT, STUB
-from linkwright.plot.free_bodies.picture import BodyPicture, LinkShapes, body_picture, round_scale
+from linkwright.plot.free_bodies.picture import (
+    MILLIMETRE,
+    SHORT,
+    STUB,
+    BodySketch,
+    LinkShapes,
+    body_sketch,
+    round_scale,
+)
 from linkwright.words import Say, _
 from linkwright.words.sentence import link_said
 
@@ -39,10 +46,18 @@ DIGITS, KILO = 5, 1e5
 class Cell:
     """A picture with its title and its table, its upper left corner at the origin."""
 
-    elements: tuple[SvgNode, ...]
+    sketch: Sketch
     height: float
     body: FreeBody
     shortened: bool
+
+    title: ClassVar[tuple[str, ...]] = ()
+    width: ClassVar[float] = ROOM[0] + APART / MILLIMETRE
+
+    def put(self, page: Sketch, left: float, top: float, head: int) -> float:
+        """Puts it on the page; where it ends below."""
+        page.put_sketch(self.sketch, (left, top))
+        return top + self.height + APART / MILLIMETRE
 
 
 def free_body_pages(
@@ -70,40 +85,33 @@ def free_body_pages(
     shapes = LinkShapes(forces.motion, index)
     reach = max(shapes.reach(body.link) for body in bodies) or 1.0
     usual = round_scale(reach, 46.0)
-    cells = [_cell(body_picture(shapes, body, usual, ROOM), say, language) for body in bodies]
+    cells = [_cell(body_sketch(shapes, body, usual, ROOM), say, language) for body in bodies]
     sheets = _sheets(cells, min(columns, len(cells)), tallest if first is None else first, tallest)
-    return [_document(sheet, say, heading) for sheet in sheets]
+    return [_page(sheet, say, heading) for sheet in sheets]
 
 
 # one link -------------------------------------------------------------------------------------
-def _cell(drawn: BodyPicture, say: Say, language: str) -> Cell:
-    body = drawn.body
+def _cell(drawn: BodySketch, say: Say, language: str) -> Cell:
+    body, sketch = drawn.body, Sketch()
     named = say(_("{number} {link}", number=body.number, link=link_said(body.link, language)))
-    content: list[SvgNode] = [Text((0.0, TITLE), sentence_runs(named), "lw-legend lw-flow-call", TITLE)]
-    content.append(Text((0.0, TITLE_LINE + SIZE + 2.0), sentence_runs(_scales(drawn)), "lw-legend", SIZE))
+    sketch.text((0.0, TITLE), sentence_runs(named), "lw-legend lw-flow-call", TITLE)
+    sketch.text((0.0, TITLE_LINE + SIZE + 2.0), sentence_runs(_scales(drawn)), size=SIZE)
     left, top, right, bottom = drawn.box
     across = 0.5 * (ROOM[0] - (right - left)) - left
-    down = 2 * TITLE_LINE + 4.0 - top
-    shift = f"translate({number(across)} {number(down)})"
-    content.append(group(drawn.elements, None, transform=shift, **{"data-link": body.link}))
-    under = 2 * TITLE_LINE + 12.0 + bottom - top
-    rows, height = _table(body, say, under)
-    return Cell((*content, *rows), under + height, body, drawn.shortened)
+    sketch.put_sketch(drawn, (across, 2 * TITLE_LINE + 4.0 - top), **{"data-link": body.link})
+    height = _table(sketch, body, say, 2 * TITLE_LINE + 12.0 + bottom - top)
+    return Cell(sketch, height, body, drawn.shortened)
 
 
-def _scales(drawn: BodyPicture) -> str:
+def _scales(drawn: BodySketch) -> str:
     """The scales of a picture: lengths, and forces where it has some."""
-    lengths = f"μ_l = {drawn.length_scale * 1e3:.6g} mm/mm"
-    if drawn.force_scale is None:
-        return lengths
-    return f"{lengths}, μ_F = {with_unit(drawn.force_scale, 'N')}/mm"
+    lengths = f"μ_l = {drawn.metres * 1e3:.6g} mm/mm"
+    return lengths if drawn.newtons is None else f"{lengths}, μ_F = {with_unit(drawn.newtons, 'N')}/mm"
 
 
 # numbers --------------------------------------------------------------------------------------
-def _table(body: FreeBody, say: Say, top: float) -> tuple[list[SvgNode], float]:
-    """Components, sizes and directions of forces, and couples, below a height; how tall the table is."""
-    found: list[SvgNode] = []
-    y = top
+def _table(found: Sketch, body: FreeBody, say: Say, y: float) -> float:
+    """Components, sizes and directions of forces, and couples, below a height; where the table ends."""
     if body.forces:
         unit, factor = _force_unit(body.forces)
         head = (f"Fx / {unit}", f"Fy / {unit}", f"F / {unit}", f"{say('free_bodies.direction')} / °")
@@ -126,11 +134,10 @@ def _table(body: FreeBody, say: Say, top: float) -> tuple[list[SvgNode], float]:
         place = _places(max(abs(each.torque) for each in body.couples))
         for each in body.couples:
             y = _row(found, y, each, (fixed(each.torque, place),))
-    y = _moments(found, y, body, say)
-    return found, y - top
+    return _moments(found, y, body, say)
 
 
-def _moments(found: list[SvgNode], y: float, body: FreeBody, say: Say) -> float:
+def _moments(found: Sketch, y: float, body: FreeBody, say: Say) -> float:
     """The sum of all moments, about the mass centre; of forces through one point there is none."""
     moments = [each.moment(body.centre) for each in body.actions]
     arms = [each.size * math.dist(each.place, body.centre) for each in body.actions]
@@ -139,7 +146,7 @@ def _moments(found: list[SvgNode], y: float, body: FreeBody, say: Say) -> float:
         return y
     value = f"{fixed(sum(moments), _places(largest))} N·m"
     text = say(_("sum of moments: {value}", value=value))
-    found.append(Text((0.0, y + SIZE), sentence_runs(text), "lw-legend", SIZE))
+    found.text((0.0, y + SIZE), sentence_runs(text), size=SIZE)
     return y + LINE
 
 
@@ -152,34 +159,34 @@ def _places(largest: float) -> int:
     return max(0, min(9, DIGITS - 1 - math.floor(math.log10(largest))))
 
 
-def _head(found: list[SvgNode], y: float, texts: Sequence[str]) -> float:
+def _head(found: Sketch, y: float, texts: Sequence[str]) -> float:
     for share, text in zip(COLUMNS, texts, strict=False):
-        found.append(Text((share * ROOM[0], y + SIZE), sentence_runs(text), "lw-legend", SIZE, "end"))
-    found.append(Line(points([(0.0, y + LINE), (ROOM[0], y + LINE)]), "lw-rule"))
+        found.text((share * ROOM[0], y + SIZE), sentence_runs(text), "lw-legend", SIZE, "end")
+    found.line([(0.0, y + LINE), (ROOM[0], y + LINE)], "lw-rule")
     return y + LINE + 2.0
 
 
-def _row(found: list[SvgNode], y: float, action: Action, cells: Sequence[str]) -> float:
+def _row(found: Sketch, y: float, action: Action, cells: Sequence[str]) -> float:
     """The row of an action; a long name takes several lines."""
     style = f"{STYLES[action.role]}-name"
     names = fold(action.letter, COLUMNS[0] * ROOM[0] - 62.0, SIZE)
     for line, text in enumerate(names):
         runs = indexed(text, action.index) if line == len(names) - 1 and action.index else name_runs(text)
-        found.append(Text((0.0, y + SIZE + LINE * line), runs, style, SIZE))
+        found.text((0.0, y + SIZE + LINE * line), runs, style, SIZE)
     _cells(found, y, cells)
     return y + LINE * len(names)
 
 
-def _line(found: list[SvgNode], y: float, name: str, cells: Sequence[str]) -> float:
-    found.append(Line(points([(0.0, y + 1.0), (ROOM[0], y + 1.0)]), "lw-rule"))
-    found.append(Text((0.0, y + SIZE + 3.0), sentence_runs(name), "lw-legend", SIZE))
+def _line(found: Sketch, y: float, name: str, cells: Sequence[str]) -> float:
+    found.line([(0.0, y + 1.0), (ROOM[0], y + 1.0)], "lw-rule")
+    found.text((0.0, y + SIZE + 3.0), sentence_runs(name), size=SIZE)
     _cells(found, y + 3.0, cells)
     return y + LINE + 6.0
 
 
-def _cells(found: list[SvgNode], y: float, cells: Sequence[str]) -> None:
+def _cells(found: Sketch, y: float, cells: Sequence[str]) -> None:
     for share, text in zip(COLUMNS, cells, strict=False):
-        found.append(Text((share * ROOM[0], y + SIZE), sentence_runs(text), "lw-value", SIZE, "end"))
+        found.text((share * ROOM[0], y + SIZE), sentence_runs(text), "lw-value", SIZE, "end")
 
 
 # pages ----------------------------------------------------------------------------------------
@@ -198,27 +205,13 @@ def _sheets(cells: Sequence[Cell], columns: int, first: float, tallest: float) -
     return sheets
 
 
-def _document(rows: Sequence[Sequence[Cell]], say: Say, heading: str) -> str:
-    apart = APART / MILLIMETRE
+def _page(rows: Sequence[Sequence[Cell]], say: Say, heading: str) -> str:
     columns = max(map(len, rows))
-    wide = columns * ROOM[0] + (columns - 1) * apart
-    content: list[SvgNode] = []
-    y = 0.0
-    for line in fold(heading, wide, 15.0) if heading else ():
-        content.append(Text((0.0, y + 15.0), sentence_runs(line), "lw-legend", 15.0))
-        y += 26.0
-    for row in rows:
-        for place, cell in enumerate(row):
-            shift = f"translate({number(place * (ROOM[0] + apart))} {number(y)})"
-            content.append(group(cell.elements, None, transform=shift))
-        y += max(cell.height for cell in row) + apart
     cells = [cell for row in rows for cell in row]
-    for line in fold(say(_("; ")).join(_key(cells, say)), wide, SIZE):
-        content.append(Text((0.0, y + SIZE), sentence_runs(line), "lw-legend", SIZE))
-        y += LINE
-    return document(
-        content, (0.0, 0.0, wide, y), say(_("Free-body diagrams of the links")), None, millimetre=MILLIMETRE
-    )
+    wide = columns * Cell.width - APART / MILLIMETRE
+    key = fold(say(_("; ")).join(_key(cells, say)), wide, SIZE)
+    below = [[((sentence_runs(line), "lw-legend"), 0.0)] for line in key]
+    return page(cells, columns, below, heading, say(_("Free-body diagrams of the links"))).svg
 
 
 def _key(cells: Sequence[Cell], say: Say) -> Iterator[str]:

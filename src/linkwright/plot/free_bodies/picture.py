@@ -1,10 +1,11 @@
-"""The picture of one link by itself: its shape as it stands, what acts on it to a round scale, the symbols."""
+"""The picture of one link by itself: its shape, and what acts on it to a round scale, clear of each other."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache, cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -12,14 +13,138 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
-from linkwright.pictures.drawing import Box, bounds
-from linkwright.pictures.labels import Label, Obstacles, place, written
-from linkwright.pictures.picture import SvgNode
-from linkwright.pictures.symbols.base import SYMBOLS, points
+from linkwright.pictures.drawing import bounds
+from linkwright.pictures.labels import Label
+from linkwright.pictures.picture import Line, SvgNode
+from linkwright.pictures.sketch import Sketch
+from linkwright.pictures.svg.element import group
+from linkwright.pictures.symbols.base import SYMBOLS, points, vec
 from linkwright.plot.drawing.machine import Machine, Part, View
 from linkwright.plot.drawing.scene import Scene, parts_of
-from linkwright.plot.free_bodies.actions import FreeBody
-from linkwright.plot.free_bodies.arrows import MILLIMETRE, arcs, arranged
+from linkwright.plot.drawing.vectors import NAME_SIZE
+from linkwright.plot.free_bodies.actions import STYLES, Action, FreeBody
+
+#: Printed width of a unit of the paper, mm.
+MILLIMETRE = 0.25
+#: Arrows shorter than SHORT mm are drawn STUB mm long and dashed.
+SHORT, STUB = 2.5, 4.0
+#: How far an arrow's point keeps from the place on which it presses, and how far it may be moved along its line.
+GAP, MOVES = 6.0, (0.0, 42.0, 84.0, 126.0)
+#: Nearer than this two lines cover each other; the part of an arrow next to its place does not count.
+NEAR, FREE = 6.0, 12.0
+#: Radius of the first arc at a place, and of the next ones.
+RADIUS, WIDER = 17.0, 8.0
+
+
+@dataclass(frozen=True)
+class Arrow:
+    """The arrow of a force on the paper: foot and point, (2,) units; ``to_scale``: whether its length is the force's.
+
+    ``place``: where the force acts.
+    """
+
+    action: Action
+    foot: Floats
+    point: Floats
+    place: Floats
+    to_scale: bool
+
+    @property
+    def elements(self) -> tuple[SvgNode, ...]:
+        """The arrow with its line of action up to its place, where it stands apart from that."""
+        style = STYLES[self.action.role]
+        shown = SYMBOLS["arrow"](start=vec(self.foot), end=vec(self.point), style=style).elements
+        arrow = group(shown, None if self.to_scale else "lw-short", **{"data-action": self.action.symbol})
+        near = min((self.foot, self.point), key=lambda end: math.dist(end, self.place))
+        if math.dist(near, self.place) < 2 * GAP:
+            return (arrow,)
+        return Line(points([near, self.place]), "lw-leader"), arrow
+
+    @property
+    def ink(self) -> Floats:
+        """Foot and point, (2, 2)."""
+        return np.array([self.foot, self.point])
+
+    @property
+    def label(self) -> Label:
+        """Its symbol, at its free end or along it."""
+        ends = sorted((self.foot, self.point), key=lambda end: -math.dist(end, self.place))
+        places = tuple(vec(ends[0] + share * (ends[1] - ends[0])) for share in (0.0, 0.25, 0.5, 0.75))
+        return _label(self.action, places, 5.0)
+
+
+def _label(action: Action, places: tuple[tuple[float, float], ...], clear: float) -> Label:
+    style = f"{STYLES[action.role]}-name"
+    return Label(action.letter, places, style, NAME_SIZE, clear, index=action.index)
+
+
+def arranged(actions: Sequence[Action], view: View, per_newton: float, body: Sequence[Floats]) -> list[Arrow]:
+    """The arrows of forces, the largest first; ``per_newton``: units of the paper; ``body``: the link's lines."""
+    chosen: list[Arrow] = []
+    link = _sampled(body)
+    for action in sorted(actions, key=lambda each: -each.size):
+        place = np.asarray(view.paper(action.place))
+        options = list(_options(action, place, per_newton))
+        costs = [
+            0.02 * moved
+            + _covered(each, link, 1.0)
+            + sum(_covered(each, _sampled([o.ink]), 4.0) for o in chosen)
+            for each, moved in options
+        ]
+        chosen.append(options[int(np.argmin(costs))][0])
+    return chosen
+
+
+def _options(action: Action, place: Floats, per_newton: float) -> Iterator[tuple[Arrow, float]]:
+    """Arrows that go from the place or end at it, and the same moved along their line; how far they are moved."""
+    along = action.force * (1.0, -1.0) / action.size
+    length = per_newton * action.size
+    to_scale = length * MILLIMETRE >= SHORT
+    if not to_scale:
+        length = STUB / MILLIMETRE
+    for moved in MOVES:
+        foot = place + moved * along
+        yield Arrow(action, foot, foot + length * along, place, to_scale), moved
+        point = place - (moved + GAP) * along
+        yield Arrow(action, point - length * along, point, place, to_scale), moved + GAP
+
+
+def _sampled(lines: Sequence[Floats]) -> Floats:
+    """Points along polylines, (n, 2), nearer to each other than lines that cover each other."""
+    found = [np.zeros((0, 2))]
+    for line in lines:
+        for start, end in pairwise(line):
+            if np.isfinite([start, end]).all():
+                count = 2 + int(math.dist(start, end) / (0.7 * NEAR))
+                found.append(start + np.linspace(0.0, 1.0, count)[:, None] * (end - start))
+    return np.concatenate(found)
+
+
+def _covered(arrow: Arrow, others: Floats, weight: float) -> float:
+    """Share of an arrow that lies on other lines, times a weight."""
+    own = _sampled([arrow.ink])
+    own = own[np.hypot(*(own - arrow.place).T) > FREE]
+    if not len(own) or not len(others):
+        return 0.0
+    gaps = np.hypot(*(own[:, None] - others[None]).transpose(2, 0, 1))
+    return weight * float(np.mean(gaps.min(axis=1) < NEAR))
+
+
+def arcs(couples: Sequence[Action], view: View) -> tuple[list[SvgNode], list[Floats], list[Label]]:
+    """Arcs of couples about their places, wider where several have one place, their ink, and their symbols."""
+    found, ink, labels, used = list[SvgNode](), list[Floats](), [], list[Floats]()
+    for each in couples:
+        at = np.asarray(view.paper(each.place))
+        radius = RADIUS + WIDER * sum(math.dist(at, other) < 4.0 for other in used)
+        used.append(at)
+        turning = 1 if each.torque > 0 else -1
+        shape = SYMBOLS["moment"](at=vec(at), turning=turning, radius=radius, style=STYLES[each.role])
+        found.append(group(shape.elements, None, **{"data-action": each.symbol}))
+        ink += shape.ink
+        sides = [(0.0, -1.0), (0.7, -0.7), (-0.7, -0.7), (1.0, 0.0), (-1.0, 0.0)]
+        labels.append(_label(each, tuple((at[0] + radius * x, at[1] + radius * y) for x, y in sides), 6.0))
+    return found, ink, labels
+
 
 #: Longest link and longest arrow, mm: the first pair with which a picture fits its place is taken, the last at most.
 SIZES = (
@@ -29,18 +154,6 @@ SIZES = (
 FINE = 400.0
 #: Round numbers of scales.
 ROUND = (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)
-
-
-@dataclass(frozen=True)
-class BodyPicture:
-    """A drawn link: elements over a ``box`` of the paper; metres and newtons per printed millimetre."""
-
-    body: FreeBody
-    elements: tuple[SvgNode, ...]
-    box: Box
-    length_scale: float
-    force_scale: float | None
-    shortened: bool
 
 
 def round_scale(largest: float, millimetres: float) -> float:
@@ -99,53 +212,48 @@ class LinkShapes:
         return float(np.ptp(np.array(places), axis=0).max()) or 1.0
 
 
-def body_picture(shapes: LinkShapes, body: FreeBody, usual: float, room: tuple[float, float]) -> BodyPicture:
+def body_sketch(shapes: LinkShapes, body: FreeBody, usual: float, room: tuple[float, float]) -> BodySketch:
     """The picture of a link, as large as fits ``room`` (units of the paper).
 
     ``usual``: metres per millimetre of a link that is but a point.
     """
     reach = shapes.reach(body.link)
     force = max((each.size for each in body.forces), default=0.0)
-
-    def sketch(length: float, longest: float) -> _Sketch:
+    for length, longest in SIZES:
         metres = round_scale(reach, length) if reach else usual
-        return _Sketch(shapes, body, metres, round_scale(force, longest) if force else None)
-
-    for size in SIZES[:-1]:
-        drawn = sketch(*size)
-        if _fits(bounds(drawn.ink), room) and _fits((found := drawn.finished()).box, room):
-            return found
-    return sketch(*SIZES[-1]).finished()
-
-
-def _fits(box: Box, room: tuple[float, float]) -> bool:
-    left, top, right, bottom = box
-    return right - left <= room[0] and bottom - top <= room[1]
+        drawn = BodySketch(shapes, body, metres, round_scale(force, longest) if force else None)
+        last = (length, longest) == SIZES[-1]
+        if last or drawn.fits(room):
+            drawn.write_names()
+        if last or drawn.fits(room):
+            break
+    return drawn
 
 
-class _Sketch:
-    """A link with its arrows and arcs at given scales, without names so far."""
+class BodySketch(Sketch):
+    """A link with its arrows and arcs to ``metres`` and ``newtons`` per printed millimetre; ``shortened``: whether an
+    arrow is not to scale."""
 
     def __init__(self, shapes: LinkShapes, body: FreeBody, metres: float, newtons: float | None) -> None:
-        self.body, self.metres, self.newtons, self.index = body, metres, newtons, shapes.index
-        self.scene = shapes.of(body.link, metres)
-        view, link = self.scene.machine.view, self.scene.ink(shapes.index)
+        super().__init__()
+        self.body, self.metres, self.newtons = body, metres, newtons
+        scene = shapes.of(body.link, metres)
+        view = scene.machine.view
+        self.draw(scene.at(shapes.index), scene.ink(shapes.index))
         per_newton = 1.0 / (newtons * MILLIMETRE) if newtons else 0.0
-        self.arrows = arranged(body.forces, view, per_newton, link)
-        self.turns, turned, self.labels = arcs(body.couples, view)
-        self.ink = [*link, *(a.ink for a in self.arrows), *turned]
+        arrows = arranged(body.forces, view, per_newton, self.ink)
+        for arrow in arrows:
+            self.draw(arrow.elements, [arrow.ink])
+            self.labels.append(arrow.label)
+        turns, turned, names = arcs(body.couples, view)
+        self.draw(turns, turned)
+        self.labels += [*names, *_names(scene, body.link, shapes.index)]
+        self.shortened = any(not arrow.to_scale for arrow in arrows)
 
-    def finished(self) -> BodyPicture:
-        """The picture with its names."""
-        elements = self.scene.at(self.index)
-        elements += [each for arrow in self.arrows for each in arrow.elements]
-        elements += self.turns
-        labels = [*(arrow.label for arrow in self.arrows), *self.labels]
-        labels += _names(self.scene, self.body.link, self.index)
-        texts, extent = _placed_labels(labels, self.ink)
-        box = bounds([*self.ink, *extent])
-        short = any(not arrow.to_scale for arrow in self.arrows)
-        return BodyPicture(self.body, (*elements, *texts), box, self.metres, self.newtons, short)
+    def fits(self, room: tuple[float, float]) -> bool:
+        """Whether what is drawn so far is no larger than a room."""
+        left, top, right, bottom = self.box
+        return right - left <= room[0] and bottom - top <= room[1]
 
 
 def _names(scene: Scene, link: str, index: int) -> list[Label]:
@@ -157,13 +265,3 @@ def _names(scene: Scene, link: str, index: int) -> list[Label]:
             seen.add((round(x), round(y)))
             found.append(Label(name, ((x, y),), size=13.0, clearance=8.0))
     return found
-
-
-def _placed_labels(labels: Sequence[Label], ink: Sequence[Floats]) -> tuple[list[SvgNode], list[Floats]]:
-    """Labels clear of what is drawn and of each other, and their corners."""
-    texts, extent = [], []
-    for label, chosen in zip(labels, place(labels, Obstacles.of(ink)), strict=True):
-        texts += written(label, chosen)
-        left, top, right, bottom = chosen.box
-        extent.append(points([(left, top), (right, bottom)]))
-    return texts, extent
