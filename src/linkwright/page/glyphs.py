@@ -24,8 +24,7 @@ from linkwright.mechanism.link import Link
 from linkwright.page.contacts import CamContact, RackWay, Wheel, Wheels, contact_shape
 from linkwright.pictures.picture import Vec
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape
-from linkwright.plot.drawing.guides import clear_shift, ground_side, is_cylinder, travel, welds
-from linkwright.plot.drawing.inputs import input_arrows
+from linkwright.plot.drawing.guides import clear_shift, ground_side, input_arrows, is_cylinder, travel, welds
 from linkwright.plot.drawing.load_marks import Press, Turn, mark_of
 from linkwright.plot.drawing.loads import named_points, pressing
 from linkwright.plot.drawing.machine import Machine, Part, bodies, flat, support_direction

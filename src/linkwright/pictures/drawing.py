@@ -12,10 +12,9 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.errors import RequestError
 from linkwright.pictures.picture import SvgNode, Text, name_runs
-from linkwright.pictures.svg.element import Element, element, number
+from linkwright.pictures.svg.element import FAMILY_LIST, Element, element, number
+from linkwright.pictures.svg.element import width as text_width
 from linkwright.pictures.svg.render import png, save_picture
-from linkwright.pictures.svg.text import FAMILY_LIST
-from linkwright.pictures.svg.text import width as text_width
 from linkwright.pictures.symbols.base import LINE
 from linkwright.whole_files import refuse_target
 from linkwright.words import _

@@ -19,8 +19,7 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.report.machine_results import Case
 from linkwright.report.settings import settings as report_settings
-from linkwright.sheets.kind import Subject
-from linkwright.sheets.settings import places
+from linkwright.sheets.settings import Subject, places
 
 #: Numbered positions of the crank, and the most positions that are worked out.
 NUMBERED, MOST = 12, 2

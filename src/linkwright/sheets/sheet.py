@@ -16,11 +16,10 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
 from linkwright.pictures.picture import CAPTION, LEAST, TEXT, Box, Picture, Text
 from linkwright.registry import listed
-from linkwright.sheets.kind import SHEETS, Content, Subject
 from linkwright.sheets.layout import GAP, Room, laid_out
 from linkwright.sheets.panel import Block, Panel, block_of
 from linkwright.sheets.paper import BAR, BAR_HEIGHT, SIZES, Paper, control_bar, frame
-from linkwright.sheets.settings import Placed, Settings, settings
+from linkwright.sheets.settings import SHEETS, Content, Placed, Settings, Subject, settings
 from linkwright.sheets.title_block import TitleBlock, gb_block, iso_block, school_block
 from linkwright.sheets.written import svg
 from linkwright.whole_files import refuse_target, write_whole

@@ -11,9 +11,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.export.dxf.sheet import STYLE, add, content_of, new_document
 from linkwright.pictures.picture import CAPITAL, Circle, Item, Line, Text
-from linkwright.pictures.svg.element import element, number
+from linkwright.pictures.svg.element import FAMILY_LIST, element, number
 from linkwright.pictures.svg.fonts import needs_chinese
-from linkwright.pictures.svg.text import FAMILY_LIST
 from linkwright.sheets.paper import Paper
 from linkwright.words.characters import one_line
 

@@ -2,7 +2,7 @@
 
 import re
 
-from linkwright.export.modelica.names import Names, quoted
+from linkwright.export.modelica.laws import Names, quoted
 
 
 def test_names_are_distinct_identifiers() -> None:

@@ -8,7 +8,7 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.pictures.svg.text import fold, width
+from linkwright.pictures.svg.element import fold, width
 from linkwright.plot.free_bodies.actions import free_bodies, idle_loads
 from linkwright.plot.free_bodies.picture import round_scale
 

@@ -1,20 +1,44 @@
-"""Links as bodies of a MuJoCo model, nested in the chains of the Assur groups, and what closes the loops."""
+"""Links as bodies of a MuJoCo model, nested in the chains of the Assur groups, what closes the loops; its numbers."""
 
 from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, TreeJoint
-from linkwright.export.mjcf.text import numbers
 from linkwright.export.results import Results
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
 from linkwright.mechanism.link import Link
+from linkwright.words.characters import printable
+
+
+def numbers(values: Iterable[float]) -> str:
+    """Numbers with all their digits, apart by spaces."""
+    return " ".join(f"{float(value) + 0.0:.17g}" for value in values)
+
+
+def seconds(motion: Motion) -> float:
+    """Duration of the motion, s; 1 s where there is none."""
+    if motion.positions.period:
+        return float(motion.positions.period)
+    return float(np.ptp(motion.time)) or 1.0
+
+
+def written(root: ET.Element) -> bytes:
+    """The indented XML document."""
+    ET.indent(root)
+    for element in root.iter():
+        for name, value in element.attrib.items():
+            element.attrib[name] = printable(value)
+    return (
+        b'<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode").encode() + b"\n"
+    )
+
 
 #: Mass and inertia of links without any, as a share of the largest mass.
 LEAST = 1e-3

@@ -6,8 +6,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 
-from linkwright.export.mjcf.bodies import HEAVY, Bodies
-from linkwright.export.mjcf.text import numbers
+from linkwright.export.mjcf.bodies import HEAVY, Bodies, numbers
 from linkwright.export.results import Results
 
 #: Natural frequency of the position servo times the time step.

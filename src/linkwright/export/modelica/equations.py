@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
-from linkwright.export.modelica.laws import law_text
-from linkwright.export.modelica.names import Names, number, quoted
+from linkwright.export.modelica.laws import Names, law_text, number, quoted
 from linkwright.export.results import Results
 from linkwright.joints.base import Joint
 from linkwright.joints.lower import RigidJoint, SlidingJoint

@@ -7,8 +7,7 @@ starting position and cannot change to another way of putting the mechanism toge
 from __future__ import annotations
 
 from linkwright.export.modelica.equations import Equations, Text
-from linkwright.export.modelica.laws import law_text
-from linkwright.export.modelica.names import number, quoted
+from linkwright.export.modelica.laws import law_text, number, quoted
 from linkwright.export.results import Results
 from linkwright.joints.base import Joint
 from linkwright.joints.lower import RigidJoint, SlidingJoint

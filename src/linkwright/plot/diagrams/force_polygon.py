@@ -16,7 +16,7 @@ from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import indexed, joined
 from linkwright.pictures.sketch import Sketch
-from linkwright.pictures.svg.text import fold
+from linkwright.pictures.svg.element import fold
 from linkwright.pictures.symbols.base import vec
 from linkwright.plot.diagrams.axes import unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request

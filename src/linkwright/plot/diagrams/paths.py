@@ -13,9 +13,8 @@ from linkwright.kinematics.names import output_or_point
 from linkwright.pictures.diagram import COLOURS, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request, framed
-from linkwright.plot.diagrams.machine_in_axes import LINK, draw_machine
 from linkwright.plot.diagrams.marks import draw_curve, mark_inputs
-from linkwright.plot.diagrams.names import Names, write_names
+from linkwright.plot.diagrams.names import LINK, Names, draw_machine, write_names
 from linkwright.plot.diagrams.outputs import traced_points
 from linkwright.plot.diagrams.panels import DASHES
 from linkwright.plot.diagrams.source import Source

@@ -14,8 +14,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.picture import Runs, Words, indexed, joined
 from linkwright.pictures.sketch import Sketch
-from linkwright.pictures.svg.element import element
-from linkwright.pictures.svg.text import fold
+from linkwright.pictures.svg.element import element, fold
 from linkwright.plot.diagrams.axes import round_up
 from linkwright.plot.drawing.machine import View
 from linkwright.plot.drawing.scene import laid_out, point_labels

@@ -10,7 +10,7 @@ from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.drawing import Box
 from linkwright.pictures.picture import Runs, indexed, joined, line_width, name_runs
 from linkwright.pictures.sketch import Sketch
-from linkwright.pictures.svg.text import fold
+from linkwright.pictures.svg.element import fold
 from linkwright.plot.drawing.vectors import Arrows, Torques, Vectors, round_length, scale_of, with_unit
 from linkwright.words import _, say
 from linkwright.words.sentence import links_said

@@ -16,8 +16,7 @@ from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Circle, Line, SvgNode, Vec
 from linkwright.pictures.svg.element import group, number
 from linkwright.pictures.symbols.base import SYMBOLS, points, vec
-from linkwright.plot.drawing.guides import guides, welds
-from linkwright.plot.drawing.inputs import input_arrows
+from linkwright.plot.drawing.guides import guides, input_arrows, welds
 from linkwright.plot.drawing.joint_marks import wheels
 from linkwright.plot.drawing.machine import (
     DIAGONAL,

@@ -14,7 +14,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.pictures.svg.text import fold, width
+from linkwright.pictures.svg.element import fold, width
 from linkwright.plot.flow_chart.content import Node, Shape
 
 #: Height of letters and of lines, widest text of a symbol, of a decision, of what stands aside.

@@ -8,8 +8,7 @@ import numpy as np
 
 from linkwright.pictures.drawing import document
 from linkwright.pictures.picture import Circle, Line, SvgNode, Text, sentence_runs
-from linkwright.pictures.svg.element import Element, element
-from linkwright.pictures.svg.text import fold
+from linkwright.pictures.svg.element import Element, element, fold
 from linkwright.pictures.symbols.arrows import head
 from linkwright.pictures.symbols.base import points, vec, way
 from linkwright.plot.flow_chart.content import Node

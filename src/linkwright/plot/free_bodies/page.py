@@ -14,7 +14,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.pictures.picture import indexed, name_runs, sentence_runs
 from linkwright.pictures.sketch import Sketch
-from linkwright.pictures.svg.text import fold
+from linkwright.pictures.svg.element import fold
 from linkwright.plot.diagrams.scaled_page import page
 from linkwright.plot.drawing.vectors import with_unit
 from linkwright.plot.free_bodies.actions import STYLES, Action, FreeBody, free_bodies

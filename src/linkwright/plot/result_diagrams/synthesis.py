@@ -12,7 +12,7 @@ from linkwright.metrics.coupler_curve import CouplerCurve
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, unit_of
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
-from linkwright.plot.diagrams.machine_in_axes import draw_support
+from linkwright.plot.diagrams.names import draw_support
 from linkwright.synthesis.result import Candidate, Synthesis, title_said
 from linkwright.words import _, say
 

@@ -14,7 +14,7 @@ from linkwright.errors import speaker
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
-from linkwright.plot.diagrams.machine_in_axes import draw_support
+from linkwright.plot.diagrams.names import draw_support
 from linkwright.synthesis.motion_generation.generate import MotionDerivation
 from linkwright.synthesis.requirements.crank_rocker import CrankRockerDerivation, QuickReturnDerivation
 from linkwright.synthesis.requirements.slider_crank import SliderCrankDerivation

@@ -11,8 +11,7 @@ import numpy as np
 from linkwright.cams.result import CamDesign
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import Picture, Runs, as_runs, indexed, joined
-from linkwright.sheets.cams.division import divided
-from linkwright.sheets.cams.geometry import Paper, pitch_of, sharpest
+from linkwright.sheets.cams.division import Paper, divided, pitch_of, sharpest
 from linkwright.sheets.cams.marks import angle_between, graphical, said
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.words import Say, _

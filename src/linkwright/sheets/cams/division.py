@@ -1,4 +1,8 @@
-"""The divided angles of a cam's sheet: where the follower is drawn, and the phases of its motion."""
+"""The divided angles of a cam's sheet, and where the follower stands against the cam at them, as the cam sees it.
+
+Places are complex, m, in the cam's axes: the frame is turned back by the cam's angle, the inversion that profiles are
+drawn by.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +13,9 @@ from typing import Literal
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.cams.curves import RollerCurve
+from linkwright.cams.result import CamDesign
+from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.laws.base import MotionLaw
 from linkwright.laws.program import TURN, MotionProgram, Program
@@ -107,3 +113,107 @@ def widest_gap(places: Floats) -> tuple[float, float]:
     after = np.append(places[1:], places[0] + TURN)
     k = int(np.argmax(after - places))
     return float(places[k]), float(after[k])
+
+
+@dataclass(frozen=True)
+class Inverted:
+    """A follower at angles φ (n,) in the cam's axes.
+
+    ``trace``: roller's centre, edge, or the point in which a flat face touches; ``rest``: where the same point would
+    be without lift (of a flat face: the foot of its line); ``foot``: the pivot, or the point of the offset circle at
+    which a translating follower's line touches it; ``along``: unit vector of the follower's motion with growing
+    lift; ``face`` (n, 2): the ends of a flat face as far as it is used, empty for others.
+    """
+
+    trace: Complexes
+    rest: Complexes
+    foot: Complexes
+    along: Complexes
+    face: Complexes
+
+
+def inverted(design: CamDesign, phi: Floats) -> Inverted:
+    """The follower of a disc cam at angles φ (n,)."""
+    cam, follower = design.cam, design.cam.follower
+    base = cam.base_radius or 0.0
+    back = np.exp(-1j * cam.turn * phi)
+    lift = cam.program.curves(phi)[0]
+    low, high = design.face or (0.0, 0.0)
+    none = np.empty((0, 2), dtype=complex)
+    if not follower.oscillating:
+        height = follower.start_height(base) or 0.0
+        offset = 0.0 if follower.kind == "flat" else follower.offset
+        rest, along = (offset + 1j * height) * back, 1j * back
+        trace = (offset + 1j * (height + lift)) * back
+        if follower.kind != "flat":
+            return Inverted(trace, rest, offset * back, along, none)
+        face = np.stack([(end + 1j * (height + lift)) * back for end in (low, high)], axis=1)
+        return Inverted(design.wall.contact(phi).point, rest, 0.0 * back, along, face)
+    pivot, start = follower.pivot_distance or 0.0, follower.start_angle(base) or 0.0
+    side = follower.side
+    arm = -np.exp(-1j * side * (start + lift))
+    if follower.kind != "flat":
+        length = follower.arm or 0.0
+        rest = (pivot - length * np.exp(-1j * side * start)) * back
+        return Inverted((pivot + length * arm) * back, rest, pivot * back, -1j * side * arm * back, none)
+    toward = 1j * side * arm * follower.face_offset
+    face = np.stack([(pivot + toward + end * arm) * back for end in (low, high)], axis=1)
+    point = design.wall.contact(phi).point
+    lever = point - pivot * back
+    return Inverted(point, face[:, 0], pivot * back, -1j * side * lever / np.abs(lever), face)
+
+
+@dataclass(frozen=True)
+class Sharpest:
+    """The pressure angle nearest to its limit (the largest where there is none): value, limit and place in rad."""
+
+    value: float
+    limit: float | None
+    place: float
+    rising: bool
+
+
+def sharpest(design: CamDesign) -> Sharpest | None:
+    """The governing pressure angle of a cam; None where the follower feels none."""
+    limits = design.cam.limits
+    rise_limit = limits.pressure_angle
+    fall_limit = rise_limit if limits.pressure_angle_fall is None else limits.pressure_angle_fall
+    found = [
+        Sharpest(abs(each.value), limit, each.place, rising)
+        for each, limit, rising in (
+            (design.pressure_angle_rise, rise_limit, True),
+            (design.pressure_angle_fall, fall_limit, False),
+        )
+    ]
+    worst = max(found, key=lambda each: each.value / (each.limit or math.pi / 2))
+    return worst if worst.value > 1e-9 else None
+
+
+def pitch_of(design: CamDesign, phi: Floats) -> Complexes:
+    """The pitch curve of the first wall; the profile itself under a flat face."""
+    wall = design.wall
+    return wall.pitch(phi)[0] if isinstance(wall, RollerCurve) else wall.contact(phi).point
+
+
+class Paper:
+    """From places in the cam's axes, m, to millimetres of paper."""
+
+    def __init__(self, reduction: float) -> None:
+        self.factor = 1e3 / reduction
+
+    def length(self, value: float) -> float:
+        """A length, mm."""
+        return self.factor * value
+
+    def point(self, place: complex) -> Floats:
+        """A point (2,), mm."""
+        return self.factor * pair(place)
+
+    def points(self, places: Complexes) -> Floats:
+        """Points (n, 2), mm."""
+        return np.asarray(self.factor * np.stack([places.real, places.imag], axis=-1))
+
+
+def pair(place: complex) -> Floats:
+    """A complex place as a point (2,)."""
+    return np.array([complex(place).real, complex(place).imag])

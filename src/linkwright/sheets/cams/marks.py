@@ -13,8 +13,7 @@ from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.quantity import significant
 from linkwright.pictures.labels import Name
 from linkwright.pictures.picture import Picture, Runs, as_runs, indexed, joined
-from linkwright.sheets.cams.division import divided, widest_gap
-from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of, sharpest
+from linkwright.sheets.cams.division import Paper, divided, inverted, pair, pitch_of, sharpest, widest_gap
 from linkwright.words import Say
 
 

@@ -14,11 +14,10 @@ from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import Picture, Runs, as_runs, joined
-from linkwright.sheets.cams.division import divided, widest_gap
-from linkwright.sheets.cams.geometry import Paper, inverted, pair, pitch_of
+from linkwright.sheets.cams.division import Paper, divided, inverted, pair, pitch_of, widest_gap
 from linkwright.sheets.cams.marks import graphical, marked, said
+from linkwright.sheets.machine import frame_pin, guide
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
-from linkwright.sheets.scene import frame_pin, guide
 from linkwright.words import Say, _
 
 _DENSE = 1440

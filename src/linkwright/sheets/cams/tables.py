@@ -13,8 +13,7 @@ from linkwright.core.quantity import fixed, significant
 from linkwright.laws.base import LABELS
 from linkwright.laws.smoothest import FoundProgram
 from linkwright.pictures.picture import Runs, Words, as_runs, indexed, joined
-from linkwright.sheets.cams.division import Phase, divided, phases
-from linkwright.sheets.cams.geometry import pitch_of
+from linkwright.sheets.cams.division import Phase, divided, phases, pitch_of
 from linkwright.sheets.panel import Drawn, TablePanel
 from linkwright.words import Say, _
 

@@ -18,7 +18,7 @@ from linkwright.sheets.cams.development import DevelopmentPanel
 from linkwright.sheets.cams.motion import MotionPanel
 from linkwright.sheets.cams.profile import ProfilePanel
 from linkwright.sheets.cams.tables import data_table, points_table
-from linkwright.sheets.kind import SHEETS, Content, Subject
+from linkwright.sheets.settings import SHEETS, Content, Subject
 from linkwright.words import _
 
 #: Share of the paper's shorter side that the diagrams of the motion take at most.

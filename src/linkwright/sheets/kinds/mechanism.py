@@ -21,12 +21,12 @@ from linkwright.plot.diagrams.source import Source
 from linkwright.plot.diagrams.sva import Sva
 from linkwright.plot.diagrams.torque import Torque
 from linkwright.sheets.curves import Axis, Curve, CurvePanel
-from linkwright.sheets.kind import SHEETS, Content, Subject
 from linkwright.sheets.machine import MachinePanel
 from linkwright.sheets.machine_tables import data_table, force_table, motion_table
 from linkwright.sheets.panel import Panel
 from linkwright.sheets.polygons import AccelerationPanel, ForcePanel, VelocityPanel
 from linkwright.sheets.positions import Positions
+from linkwright.sheets.settings import SHEETS, Content, Subject
 from linkwright.words import _
 
 #: Names of the diagrams of an output, with their ranks: where it is, its velocity, its acceleration.

@@ -1,4 +1,4 @@
-"""DXF: the drawing and the paths of points at true scale."""
+"""Pictures, drawings and pages: SVG, PNG, PDF, DXF, living pages."""
 
 from __future__ import annotations
 
@@ -16,10 +16,40 @@ from linkwright.export.dxf.sheet import (
 )
 from linkwright.export.export import FORMATS, Format
 from linkwright.export.results import Results
+from linkwright.files.document import Document
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.pictures.svg import render
+from linkwright.plot.drawing import draw
 from linkwright.words import _
 
 
-def content(
+def svg(
+    results: Results, *, position: int = 0, paths: Sequence[str] = (), size: float | None = None
+) -> bytes:
+    """The drawing at a position with the paths of points; ``size``: longer side in pixels."""
+    return _svg(results, position, paths, size).encode()
+
+
+def png(results: Results, *, position: int = 0, paths: Sequence[str] = (), width: int | None = None) -> bytes:
+    """The same in pixels, ``width`` of them across."""
+    return render.png(_svg(results, position, paths, None), width=width)
+
+
+def pdf(results: Results, *, position: int = 0, paths: Sequence[str] = ()) -> bytes:
+    """The same as one page of vector PDF."""
+    return render.pdf(_svg(results, position, paths, None))
+
+
+def _svg(results: Results, position: int, paths: Sequence[str], size: float | None) -> str:
+    return draw(results.motion, position=position, paths=paths, size=size, language=results.language).svg
+
+
+FORMATS.register("svg")(Format((".svg",), svg))
+FORMATS.register("png")(Format((".png",), png))
+FORMATS.register("pdf")(Format((".pdf",), pdf))
+
+
+def dxf(
     results: Results,
     *,
     unit: str = "mm",
@@ -79,4 +109,20 @@ def _index(results: Results, position: int | None) -> int:
     return position % steps
 
 
-FORMATS.register("dxf")(Format((".dxf",), content))
+FORMATS.register("dxf")(Format((".dxf",), dxf))
+
+
+def html(results: Results, *, text: str | None = None, beside: Sequence[Mechanism | Document] = ()) -> bytes:
+    """The living page of a machine.
+
+    ``text``: the model file's own text, which the page gives back with the changed numbers; ``beside``: further
+    machines for comparison, or documents of their files, solved over as many steps.
+    """
+    from linkwright.page.content import page, solved
+
+    steps = max(results.motion.steps - (0 if results.motion.positions.closed else 1), 1)
+    models = [(results.motion, text), *(solved(each, steps) for each in beside)]
+    return page(models, results.language).encode()
+
+
+FORMATS.register("html")(Format((".html", ".htm"), html))
