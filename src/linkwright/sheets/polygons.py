@@ -13,20 +13,14 @@ from linkwright.errors import LinkwrightError
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import LEAST, Picture, as_runs, indexed, joined
-from linkwright.plot.diagrams.force_polygon import (
-    SHARES,
-    SHORT,
-    arrows,
-    corners,
-)
-from linkwright.plot.diagrams.motion_polygons import arrows as motion_arrows
-from linkwright.plot.diagrams.motion_polygons import gathered
+from linkwright.plot.diagrams.motion_polygons import arrows, gathered
 from linkwright.plot.diagrams.motion_vectors import (
     MotionPolygon,
     acceleration_polygon,
     velocity_polygon,
 )
 from linkwright.plot.diagrams.names import LOW
+from linkwright.plot.diagrams.scaled_page import SHARES, SHORT, corners, end_to_end
 from linkwright.plot.free_bodies.actions import Action
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.sheets.positions import Positions, Shown
@@ -102,7 +96,7 @@ class MotionPolygonPanel(ScaledPanel):
 
     def picture(self, scale: float) -> Picture:
         found = Picture()
-        pairs = motion_arrows(self.polygon, scale)
+        pairs = arrows(self.polygon, scale)
         for step, (start, end) in zip(self.polygon.steps, pairs, strict=True):
             if step.role == "absolute":
                 found.arrow(start, end)
@@ -174,10 +168,10 @@ class ForcePanel(ScaledPanel):
         super().__init__(name, rank, positions, shown)
         self.link = link
         self.vectors = vectors
-        self.corners = corners(self.vectors)
+        self.forces = [each.force for each in vectors]
 
     def reach(self) -> float:
-        return float(np.ptp(self.corners, axis=0).max()) or 1.0
+        return float(np.ptp(corners(self.forces), axis=0).max()) or 1.0
 
     def caption(self) -> str:
         words, number = self.positions.subject.words, link_numbers(self.positions.mechanism)[self.link]
@@ -190,7 +184,7 @@ class ForcePanel(ScaledPanel):
     def picture(self, scale: float) -> Picture:
         found = Picture()
         names = []
-        for vector, (start, end) in zip(self.vectors, arrows(self.vectors, scale), strict=True):
+        for vector, (start, end) in zip(self.vectors, end_to_end(self.forces, scale), strict=True):
             found.arrow(start, end, "thick" if vector.role == "reaction" else "thin")
             if np.hypot(*(end - start)) > SHORT:
                 spots = [start + share * (end - start) for share in SHARES]

@@ -24,6 +24,7 @@ from linkwright.words.characters import printable
 from linkwright.words.sentence import in_language
 
 T = TypeVar("T")
+D = TypeVar("D", Figure, Drawing)
 #: What may be asked of some kinds of diagrams only.
 OPTIONS = ("of", "joint", "on", "axes", "at", "fluctuation", "static")
 
@@ -101,7 +102,7 @@ class ResultDiagram:
     takes: type
     options: tuple[str, ...]
     usual: bool
-    draw: Callable[[Any, Request], Figure] = field(repr=False)
+    draw: Callable[[Any, Request], Figure | Drawing] = field(repr=False)
     when: Callable[[Any], bool] = field(repr=False)
 
     def suits(self, result: object) -> bool:
@@ -120,10 +121,10 @@ def result_diagram(
     options: tuple[str, ...] = (),
     usual: bool = True,
     when: Callable[[T], bool] = lambda result: True,
-) -> Callable[[Callable[[T, Request], Figure]], Callable[[T, Request], Figure]]:
+) -> Callable[[Callable[[T, Request], D]], Callable[[T, Request], D]]:
     """Decorator that registers a function as the diagram ``name`` of results; see :class:`ResultDiagram`."""
 
-    def registered(draw: Callable[[T, Request], Figure]) -> Callable[[T, Request], Figure]:
+    def registered(draw: Callable[[T, Request], D]) -> Callable[[T, Request], D]:
         RESULT_DIAGRAMS.register(name)(ResultDiagram(takes, options, usual, draw, when))
         return draw
 

@@ -3,48 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
-from linkwright.core.quantity import significant
 from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.drawing import Drawing
-from linkwright.pictures.labels import Label
-from linkwright.pictures.picture import indexed, joined
-from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import fold
-from linkwright.pictures.symbols.base import vec
 from linkwright.plot.diagrams.axes import unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.outputs import known_link
 from linkwright.plot.diagrams.reactions import require_forces
 from linkwright.plot.diagrams.scaled_page import (
-    BAR,
-    MILLIMETRE,
     SIZE,
     Cell,
+    Vector,
     key,
     page,
     page_width,
     position_cell,
-    scale_of_picture,
-    scale_title,
-    side_by_side,
-    units,
+    vector_cell,
 )
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.free_bodies.actions import STYLES, Action, free_bodies
 from linkwright.words import _
 from linkwright.words.sentence import links_said
 
-#: Longest extent of a polygon on the paper, mm, and how many pictures stand in a row.
-EXTENT, IN_ROW = 58.0, 3
-#: Forces that are shorter on the paper have no name of their own, mm; where along a force its name may stand.
-SHORT, SHARES = 1.5, (0.5, 0.35, 0.65, 0.2, 0.8)
+#: Pictures in a row.
+IN_ROW = 3
 #: Roles in the order of the graphical method; what the key calls some of them.
 ORDER = ("load", "friction", "weight", "inertia", "driver", "reaction")
 PLAIN = {"friction": "load"}
@@ -100,58 +87,24 @@ class ForcePolygon(Kind):
             source.label, f"{say('kind.force_polygon')}, {source.place_text(forces.motion, say)}"
         )
         numbered = fold(", ".join(links_said(link_numbers(forces.mechanism), request.language)), wide, SIZE)
-        return page(
-            cells,
-            IN_ROW,
-            [
-                key([(say(f"force.{role}"), style) for role, style in STYLES.items() if role in roles]),
-                *([((line, "lw-legend"), 0.0)] for line in numbered),
-            ],
-            heading if request.title is None else request.title,
-            heading,
-        )
+        below = [key([(say(f"force.{role}"), style) for role, style in STYLES.items() if role in roles])]
+        below += [[((line, "lw-legend"), 0.0)] for line in numbered]
+        shown = heading if request.title is None else request.title
+        return page(cells, IN_ROW, below, shown, heading)
 
 
-def polygon_cell(forces: Forces, link: str, found: list[Action]) -> Cell:
+def polygon_cell(forces: Forces, link: str, found: Sequence[Action]) -> Cell:
     """The polygon of a link with the sizes of its forces."""
-    scale = scale_of_picture(corners(found), EXTENT)
-    sketch = Sketch()
-    for each, (start, end) in zip(found, arrows(found, scale), strict=True):
-        style = STYLES[each.role]
-        sketch.arrow(units(start), units(end), style)
-        if np.hypot(*(end - start)) > SHORT:
-            spots = tuple(vec(units(start + share * (end - start))) for share in SHARES)
-            sketch.labels.append(
-                Label(each.letter, spots, f"{style}-name", 12.0, 4.0, leader=False, index=each.index)
-            )
-    sketch.write_names()
-    per_mm = f"{significant(scale / 1e3)} kN/mm" if scale >= 1e3 else f"{significant(scale)} N/mm"
-    bar = BAR * MILLIMETRE * scale
-    unit = unit_of("force", [each.force for each in found])
-    notes = tuple(
-        (joined(indexed(each.letter, each.index), f" = {unit.text(each.size)}"), f"{STYLES[each.role]}-name")
-        for each in found
-    )
-    return Cell(
-        sketch,
-        (_title(forces, link), scale_title("", "F", per_mm)),
-        unit_of("force", [np.array([bar])]).text(bar),
-        notes,
-    )
+    vectors = [Vector(each.letter, each.force, STYLES[each.role], each.index) for each in found]
+    return vector_cell((_title(forces, link),), vectors, "F", force_text)
+
+
+def force_text(value: float) -> str:
+    """A force with its unit."""
+    return unit_of("force", [np.array([value])]).text(value)
 
 
 def _title(forces: Forces, link: str) -> str:
     """The group and the link, by its number."""
     group = next(each for each in forces.motion.structure.groups if link in each.links)
     return f"{group.signature}: {link_numbers(forces.mechanism)[link]} {link}"
-
-
-def corners(found: list[Action]) -> Floats:
-    """Corners of the polygon, (forces + 1, 2) N, from zero back to zero."""
-    steps = np.array([each.force for each in found]).reshape(-1, 2)
-    return np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)])
-
-
-def arrows(found: list[Action], scale: float) -> list[tuple[Floats, Floats]]:
-    """Starts and ends of the forces in paper mm, end to end."""
-    return side_by_side(list(pairwise(corners(found) / scale)))

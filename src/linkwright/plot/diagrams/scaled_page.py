@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -12,9 +13,11 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import significant
 from linkwright.kinematics.motion import Motion
 from linkwright.pictures.drawing import Drawing
-from linkwright.pictures.picture import Runs, Words, indexed, joined
+from linkwright.pictures.labels import Label
+from linkwright.pictures.picture import Runs, Words, indexed, joined, name_runs
 from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import element, fold
+from linkwright.pictures.symbols.base import vec
 from linkwright.plot.diagrams.axes import round_up
 from linkwright.plot.drawing.machine import View
 from linkwright.plot.drawing.scene import laid_out, point_labels
@@ -29,10 +32,15 @@ HEADING, TITLE, SIZE, LINE = 15.0, 12.0, 11.0, 17.6
 #: A picture flatter than FLAT mm is drawn up to WIDE mm long, one that stands upright up to HIGH mm, so that its page
 #: has room beneath it; one that stays below THIN mm has its arrows side by side, SIDE mm apart.
 FLAT, WIDE, HIGH, THIN, SIDE = 12.0, 190.0, 110.0, 3.0, 3.0
+#: Longest extent of a polygon, mm; vectors that are shorter on the paper have no name of their own, mm; where along
+#: one its name may stand.
+EXTENT, SHORT, SHARES = 58.0, 1.5, (0.5, 0.35, 0.65, 0.2, 0.8)
 #: Shorter arrows are not drawn, mm; longest extent of a position, mm, without and with its symbols.
 LEAST_ARROW, POSITION, WITH_SYMBOLS = 0.1, 75.0, 95.0
 #: A text in a style.
 Written = tuple[Words, str]
+#: Lines of texts below a page, each with its place in the line.
+Below = Sequence[Sequence[tuple[Written, float]]]
 
 
 class Placed(Protocol):
@@ -56,7 +64,7 @@ class Cell:
 
     sketch: Sketch
     title: tuple[Words, ...]
-    bar: str
+    bar: str = ""
     notes: tuple[Written, ...] = ()
 
     @property
@@ -73,10 +81,12 @@ class Cell:
             page.text((left, y), line, size=TITLE)
         x0, y0, x1, y1 = self.sketch.box
         page.put_sketch(self.sketch, (left + 0.5 * (self.width - APART - (x1 - x0)) - x0, y + 20.0 - y0))
-        y += 20.0 + (y1 - y0) + 24.0
-        for tick in ([(0, 0), (BAR, 0)], [(0, -3.6), (0, 3.6)], [(BAR, -3.6), (BAR, 3.6)]):
-            page.line(np.add(tick, (left, y)))
-        page.text((left + BAR + 6.0, y + 4.0), self.bar, size=SIZE)
+        y += 20.0 + (y1 - y0)
+        if self.bar:
+            y += 24.0
+            for tick in ([(0, 0), (BAR, 0)], [(0, -3.6), (0, 3.6)], [(BAR, -3.6), (BAR, 3.6)]):
+                page.line(np.add(tick, (left, y)))
+            page.text((left + BAR + 6.0, y + 4.0), self.bar, size=SIZE)
         for runs, style in self.notes:
             y += LINE
             page.text((left, y + 5.0), runs, style, SIZE)
@@ -86,7 +96,7 @@ class Cell:
 def page(
     cells: Sequence[Placed],
     columns: int,
-    below: Sequence[Sequence[tuple[Written, float]]],
+    below: Below,
     heading: str,
     title: str,
     css: str = "",
@@ -185,3 +195,59 @@ def side_by_side(pairs: list[tuple[Floats, Floats]]) -> list[tuple[Floats, Float
     seen = [float(np.hypot(*(end - start))) > LEAST_ARROW for start, end in pairs]
     shifts = [(0.5 * (sum(seen) - 1) - sum(seen[:number])) * SIDE * across for number in range(len(pairs))]
     return [(start + shift, end + shift) for (start, end), shift in zip(pairs, shifts, strict=True)]
+
+
+@dataclass(frozen=True)
+class Vector:
+    """A vector of a polygon, (2,) SI: its letter and index, and the class of its arrow."""
+
+    letter: str
+    value: Floats
+    style: str
+    index: str = ""
+
+
+def corners(vectors: Sequence[Floats]) -> Floats:
+    """Corners of vectors end to end, (vectors + 1, 2), from zero."""
+    return np.concatenate([np.zeros((1, 2)), np.cumsum(np.reshape(vectors, (-1, 2)), axis=0)])
+
+
+def end_to_end(vectors: Sequence[Floats], scale: float) -> list[tuple[Floats, Floats]]:
+    """Starts and ends of vectors in paper mm."""
+    return side_by_side(list(pairwise(corners(vectors) / scale)))
+
+
+def vector_cell(
+    title: tuple[Words, ...],
+    vectors: Sequence[Vector],
+    letter: str,
+    text: Callable[[float], str],
+    *,
+    whole: Vector | None = None,
+) -> Cell:
+    """Vectors end to end with their sizes, and their sum from start to end where it is given as the ``whole``;
+    ``letter``: what they are, ``text`` a value with its unit."""
+    rows = [each.value for each in vectors]
+    scale = scale_of_picture(corners(rows), EXTENT)
+    pairs = side_by_side(
+        [*pairwise(corners(rows) / scale), *([] if whole is None else [(np.zeros(2), whole.value / scale)])]
+    )
+    shown = [*vectors, *([] if whole is None else [whole])]
+    sketch = Sketch()
+    for each, (start, end) in zip(shown, pairs, strict=True):
+        sketch.arrow(units(start), units(end), each.style)
+        if np.hypot(*(end - start)) > SHORT:
+            spots = tuple(vec(units(start + share * (end - start))) for share in SHARES)
+            sketch.labels.append(
+                Label(each.letter, spots, f"{each.style}-name", 12.0, 4.0, leader=False, index=each.index)
+            )
+    sketch.write_names()
+    sizes = [float(np.hypot(*each.value)) for each in shown]
+    names = [indexed(v.letter, v.index) if v.index else name_runs(v.letter) for v in shown]
+    notes = tuple(
+        (joined(name, f" = {text(size)}"), f"{each.style}-name")
+        for each, name, size in zip(shown, names, sizes, strict=True)
+        if size > 0.0
+    )
+    bar = text(BAR * MILLIMETRE * scale)
+    return Cell(sketch, (*title, scale_title("", letter, f"{text(scale)}/mm")), bar, notes)

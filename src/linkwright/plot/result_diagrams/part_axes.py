@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
+from linkwright.pictures.diagram import COLOURS, INK, Axes, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, Unit, angle_ticks, unit_of
 from linkwright.plot.diagrams.base import Request, framed
 
@@ -120,33 +120,3 @@ def fitted(figure: Figure, planes: Sequence[Axes], request: Request) -> None:
     share = max(each.height / each.width if each.width > 0.0 else TALL for each in extents)
     wide = float(figure.get_size_inches()[0])
     figure.set_size_inches(wide, AROUND + (wide / len(planes) - 1.2) * min(max(share, FLAT), TALL))
-
-
-def arrow(
-    axes: Axes, start: Floats, vector: Floats, colour: str, label: str, *, middle: float | None = None
-) -> None:
-    """An arrow from a place, named at its head, or beside its ``middle``: to its left (1) or right (-1); nothing for
-    a vector that is zero."""
-    if not np.any(vector):
-        return
-    end = start + vector
-    axes.plot([start[0], end[0]], [start[1], end[1]], color=colour, linewidth=0.01)
-    look = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0}
-    axes.annotate("", tuple(end), tuple(start), zorder=3, arrowprops=look)
-    place, offset, align = tuple(end), np.array([4.0, 4.0]), "left"
-    if middle is not None:
-        place, align = tuple(start + 0.5 * vector), "center"
-        offset = 9.0 * middle * np.array([-vector[1], vector[0]]) / np.hypot(*vector)
-    axes.annotate(label, place, tuple(offset), textcoords="offset points", fontsize=7.5, color=colour,
-                  ha=align, va="center" if middle is not None else "bottom")  # fmt: skip
-
-
-def point(axes: Axes, place: Floats, name: str) -> None:
-    """A named place."""
-    axes.plot(place[0], place[1], "o", color=INK, markersize=4, markerfacecolor="white")
-    axes.annotate(name, (place[0], place[1]), (-4, -11), textcoords="offset points", fontsize=8, color=INK)
-
-
-def line_of(axes: Axes, places: Floats) -> None:
-    """A member between places (n, 2)."""
-    axes.plot(places[:, 0], places[:, 1], color=FAINT, linewidth=3.0, solid_capstyle="round", zorder=1)

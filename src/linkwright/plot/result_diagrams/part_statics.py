@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping, Sequence
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.quantity import shown
+from linkwright.core.quantity import significant
 from linkwright.parts.beams.beam import BeamLine
 from linkwright.parts.beams.link import LinkStress
 from linkwright.parts.statics.belt import BeltTensions
@@ -17,93 +17,90 @@ from linkwright.parts.statics.forces import spatial
 from linkwright.parts.statics.rotor import RotorBalance
 from linkwright.parts.statics.structure import StructureForces
 from linkwright.parts.statics.wedge import WedgeForces
-from linkwright.pictures.diagram import COLOURS, INK, Axes, Figure
+from linkwright.pictures.diagram import Figure
+from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.sketch import Sketch
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.result_diagrams.part_axes import Line, Pane, arrow, fitted, line_of, panes, plane, point
+from linkwright.plot.diagrams.force_polygon import force_text
+from linkwright.plot.diagrams.scaled_page import Cell, Vector, page, vector_cell
+from linkwright.plot.drawing.draw import draw
+from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes
+from linkwright.plot.sketches.base import scale_of
+from linkwright.plot.sketches.bodies import draw_support, hull
+from linkwright.plot.sketches.forces import FLAT
 from linkwright.words import _
 
-#: Longest arrow as a share of the picture's size.
-LONGEST = 0.4
+#: Longest arrow, and longest side of a body, units of the paper.
+LONGEST, BODY = 110.0, 280.0
+
+
+def _polygons(vectors: Mapping[str, Floats], sought: Container[str], total: Floats | None) -> list[Cell]:
+    """Forces (3,) N head to tail, in one plane or two; those that were sought, and their sum, in another colour."""
+    planes = [(0, 1), (0, 2)] if any(vector[2] for vector in vectors.values()) else [(0, 1)]
+    return [
+        vector_cell(
+            ("xyz"[a] + ", " + "xyz"[b],) if len(planes) > 1 else (),
+            [
+                Vector(name, vector[[a, b]], "lw-force" if name in sought else "lw-load")
+                for name, vector in vectors.items()
+            ],
+            "F",
+            force_text,
+            whole=None if total is None else Vector("R", total[[a, b]], "lw-force"),
+        )
+        for a, b in planes
+    ]
+
+
+def _page(cells: Sequence[Cell], title: str, request: Request) -> Drawing:
+    heading = request.titled(title)
+    return page(cells, len(cells), (), heading if request.title is None else request.title, heading)
 
 
 @result_diagram("resultant", Resultant)
-def draw_resultant(result: Resultant, request: Request) -> Figure:
+def draw_resultant(result: Resultant, request: Request) -> Drawing:
     """Forces head to tail with their resultant, in one plane or in two."""
     vectors = {name: each.vector for name, each in result.system.forces.items()}
-    spread = any(vector[2] for vector in vectors.values())
-    planes = [(0, 1), (0, 2)] if spread else [(0, 1)]
-    figure, axes = plane(result.title, request, len(planes))
-    for one, (a, b) in zip(axes, planes, strict=True):
-        place, whole = np.zeros(2), result.force[[a, b]]
-        for name, vector in vectors.items():
-            arrow(
-                one,
-                place,
-                vector[[a, b]],
-                COLOURS[0],
-                name,
-                middle=_outside(place, vector[[a, b]], whole),
-            )
-            place = place + vector[[a, b]]
-        arrow(one, np.zeros(2), whole, COLOURS[1], "R", middle=-_side(vectors, whole, a, b))
-        one.set_xlabel(f"F{'xyz'[a]} (N)")
-        one.set_ylabel(f"F{'xyz'[b]} (N)")
-    fitted(figure, axes, request)
-    return figure
+    return _page(_polygons(vectors, (), result.force), result.title, request)
 
 
 @result_diagram("closed_polygon", PointEquilibrium)
-def draw_closed_polygon(result: PointEquilibrium, request: Request) -> Figure:
+def draw_closed_polygon(result: PointEquilibrium, request: Request) -> Drawing:
     """All forces of a point in equilibrium head to tail: they close; those that were sought in another colour."""
-    vectors = result.vectors
-    spread = any(vector[2] for vector in vectors.values())
-    planes = [(0, 1), (0, 2)] if spread else [(0, 1)]
-    figure, axes = plane(result.title, request, len(planes))
-    for one, (a, b) in zip(axes, planes, strict=True):
-        corners = np.cumsum([np.zeros(2), *(vector[[a, b]] for vector in vectors.values())], axis=0)
-        for start, (name, vector) in zip(corners, vectors.items(), strict=False):
-            colour = COLOURS[1] if name in result.magnitudes else COLOURS[0]
-            side = _outside(start, vector[[a, b]], 2.0 * corners[:-1].mean(axis=0))
-            arrow(one, start, vector[[a, b]], colour, name, middle=side)
-        one.set_xlabel(f"F{'xyz'[a]} (N)")
-        one.set_ylabel(f"F{'xyz'[b]} (N)")
-    fitted(figure, axes, request)
-    return figure
+    return _page(_polygons(result.vectors, result.magnitudes, None), result.title, request)
 
 
 @result_diagram("body_reactions", Reactions)
-def draw_body_reactions(result: Reactions, request: Request) -> Figure:
+def draw_body_reactions(result: Reactions, request: Request) -> Drawing:
     """A body's forces and reactions at their places, in the plane x, y."""
-    body = result.body
-    figure, (axes,) = plane(result.title, request)
-    arrows = [(f.place[:2], f.vector[:2], COLOURS[1], name) for name, f in body.forces.items()]
+    body, sketch = result.body, Sketch()
+    held = {name: spatial(support.at)[:2] for name, support in body.supports.items()}
+    places = np.array([*held.values(), *(each.place[:2] for each in body.forces.values())]) * (1.0, -1.0)
+    scale = scale_of([places], BODY, BODY)
+    hull(sketch, scale * places)
+    middle = scale * places.mean(axis=0)
     for name, support in body.supports.items():
-        point(axes, spatial(support.at)[:2], name)
-        arrows.append((spatial(support.at)[:2], _reaction(result, name), COLOURS[0], name))
-    _arrows(axes, arrows)
-    fitted(figure, [axes], request)
-    return figure
+        at = scale * held[name] * (1.0, -1.0)
+        draw_support(sketch, name, support, at, FLAT, body.planar, middle)
+    arrows = [(f.place[:2], f.vector[:2], "lw-load", name) for name, f in body.forces.items()]
+    arrows += [(at, _reaction(result, name), "lw-force", name) for name, at in held.items()]
+    largest = max(float(np.hypot(*vector)) for _, vector, *_ in arrows) or 1.0
+    for place, vector, style, name in arrows:
+        start = scale * place * (1.0, -1.0)
+        end = start + LONGEST / largest * vector * (1.0, -1.0)
+        sketch.arrow(start, end, style)
+        sketch.name(f"{name} = {force_text(float(np.hypot(*vector)))}", end, style=f"{style}-name")
+    sketch.write_names()
+    return _page([Cell(sketch, ())], result.title, request)
 
 
 @result_diagram("structure_reactions", StructureForces)
-def draw_structure_reactions(result: StructureForces, request: Request) -> Figure:
-    """A structure's links with the forces that joints exert on them."""
-    motion = result.forces.motion
-    figure, (axes,) = plane(result.title, request)
-    for name, link in motion.mechanism.links.items():
-        places = np.array([motion.point(f"{name}.{p}").position[0] for p in link.points])
-        line_of(axes, places)
-        for p, place in zip(link.points, places, strict=True):
-            point(axes, place, p)
-    ground = [pair for pair in result.pairs() if "frame" in motion.mechanism.joints[pair[0]].joined]
-    arrows = []
-    for joint, on in ground:
-        at = getattr(motion.mechanism.joints[joint], "at", joint)
-        place = motion.point(f"{on}.{at}").position[0]
-        arrows.append((place, result.reaction(joint, on), COLOURS[0], joint))
-    _arrows(axes, arrows)
-    fitted(figure, [axes], request)
-    return figure
+def draw_structure_reactions(result: StructureForces, request: Request) -> Drawing:
+    """A structure with its loads and the forces of its supports."""
+    joints = result.forces.mechanism.joints
+    ground = [f"{on}.{joint}" for joint, on in result.pairs() if "frame" in joints[joint].joined]
+    forces = result.forces
+    return draw(forces.motion, forces=forces, reactions_of=ground, language=request.language)
 
 
 @result_diagram("belt_tension", BeltTensions)
@@ -125,39 +122,19 @@ def draw_wedge_push(result: WedgeForces, request: Request) -> Figure:
 
 
 @result_diagram("rotor_balance", RotorBalance)
-def draw_rotor_balance(result: RotorBalance, request: Request) -> Figure:
+def draw_rotor_balance(result: RotorBalance, request: Request) -> Drawing:
     """Mass times radius of all masses as each plane carries them, head to tail, closed by the counterweight."""
-    figure, axes = plane(result.title, request, len(result.unbalances))
-    for one, (name, unbalance) in zip(axes, result.unbalances.items(), strict=True):
+    cells = []
+    for name, unbalance in result.unbalances.items():
         masses = result.rotor.masses.items()
-        sides = [(mass, each.product * result.share(name, each.at), COLOURS[0]) for mass, each in masses]
-        sides.append(("m_b·r_b", -unbalance, COLOURS[1]))
-        corners = np.cumsum([0j, *(side for _unused, side, _unused2 in sides)])
-        for start, (label, side, colour) in zip(corners, sides, strict=False):
-            away = start + 0.5 * side - corners[:-1].mean()
-            outside = 1.0 if (side.conjugate() * away).imag >= 0 else -1.0
-            arrow(one, _xy(start), _xy(side), colour, label, middle=outside)
-        one.set_title(_("Plane {name}", name=name).translate(request.language))
-        one.set_xlabel("m·r·cos θ (kg·m)")
-        one.set_ylabel("m·r·sin θ (kg·m)")
-    fitted(figure, axes, request)
-    return figure
-
-
-def _xy(value: complex) -> Floats:
-    return np.array([value.real, value.imag])
-
-
-def _outside(place: Floats, vector: Floats, whole: Floats) -> float:
-    """The side of a vector of the polygon that looks away from the middle of the resultant."""
-    away = place + 0.5 * vector - 0.5 * whole
-    return 1.0 if vector[0] * away[1] - vector[1] * away[0] >= 0 else -1.0
-
-
-def _side(vectors: Mapping[str, Floats], whole: Floats, a: int, b: int) -> float:
-    """The side of the resultant on which the polygon lies."""
-    corners = np.cumsum([vector[[a, b]] for vector in vectors.values()], axis=0)
-    return 1.0 if float((whole[0] * corners[:, 1] - whole[1] * corners[:, 0]).sum()) >= 0 else -1.0
+        sides = [(mass, "", each.product * result.share(name, each.at), "lw-load") for mass, each in masses]
+        sides.append(("m·r", "b", -unbalance, "lw-force"))
+        vectors = [
+            Vector(letter, np.array([side.real, side.imag]), style, low) for letter, low, side, style in sides
+        ]
+        title = _("Plane {name}", name=name).translate(request.language)
+        cells.append(vector_cell((title,), vectors, "mr", lambda value: f"{significant(value)} kg·m"))
+    return _page(cells, result.title, request)
 
 
 def _reaction(result: Reactions, support: str) -> Floats:
@@ -171,19 +148,6 @@ def _reaction(result: Reactions, support: str) -> Floats:
         along = spatial(given.along)
         total += result.values[f"{support}.S"] * along / np.linalg.norm(along)
     return total[:2]
-
-
-def _arrows(axes: Axes, arrows: list[tuple[Floats, Floats, str, str]]) -> None:
-    """Arrows of one scale, each named with its size."""
-    places = np.array([place for place, *_unused in arrows])
-    size = float(np.ptp(places, axis=0).max()) or 1.0
-    largest = max(float(np.hypot(*vector)) for _unused, vector, *_unused2 in arrows) or 1.0
-    for place, vector, colour, name in arrows:
-        text = f"{name}: {shown(float(np.hypot(*vector)), 'force', 4)}"
-        arrow(axes, place, vector * LONGEST * size / largest, colour, text)
-    axes.plot(*places.T, ".", color=INK, markersize=2)
-    axes.set_xlabel("x (m)")
-    axes.set_ylabel("y (m)")
 
 
 PANES = (("V", "shear [N]", "force"), ("M", "moment [N·m]", "torque"), ("θ", "slope [rad]", "slope"),

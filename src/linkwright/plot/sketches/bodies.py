@@ -29,9 +29,11 @@ def draw_body(body: RigidBody, language: str) -> Drawing:
     places = np.array([*held.values(), *loaded.values()]) @ view
     scale = scale_of([places], ROOM, ROOM)
     paper, corners = Sketch(), scale * places
-    _hull(paper, corners)
+    hull(paper, corners)
     for name, support in body.supports.items():
-        _support(paper, name, support, scale * (held[name] @ view), view, body.planar, corners.mean(axis=0))
+        draw_support(
+            paper, name, support, scale * (held[name] @ view), view, body.planar, corners.mean(axis=0)
+        )
     largest = max((float(np.linalg.norm(each.vector)) for each in body.forces.values()), default=1.0) or 1.0
     for name, force in body.forces.items():
         at, size = scale * (loaded[name] @ view), float(np.linalg.norm(force.vector))
@@ -52,7 +54,7 @@ def draw_body(body: RigidBody, language: str) -> Drawing:
     return paper.drawing(body.name)
 
 
-def _hull(paper: Sketch, corners: Floats) -> None:
+def hull(paper: Sketch, corners: Floats) -> None:
     """The body: a bar along points on one line, a plate over others."""
     centred = corners - corners.mean(axis=0)
     flat = np.linalg.svd(centred)[1]
@@ -64,7 +66,7 @@ def _hull(paper: Sketch, corners: Floats) -> None:
         paper.put("plate", corners=corners)
 
 
-def _support(
+def draw_support(
     paper: Sketch, name: str, support: Support, at: Floats, view: Floats, planar: bool, middle: Floats
 ) -> None:
     place, holds = vec(at), set(support.holds)
