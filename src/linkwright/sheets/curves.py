@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import significant
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import LEAST, Pen, Picture, Runs, Words, as_runs, indexed, joined
+from linkwright.plot.diagrams.axes import InputAxis, Unit
+from linkwright.plot.diagrams.panels import Panel as Plotted
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.units import si_unit
 
@@ -27,43 +27,23 @@ _ANGLES = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, 720.
 _PENS: tuple[Pen, ...] = ("thick", "thin", "dashed", "chain")
 
 
-@dataclass(frozen=True)
-class Axis:
-    """An axis: its symbol with indices, its dimension, and the factor from SI to the ``unit`` of its numbers."""
-
-    symbol: Runs
-    dimension: str
-    unit: str
-    factor: float = 1.0
-
-    def label(self) -> Runs:
-        """Symbol and unit."""
-        unit = f"({self.unit})" if "/" in self.unit else self.unit
-        return joined(self.symbol, f"/{unit}" if unit else "")
-
-    def scale(self, chosen: float) -> Runs:
-        """The scale, given in its unit per mm, as a caption: in SI units per mm, degrees for angles."""
-        if self.dimension == "angle":
-            return joined(_mu(self.symbol), f" = {chosen:g} °/mm")
-        unit = si_unit(self.dimension)
-        per = f"({unit})/mm" if "/" in unit else f"{unit}/mm"
-        return joined(_mu(self.symbol), f" = {chosen / self.factor:.6g} {per}")
+def _label(symbol: Runs, unit: Unit) -> Runs:
+    """Symbol and unit of an axis."""
+    name = f"({unit.name})" if "/" in unit.name else unit.name
+    return joined(symbol, f"/{name}" if name else "")
 
 
-def _mu(symbol: Runs) -> Runs:
-    return indexed("μ", symbol[0][0])
-
-
-@dataclass(frozen=True)
-class Curve:
-    """A curve: values (n,) SI, with a name where there are several."""
-
-    values: Floats
-    name: str = ""
+def _scale(symbol: Runs, dimension: str, unit: Unit, chosen: float) -> Runs:
+    """The scale of an axis, given in its unit per mm, as a caption: in SI units per mm, degrees for angles."""
+    mu = indexed("μ", symbol[0][0])
+    if dimension == "angle":
+        return joined(mu, f" = {chosen:g} °/mm")
+    per = f"({si_unit(dimension)})" if "/" in si_unit(dimension) else si_unit(dimension)
+    return joined(mu, f" = {chosen / unit.factor:.6g} {per}/mm")
 
 
 class CurvePanel(Panel):
-    """Curves over one axis (n,) SI; ``backwards``: the axis falls from left to right."""
+    """The curves of a diagram's panel over the input; ``symbols`` of both axes with their indices."""
 
     smallest, largest = 80.0, 180.0
 
@@ -72,19 +52,16 @@ class CurvePanel(Panel):
         name: str,
         rank: float,
         caption: Words,
-        across: tuple[Axis, Floats],
-        up: Axis,
-        curves: Sequence[Curve],
-        *,
-        levels: Sequence[tuple[Words, float]] = (),
-        backwards: bool = False,
+        symbols: tuple[Runs, Runs],
+        axis: InputAxis,
+        plotted: Plotted,
     ) -> None:
-        self.name, self.rank, self.caption = name, rank, caption
-        self.x_axis, self.x = across[0], across[1] * across[0].factor
-        self.y_axis = up
-        self.curves = [Curve(curve.values * up.factor, curve.name) for curve in curves]
-        self.levels = [(text, value * up.factor) for text, value in levels]
-        self.backwards = backwards
+        self.name, self.rank, self.caption, self.symbols = name, rank, caption, symbols
+        self.axis, self.plotted, self.unit = axis, plotted, plotted.unit
+        self.x = np.asarray(axis.values, dtype=float) * axis.unit.factor
+        several = len(plotted.curves) > 1
+        self.curves = [(c.values * self.unit.factor, c.label if several else "") for c in plotted.curves]
+        self.levels = [(level.label, level.value * self.unit.factor) for level in plotted.levels]
         self._pictures: dict[tuple[float, float], Picture] = {}
 
     def drawn(self, size: float, scale: float | None) -> Drawn:
@@ -92,16 +69,17 @@ class CurvePanel(Panel):
         high = FLATNESS * size - BELOW
         x_scale = preferred((float(np.nanmax(self.x)) - float(np.nanmin(self.x)) or 1.0) / wide)
         low, top = self._range()
-        y_scale = scale * self.y_axis.factor if scale else preferred((top - low) / high)
+        y_scale = scale * self.unit.factor if scale else preferred((top - low) / high)
         if (x_scale, y_scale) not in self._pictures:
             self._pictures[x_scale, y_scale] = self._picture(x_scale, y_scale, low, top)
         picture = self._pictures[x_scale, y_scale]
-        scales = joined(self.x_axis.scale(x_scale), ",  ", self.y_axis.scale(y_scale))
-        return Drawn(picture, (as_runs(self.caption), scales))
+        across = _scale(self.symbols[0], self.axis.dimension, self.axis.unit, x_scale)
+        up = _scale(self.symbols[1], self.plotted.dimension, self.unit, y_scale)
+        return Drawn(picture, (as_runs(self.caption), joined(across, ",  ", up)))
 
     def _range(self) -> tuple[float, float]:
         """The smallest and largest value; zero among them unless the curves lie far from it."""
-        every = np.concatenate([*(curve.values for curve in self.curves), [v for _, v in self.levels]])
+        every = np.concatenate([*(values for values, _ in self.curves), [v for _, v in self.levels]])
         low, top = float(np.nanmin(every)), float(np.nanmax(every))
         if top - low <= 1e-9 * max(abs(low), abs(top), 1e-9):
             return min(low, 0.0), max(top, 0.0) or 1.0
@@ -117,13 +95,13 @@ class CurvePanel(Panel):
         self._across(found, x_scale, right, (low - base) / y_scale)
         self._up(found, y_scale, (low, top), base)
         names = []
-        for number, curve in enumerate(self.curves):
-            line = np.stack([x, (curve.values - base) / y_scale], axis=1)
+        for number, (values, name) in enumerate(self.curves):
+            line = np.stack([x, (values - base) / y_scale], axis=1)
             found.line(line, _PENS[number % len(_PENS)])
-            if curve.name:
+            if name:
                 good = line[np.isfinite(line).all(axis=1)]
                 spots = [good[int(share * (len(good) - 1))] for share in (0.15, 0.35, 0.6, 0.85)]
-                names.append(Name(as_runs(curve.name), spots, self.letters, clear=1.5, symbol=True))
+                names.append(Name(as_runs(name), spots, self.letters, clear=1.5, symbol=True))
         for text, value in self.levels:
             if abs(value) < NOTHING * (top - low):
                 continue
@@ -136,17 +114,17 @@ class CurvePanel(Panel):
 
     def _places(self, values: Floats, scale: float) -> Floats:
         """Where values stand on the axis, mm from its start."""
-        start = float(np.nanmax(values) if self.backwards else np.nanmin(values))
+        start = float(np.nanmax(values) if self.axis.backwards else np.nanmin(values))
         return np.abs(values - start) / scale
 
     def _across(self, picture: Picture, scale: float, right: float, floor: float) -> None:
         """The axis below at zero, its numbers under the curves."""
         picture.arrow((0.0, 0.0), (right + BEYOND, 0.0), "thin")
-        picture.text((right + BEYOND + 1.0, 1.2), self.x_axis.label(), self.letters)
+        picture.text((right + BEYOND + 1.0, 1.2), _label(self.symbols[0], self.axis.unit), self.letters)
         low, top = float(np.nanmin(self.x)), float(np.nanmax(self.x))
-        step = _step(APART * scale, angle=self.x_axis.dimension == "angle")
+        step = _step(APART * scale, angle=self.axis.dimension == "angle")
         for value in np.arange(math.ceil(low / step - 1e-9), math.floor(top / step + 1e-9) + 1) * step:
-            place = abs(value - (top if self.backwards else low)) / scale
+            place = abs(value - (top if self.axis.backwards else low)) / scale
             picture.line([(place, -MARK if floor < -MARK else 0.0), (place, MARK)])
             if floor < 0:
                 picture.line([(place, floor), (place, floor - MARK)])
@@ -157,8 +135,8 @@ class CurvePanel(Panel):
         low, top = ends
         peak = (top - base) / scale
         picture.arrow((0.0, (low - base) / scale), (0.0, peak + BEYOND), "thin")
-        picture.text((1.5, peak + BEYOND - 2.0), self.y_axis.label(), self.letters)
-        step = _step(0.6 * APART * scale, angle=self.y_axis.dimension == "angle")
+        picture.text((1.5, peak + BEYOND - 2.0), _label(self.symbols[1], self.unit), self.letters)
+        step = _step(0.6 * APART * scale, angle=self.plotted.dimension == "angle")
         for value in np.arange(math.ceil(low / step - 1e-9), math.floor(top / step + 1e-9) + 1) * step:
             level = (value - base) / scale
             picture.line([(-MARK, level), (0.0, level)])

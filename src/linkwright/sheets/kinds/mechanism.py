@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import suppress
 
-import numpy as np
-
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinetostatics.forces import Forces
@@ -20,7 +18,7 @@ from linkwright.plot.diagrams.panels import Panel as Plotted
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.diagrams.sva import Sva
 from linkwright.plot.diagrams.torque import Torque
-from linkwright.sheets.curves import Axis, Curve, CurvePanel
+from linkwright.sheets.curves import CurvePanel
 from linkwright.sheets.machine import MachinePanel
 from linkwright.sheets.machine_tables import data_table, force_table, motion_table
 from linkwright.sheets.panel import Panel
@@ -120,11 +118,4 @@ def _curve(name: str, rank: float, caption: str, axis: InputAxis, plotted: Plott
     """The curves of a diagram's panel on the sheet."""
     symbols = {"torque": indexed("M", "b"), "force": indexed("F", "b")}
     symbol = symbols.get(plotted.dimension, as_runs(plotted.title.rpartition(" ")[2]))
-    across = Axis(as_runs(_SYMBOLS[axis.dimension]), axis.dimension, axis.unit.name, axis.unit.factor)
-    up = Axis(symbol, plotted.dimension, plotted.unit.name, plotted.unit.factor)
-    curves = [Curve(each.values, each.label if len(plotted.curves) > 1 else "") for each in plotted.curves]
-    levels = [(level.label, level.value) for level in plotted.levels]
-    values = np.asarray(axis.values, dtype=float)
-    return CurvePanel(
-        name, rank, caption, (across, values), up, curves, levels=levels, backwards=axis.backwards
-    )
+    return CurvePanel(name, rank, caption, (as_runs(_SYMBOLS[axis.dimension]), symbol), axis, plotted)
