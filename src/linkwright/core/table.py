@@ -113,6 +113,10 @@ class Table:
         """The heading and the rows as texts."""
         return [[_text(cell, language) for cell in row] for row in (self.head, *self.rows)]
 
+    def values(self, language: str = "en") -> list[list[str | float | None]]:
+        """The heading and the rows as texts and numbers, amounts in SI."""
+        return [[_value(cell, language) for cell in row] for row in (self.head, *self.rows)]
+
     @property
     def alignment(self) -> str:
         """The alignment of every column."""
@@ -138,6 +142,16 @@ class Table:
         lines = "".join(f"<p>{escape(in_language(line, language))}</p>" for line in self.notes)
         top = f"<caption>{escape(self.title)}</caption><thead><tr>{heads}</tr></thead>"
         return f"<table>{top}<tbody>{body}</tbody></table>{lines}"
+
+
+def _value(cell: Cell, language: str) -> str | float | None:
+    return (
+        cell.value
+        if isinstance(cell, Amount)
+        else in_language(cell, language)
+        if isinstance(cell, str)
+        else cell
+    )
 
 
 def _text(cell: Cell, language: str) -> str:

@@ -22,14 +22,14 @@ OF_KIND = {"input": "positions", "effort": "forces", **dict.fromkeys(NAMED, "out
 
 
 @dataclass(frozen=True)
-class Table:
+class Subject:
     """Columns of one subject: ``positions``, ``links``, ``points``, ``joints``, ``forces`` or ``loads``."""
 
     subject: str
     columns: tuple[Column, ...]
 
 
-def tables(results: Results) -> list[Table]:
+def tables(results: Results) -> list[Subject]:
     """All tables that have columns; ``positions`` (time and inputs) is the first."""
     named = results_of(results.motion, results.forces)
     found: dict[str, list[Column]] = {subject: [] for subject in SUBJECTS}
@@ -41,7 +41,7 @@ def tables(results: Results) -> list[Table]:
             found[subject].append(Column(owner, quantity, output.unit, values))
     found["joints"] += _joints(results)
     found["loads"] += _loads(results)
-    return [Table(subject, tuple(columns)) for subject, columns in found.items() if columns]
+    return [Subject(subject, tuple(columns)) for subject, columns in found.items() if columns]
 
 
 def wide(results: Results) -> dict[str, Column]:

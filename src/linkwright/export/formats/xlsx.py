@@ -4,27 +4,30 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import largest
-from linkwright.core.table import Column
+from linkwright.core.table import Amount, Cell, Column, Table
 from linkwright.designs.ranges import dimension_of
 from linkwright.errors import RequestError
 from linkwright.export.charts import Charts, Place, write_charts
 from linkwright.export.export import FORMATS, Format, package
 from linkwright.export.results import Results
-from linkwright.export.tables import Table, tables
+from linkwright.export.tables import Subject, tables
 from linkwright.metrics.base import METRICS
 from linkwright.units import NONE, si_symbol
 from linkwright.words import Message, _, say
 from linkwright.words.characters import printable
 
-Cell = str | float | int | bool | None
 LONGEST_TEXT = 32767
 MOST_ROWS, MOST_COLUMNS = 1_048_575, 16_384
+#: Words over the columns of sheets that are no values over the positions, with the columns' widths.
+_MODEL = {"item": 28, "value": 60, "unit": 12}
+_GROUPS = {"number": 8, "group": 14, "links": 32, "class": 8, "order": 8, "drivers": 20, "joints": 40}
+_METRICS = {"metric": 34, "subject": 24, "value": 14, "unit": 8, "at": 12, "at_unit": 8, "remark": 60}
 
 
 def content(results: Results, *, degrees: bool = False) -> bytes:
@@ -63,9 +66,8 @@ class Workbook:
 
     def write(self) -> None:
         """All sheets."""
-        self._rows("model", ("item", "value", "unit"), _model(self.results, self.say), (28, 60, 12))
-        self._rows("structure", ("number", "group", "links", "class", "order", "drivers", "joints"),
-                   _groups(self.results), (8, 14, 32, 8, 8, 20, 40))  # fmt: skip
+        self._rows("model", _MODEL, list(_model(self.results, self.say)))
+        self._rows("structure", _GROUPS, list(_groups(self.results)))
         first, *others = tables(self.results)
         leading = self._turned(first.columns)
         for table in others:
@@ -77,8 +79,7 @@ class Workbook:
             write_charts(sheet, self.book, rows)
         numbers = list(_metrics(self.results))
         if numbers:
-            head = ("metric", "subject", "value", "unit", "at", "at_unit", "remark")
-            self._rows("metrics", head, numbers, (34, 24, 14, 8, 12, 8, 60))
+            self._rows("metrics", _METRICS, numbers)
 
     def say(self, key: str) -> str:
         """A word of the catalogue."""
@@ -90,26 +91,24 @@ class Workbook:
     def _sheet(self, subject: str) -> Any:
         return self.book.add_worksheet(self.say(f"sheet.{subject}"))
 
-    def _rows(
-        self, subject: str, head: Sequence[str], rows: Iterable[Sequence[Cell]], widths: Sequence[int]
-    ) -> None:
-        """A sheet of texts and numbers under a heading."""
+    def _rows(self, subject: str, columns: Mapping[str, int], rows: Sequence[Sequence[Cell]]) -> None:
+        """A sheet of a table under a heading; columns by their words, with their widths."""
         sheet = self._sheet(subject)
-        for column, (word, width) in enumerate(zip(head, widths, strict=True)):
+        for column, width in enumerate(columns.values()):
             sheet.set_column(column, column, width)
-            sheet.write_string(0, column, self.say(f"head.{word}"), self.head)
-        for row, cells in enumerate(rows, start=1):
+        head, *body = Table([self.say(f"head.{word}") for word in columns], rows).values(
+            self.results.language
+        )
+        sheet.write_row(0, 0, head, self.head)
+        for row, cells in enumerate(body, start=1):
             for column, cell in enumerate(cells):
-                self._cell(sheet, row, column, cell)
+                if isinstance(cell, str):
+                    sheet.write_string(row, column, printable(cell)[:LONGEST_TEXT], self.text)
+                elif cell is not None and math.isfinite(cell):
+                    sheet.write_number(row, column, cell)
         sheet.freeze_panes(1, 0)
 
-    def _cell(self, sheet: Any, row: int, column: int, cell: Cell) -> None:
-        if isinstance(cell, str):
-            sheet.write_string(row, column, printable(cell)[:LONGEST_TEXT], self.text)
-        elif cell is not None and math.isfinite(cell):
-            sheet.write_number(row, column, cell)
-
-    def _values(self, table: Table, leading: Sequence[Column]) -> None:
+    def _values(self, table: Subject, leading: Sequence[Column]) -> None:
         """A sheet of values over the positions."""
         sheet = self._sheet(table.subject)
         columns = [*leading, *self._turned(table.columns)]
@@ -166,11 +165,11 @@ def _model(results: Results, word: Any) -> Iterable[Sequence[Cell]]:
     yield word("positions"), results.motion.steps, ""
     yield word("reached"), int(results.motion.ok.sum()), ""
     if results.motion.positions.period is not None:
-        yield word("period"), results.motion.positions.period, "s"
+        yield word("period"), Amount(results.motion.positions.period, "time"), "s"
     for note in results.notes:
         yield word("note"), note, ""
     for address, value in mechanism.dimensions().items():
-        yield address, value, si_symbol(dimension_of(mechanism, address) or NONE)
+        yield address, Amount(value), si_symbol(dimension_of(mechanism, address) or NONE)
 
 
 def _groups(results: Results) -> Iterable[Sequence[Cell]]:
@@ -184,7 +183,9 @@ def _metrics(results: Results) -> Iterable[Sequence[Cell]]:
     for row in results.metrics:
         data = row.data(results.language)
         label = METRICS[row.metric]().label_in(results.language, row.dimension)
-        yield label, row.subject, row.value, row.unit, row.at, data["at_unit"] or "", data["remark"]
+        at = None if row.at is None else Amount(row.at, row.at_dimension)
+        yield (label, row.subject, Amount(row.value, row.dimension), row.unit, at, data["at_unit"] or "",
+               data["remark"])  # fmt: skip
 
 
 FORMATS.register("xlsx")(Format((".xlsx",), content))
