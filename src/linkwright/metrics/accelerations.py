@@ -9,11 +9,15 @@ from linkwright.cycle.summary import Summary
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
 from linkwright.metrics.outputs import free_points
+from linkwright.words import _
 
 
 @METRICS.register("peak_acceleration")
 class PeakAcceleration(Metric):
     """Largest size of the acceleration of every output and free point: m/s², or rad/s² of a swinging link."""
+
+    label = _("peak acceleration")
+    meaning = _("Largest acceleration of an output or a free point.")
 
     rank: ClassVar[float] = 1.5
     dimension = "acceleration"
@@ -38,6 +42,9 @@ class PeakJerk(PeakAcceleration):
 
     For drivers of constant speed; other laws have no third derivative here.
     """
+
+    label = _("peak jerk")
+    meaning = _("Largest time derivative of the acceleration of an output or a free point, exact.")
 
     rank = 9.0
     dimension = "jerk"

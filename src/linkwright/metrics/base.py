@@ -6,6 +6,7 @@ from abc import ABC
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import field
 from math import isinf, isnan
+from types import MappingProxyType
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -20,27 +21,28 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Result
 from linkwright.registry import Registry
 from linkwright.units import si_unit
-from linkwright.words import _, has, say
-from linkwright.words.sentence import in_words
+from linkwright.words import Message, _
+from linkwright.words.sentence import in_language, in_words
 
 Better = Literal["higher", "lower"]
-#: What :meth:`MetricValue.cells` gives.
-CELLS = ("metric", "subject", "value", "unit", "at", "limit")
+#: Heads of what :meth:`MetricValue.cells` gives, and of remarks.
+CELLS = (_("design number"), _("of"), _("value"), _("unit"), _("at input"), _("limit"))
+REMARK = _("remark")
 #: A place (rad or m) smaller than this is rounding.
 NO_PLACE = 1e-9
 
 
 @dataclass(frozen=True)
 class Remark:
-    """A sentence about a value, by its key in the catalogue ``metrics``; ``warning`` marks what needs attention."""
+    """A sentence about a value, by its ``key``; ``warning`` marks what needs attention."""
 
     key: str
-    values: dict[str, object] = field(default_factory=dict)
+    message: Message
     warning: bool = False
 
     def text(self, language: str = "en") -> str:
         """The sentence."""
-        return say(f"metrics.{self.key}", language, **self.values)
+        return self.message.translate(language)
 
 
 @dataclass(frozen=True)
@@ -165,7 +167,8 @@ class Metric(ABC):
     ``on_request``: only where it is asked for by name; ``own_values``: one machine's ``values`` are found in a way of
     their own, beside the ``numbers`` of many designs; ``judged_last``: ``suits`` reads what is found of the machine,
     which all others have asked for by then; ``input_ranges``: it is the extent of the input's ranges in
-    which the mechanism can be assembled.
+    which the mechanism can be assembled; ``labels``: its names by dimensions that have one of their own (a driver that
+    slides has a force).
     """
 
     name: ClassVar[str]
@@ -179,6 +182,7 @@ class Metric(ABC):
     own_values: ClassVar[bool] = False
     judged_last: ClassVar[bool] = False
     input_ranges: ClassVar[bool] = False
+    labels: ClassVar[Mapping[str, Message]] = MappingProxyType({})
 
     @property
     def unit(self) -> str:
@@ -187,26 +191,21 @@ class Metric(ABC):
 
     @property
     def label(self) -> str:
-        """Its name in words, English."""
-        return self.label_in("en")
+        """Its name in words."""
+        return self.name.replace("_", " ")
 
     @property
     def meaning(self) -> str:
-        """What it says, in one English sentence."""
-        return self.meaning_in("en")
+        """What it says, in one sentence: the class's own first line where it gives no other."""
+        return (self.__doc__ or self.name).strip().splitlines()[0]
 
     def label_in(self, language: str, dimension: str = "") -> str:
-        """Its name in words, by its dimension where that has one of its own (a driver that slides has a force); the
-        plain name where the catalogue has none, as for numbers of other packages."""
-        key = f"metrics.{self.name}.label"
-        if has(f"{key}.{dimension}"):
-            return say(f"{key}.{dimension}", language)
-        return say(key, language) if has(key) else self.name.replace("_", " ")
+        """Its name in words, by its dimension where that has one of its own."""
+        return in_language(self.labels.get(dimension, self.label), language)
 
     def meaning_in(self, language: str) -> str:
-        """What it says, in one sentence; the class's own first line where the catalogue has none."""
-        key = f"metrics.{self.name}.meaning"
-        return say(key, language) if has(key) else (self.__doc__ or self.name).strip().splitlines()[0]
+        """What it says, in one sentence."""
+        return in_language(self.meaning, language)
 
     def applies(self, result: Result) -> bool:
         """Whether the mechanism has this number, and the result what it takes to find it."""
@@ -292,7 +291,16 @@ def _unbounded(value: float, at: float, analysis: Analysis) -> tuple[Remark, ...
     """What is to be said of an infinite value: nothing of one that belongs to no place."""
     if not isinf(value) or isnan(at):
         return ()
-    return (Remark("unbounded", {"at": shown(at, analysis.input_dimension)}, warning=True),)
+    return (
+        Remark(
+            "unbounded",
+            _(
+                "grows without bound towards {at}, where it cannot be carried (change or dead point)",
+                at=shown(at, analysis.input_dimension),
+            ),
+            warning=True,
+        ),
+    )
 
 
 METRICS: Registry[type[Metric]] = Registry(

@@ -14,6 +14,7 @@ from linkwright.cycle.summary import Summary
 from linkwright.joints.lower import TurningJoint
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
+from linkwright.words import _
 
 
 @METRICS.register("bearing_pv")
@@ -23,6 +24,12 @@ class BearingPv(Metric):
     The pressure-velocity value p·v is this over the projected area 2·r·b of a bearing of width b; friction heat is
     μ times it.
     """
+
+    label = _("bearing force times sliding speed")
+    meaning = _(
+        "Pin force times pin radius times relative angular velocity; divided by the "
+        "projected area of the bearing it is its p·v value.",
+    )
 
     rank = 4
     dimension = "power"
@@ -43,7 +50,11 @@ class BearingPv(Metric):
             heat = analysis.signal(f"heat {joint.name} on {link}")
             mean = analysis.mean_of(lambda forces, heat=heat: np.abs(heat(forces)))
             radius = shown(joint.pin_radius or 0.0, "length")
-            said: dict[str, object] = {"mean": shown(mean, "power"), "radius": radius}
+            said = _(
+                "with a pin radius of {radius}; mean over the cycle {mean}",
+                radius=radius,
+                mean=shown(mean, "power"),
+            )
             known = () if isnan(mean) else (Remark("bearing_pv.mean", said),)
             yield replace(found, remarks=(*known, *found.remarks))
 

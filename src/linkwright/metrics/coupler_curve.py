@@ -23,7 +23,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.outputs import coupler_points
-from linkwright.words import _
+from linkwright.words import Message, _
 
 #: A path stops in a cusp where its speed falls below this share of its mean speed.
 STANDING = 1e-6
@@ -250,6 +250,9 @@ class CurveMetric(Metric):
 class CouplerCurveLength(CurveMetric):
     """Length of the closed path of every coupler point, m."""
 
+    label = _("length of the point's path")
+    meaning = _("Length of the closed path of a coupler point.")
+
     dimension = "length"
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
@@ -260,6 +263,9 @@ class CouplerCurveLength(CurveMetric):
 @METRICS.register("coupler_curve_area")
 class CouplerCurveArea(CurveMetric):
     """Area within the closed path of every coupler point, m²; loops count with the sense in which they are run."""
+
+    label = _("area of the point's path")
+    meaning = _("Area within the closed path of a coupler point, counter-clockwise loops positive.")
 
     dimension = "area"
 
@@ -272,11 +278,17 @@ class CouplerCurveArea(CurveMetric):
 class DoublePoint(CurveMetric):
     """Number of places where the path of a coupler point crosses itself, with their coordinates."""
 
+    label = _("double points of the path")
+    meaning = _("Places where the path of a coupler point crosses itself.")
+
     dimension = "count"
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for curve in self.curves(analysis):
-            remarks = tuple(_remark("double_point.at", spot) for spot, _unused in curve.double_points)
+            remarks = tuple(
+                _remark("double_point.at", _("double point at ({x}, {y})"), spot)
+                for spot, _unused in curve.double_points
+            )
             place = curve.double_points[0][0] if curve.double_points else None
             yield self.value(analysis, curve.point, len(curve.double_points), remarks=remarks, place=place)
 
@@ -285,14 +297,19 @@ class DoublePoint(CurveMetric):
 class Cusp(CurveMetric):
     """Number of cusps of the path of a coupler point: places where it stands still and turns back."""
 
+    label = _("cusps of the path")
+    meaning = _("Places where the path of a coupler point stands still and turns back.")
+
     dimension = "count"
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for curve in self.curves(analysis):
-            remarks = tuple(_remark("cusp.at", spot) for spot, _unused in curve.cusps)
+            remarks = tuple(
+                _remark("cusp.at", _("cusp at ({x}, {y})"), spot) for spot, _unused in curve.cusps
+            )
             place, at = curve.cusps[0] if curve.cusps else (None, None)
             yield self.value(analysis, curve.point, len(curve.cusps), remarks=remarks, place=place, at=at)
 
 
-def _remark(key: str, spot: Spot) -> Remark:
-    return Remark(key, {"x": shown(spot[0], "length"), "y": shown(spot[1], "length")})
+def _remark(key: str, said: Message, spot: Spot) -> Remark:
+    return Remark(key, said.format(x=shown(spot[0], "length"), y=shown(spot[1], "length")))

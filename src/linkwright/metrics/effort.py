@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
 from linkwright.cycle.summary import Summary
 from linkwright.formula.trace import Scalar, absolute, select
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
+from linkwright.words import Message, _
 
 #: A mean power of this share of the largest one is zero but for rounding.
 IDLE = 1e-9
@@ -39,12 +40,20 @@ class EffortMetric(Metric):
 class PeakInputTorque(EffortMetric):
     """Largest size of the effort of every driver: N·m where it turns, N where it slides."""
 
+    label = _("peak input torque")
+    labels: ClassVar[Mapping[str, Message]] = {"force": _("peak input force")}
+    meaning = _("Largest torque (force) that a driver must supply.")
+
     kind = "peak"
 
 
 @METRICS.register("rms_input_torque")
 class RmsInputTorque(EffortMetric):
     """Root mean square over time of the effort of every driver: what heats a motor."""
+
+    label = _("RMS input torque")
+    labels: ClassVar[Mapping[str, Message]] = {"force": _("RMS input force")}
+    meaning = _("Root mean square over time of a driver's torque (force).")
 
     kind = "rms"
 
@@ -62,12 +71,18 @@ class PowerMetric(EffortMetric):
 class PeakPower(PowerMetric):
     """Largest power that the drivers supply together at any moment."""
 
+    label = _("peak power")
+    meaning = _("Largest power that the drivers supply together.")
+
     kind = "max"
 
 
 @METRICS.register("mean_power")
 class MeanPower(PowerMetric):
     """Mean over time of the power of all drivers: work per cycle over the time of the cycle."""
+
+    label = _("mean power")
+    meaning = _("Work of the drivers per cycle over the time of the cycle.")
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         yield Number(analysis.motion.mechanism.name, (MEAN, PEAK), _work)
@@ -76,6 +91,9 @@ class MeanPower(PowerMetric):
 @METRICS.register("efficiency")
 class Efficiency(PowerMetric):
     """Share of the drivers' work that friction of joints leaves: 1 - W_f/W; not positive where loads drive."""
+
+    label = _("efficiency")
+    meaning = _("Share of the drivers' work that the friction of joints leaves.")
 
     dimension = "dimensionless"
     source = "Sun Huan, Theory of Machines and Mechanisms, ch. 5: η = W_r/W_d = 1 - W_f/W_d"

@@ -19,7 +19,6 @@ from linkwright.metrics.analysis import Analysis, Result
 from linkwright.metrics.base import METRICS, Metric, MetricValue
 from linkwright.metrics.table import MetricsTable
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
 
 
 def metrics(result: Result, names: Iterable[str] | str | None = None) -> MetricsTable:
@@ -101,8 +100,18 @@ def _notes(analysis: Analysis, ok: Flags) -> tuple[Message, ...]:
         )
     if not analysis.partial:
         return ()
-    said = "metrics.part_reached" if analysis.closed else "metrics.part_of_way_reached"
-    return (Sentence(said, name=name, reached=int(ok.sum()), count=len(ok)),)
+    said = (
+        _(
+            "{name!r} reaches {reached} of {count} positions; numbers of the whole cycle, such "
+            "as means, are left out",
+        )
+        if analysis.closed
+        else _(
+            "{name!r} reaches {reached} of {count} positions; means are those of the time until "
+            "it comes out of reach, and numbers that grow without bound there have none",
+        )
+    )
+    return (said.format(name=name, reached=int(ok.sum()), count=len(ok)),)
 
 
 def _roundings(analysis: Analysis) -> dict[str, float]:

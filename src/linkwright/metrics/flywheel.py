@@ -17,6 +17,7 @@ from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
 from linkwright.metrics.true_speed import TrueSpeedSummary, steady_cycle
+from linkwright.words import _
 
 #: A mean torque below this share of the largest one is zero.
 NOTHING = 1e-9
@@ -28,6 +29,11 @@ INERTIA = Summary("equivalent_inertia", "mean")
 @METRICS.register("energy_fluctuation")
 class EnergyFluctuation(Metric):
     """Largest excess ΔE of the energy that a constant torque supplies over the energy that the machine takes, J."""
+
+    label = _("energy fluctuation")
+    meaning = _(
+        "Largest excess of the energy that a constant torque supplies over what the machine takes.",
+    )
 
     rank = 3
     dimension = "energy"
@@ -60,6 +66,11 @@ class EnergyFluctuation(Metric):
 @METRICS.register("flywheel")
 class Flywheel(EnergyFluctuation):
     """Inertia ΔE/(δ ω²) less the machine's own mean one that keeps the speed even to δ = 0.02, kg·m² on the crank."""
+
+    label = _("flywheel inertia (δ = 0.02)")
+    meaning = _(
+        "Inertia on the crank, beyond the machine's own, that keeps the speed even to δ = 0.02.",
+    )
 
     dimension = "inertia"
 
@@ -117,6 +128,12 @@ class TrueSpeed(EnergyFluctuation):
 class ExactFlywheel(TrueSpeed):
     """Inertia beyond the machine's own with which the true speed fluctuates by just δ = 0.02, kg·m² on the crank."""
 
+    label = _("exact flywheel inertia (δ = 0.02)")
+    meaning = _(
+        "Inertia on the crank, beyond the machine's own, with which the true speed under a "
+        "constant motor torque fluctuates by just δ = 0.02.",
+    )
+
     dimension = "inertia"
     kind = "size"
 
@@ -124,6 +141,12 @@ class ExactFlywheel(TrueSpeed):
 @METRICS.register("reached_fluctuation")
 class ReachedFluctuation(TrueSpeed):
     """δ = (ω_max - ω_min)/ω_mean of the true speed with the flywheel that the formula gives for δ = 0.02."""
+
+    label = _("speed fluctuation reached (δ = 0.02 by the formula)")
+    meaning = _(
+        "Fluctuation of the true speed, as share of the mean, with the flywheel that the "
+        "formula gives for δ = 0.02.",
+    )
 
     dimension = "dimensionless"
     better = None
@@ -133,6 +156,12 @@ class ReachedFluctuation(TrueSpeed):
 @METRICS.register("speed_fluctuation")
 class SpeedFluctuation(TrueSpeed):
     """δ = (ω_max - ω_min)/ω_mean of the true speed with the inertia that the machine has, a flywheel the crank's."""
+
+    label = _("speed fluctuation")
+    meaning = _(
+        "Fluctuation of the true speed under a constant motor torque, as share of the mean, "
+        "with the inertia that the machine has.",
+    )
 
     dimension = "dimensionless"
     kind = "fluctuation"
@@ -147,6 +176,12 @@ class SpeedFluctuation(TrueSpeed):
 class SlowestSpeed(SpeedFluctuation):
     """Smallest true speed of the driver with the inertia that the machine has, rad/s."""
 
+    label = _("slowest speed")
+    meaning = _(
+        "Smallest true speed of the driver under a constant motor torque, with the inertia "
+        "that the machine has.",
+    )
+
     dimension = "angular_velocity"
     better = "higher"
     kind = "slowest"
@@ -155,6 +190,12 @@ class SlowestSpeed(SpeedFluctuation):
 @METRICS.register("fastest_speed")
 class FastestSpeed(SpeedFluctuation):
     """Largest true speed of the driver with the inertia that the machine has, rad/s."""
+
+    label = _("fastest speed")
+    meaning = _(
+        "Largest true speed of the driver under a constant motor torque, with the inertia "
+        "that the machine has.",
+    )
 
     dimension = "angular_velocity"
     kind = "fastest"

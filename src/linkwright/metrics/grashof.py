@@ -16,9 +16,26 @@ from linkwright.joints.lower import TurningJoint
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
+from linkwright.words import _
 
 #: A Grashof sum this near to zero, relative to the longest link, is a change point.
 EQUAL = 1e-12
+#: What the types of loops are.
+TYPES = {
+    "crank_rocker": _(
+        "crank-rocker: s + l < p + q ({s} + {l} < {p} + {q}) and the shortest link "
+        "{shortest} is next to the frame",
+    ),
+    "double_crank": _("double crank: s + l < p + q ({s} + {l} < {p} + {q}) and the frame is shortest"),
+    "double_rocker": _(
+        "double rocker: s + l < p + q ({s} + {l} < {p} + {q}) and the coupler {shortest} is shortest",
+    ),
+    "change_point": _(
+        "change point: s + l = p + q ({s} + {l} = {p} + {q}), so the links can come into one "
+        "line and the motion is not determined there",
+    ),
+    "triple_rocker": _("triple rocker: s + l > p + q ({s} + {l} > {p} + {q}), so no link can turn fully"),
+}
 
 
 @dataclass(frozen=True)
@@ -112,6 +129,12 @@ def _loops(analysis: Analysis) -> tuple[FourBar, ...]:
 class Grashof(Metric):
     """p + q - (s + l) of every four-bar loop with the frame, with its type and the conditions that it rests on."""
 
+    label = _("Grashof margin")
+    meaning = _(
+        "Sum of the two middle lengths minus sum of the shortest and longest of a four-bar "
+        "loop; positive where the shortest link can turn fully.",
+    )
+
     dimension = "length"
     source = "Grashof 1883; Norton, Design of Machinery, sec. 2.12: s + l ≤ p + q"
     own_values = True
@@ -127,8 +150,8 @@ class Grashof(Metric):
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for loop in _loops(analysis):
             s, p, q, longest = (shown(v, "length") for v in sorted(loop.lengths.values()))
-            numbers: dict[str, object] = {"s": s, "l": longest, "p": p, "q": q, "shortest": loop.shortest}
-            remark = Remark(f"grashof.{loop.type}", numbers, warning=loop.type == "change_point")
+            said = TYPES[loop.type].format(s=s, l=longest, p=p, q=q, shortest=loop.shortest)
+            remark = Remark(f"grashof.{loop.type}", said, warning=loop.type == "change_point")
             yield self.value(analysis, loop.name, loop.margin, remarks=(remark,))
 
 

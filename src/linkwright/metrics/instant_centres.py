@@ -12,6 +12,7 @@ from linkwright.core.quantity import shown
 from linkwright.kinematics.motion import Motion
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Remark
+from linkwright.words import _
 
 #: A relative angular velocity below this share of the largest one of all links has its centre at infinity.
 PARALLEL = 1e-12
@@ -59,6 +60,9 @@ def _at_origin(motion: Motion, link: str) -> tuple[Floats, Floats]:
 class InstantCentre(Metric):
     """Distance of every instant centre P_ij from the frame's origin at the first position, m; its place beside it."""
 
+    label = _("instant centre, distance from the origin")
+    meaning = _("Point at which two links have the same velocity, at the first position.")
+
     on_request = True
     dimension = "length"
     source = "Norton, Design of Machinery, sec. 6.3; Kennedy's theorem"
@@ -71,8 +75,13 @@ class InstantCentre(Metric):
         for a, b in combinations(("frame", *motion.mechanism.links), 2):
             x, y = (float(c) for c in instant_centre(motion, b, a)[first])
             finite = np.isfinite(x)
-            spot: dict[str, object] = {"x": shown(x, "length"), "y": shown(y, "length")}
-            remark = Remark("instant_centre.at", spot) if finite else Remark("instant_centre.infinite")
+            remark = (
+                Remark("instant_centre.at", _("at ({x}, {y})", x=shown(x, "length"), y=shown(y, "length")))
+                if finite
+                else Remark(
+                    "instant_centre.infinite", _("at infinity: the two links do not turn against each other")
+                )
+            )
             yield self.value(
                 analysis,
                 f"{a}, {b}",

@@ -9,6 +9,7 @@ from linkwright.cycle.summary import Summary
 from linkwright.loads.signals import Limit
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number
+from linkwright.words import _
 
 #: Digits of rad or m behind which values are the same.
 DIGITS = 11
@@ -20,6 +21,9 @@ class LimitPosition(Metric):
 
     For each output those with the largest values first; without a subject the first of all is meant.
     """
+
+    label = _("limit position")
+    meaning = _("Angle or displacement at which an output reverses, and the input there.")
 
     dimension = "angle"
     source = "IFToMM terminology: the output's velocity is zero"

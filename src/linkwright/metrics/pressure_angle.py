@@ -12,6 +12,7 @@ from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number, Remark
 from linkwright.metrics.transmission_angle import LIMIT, smallest
+from linkwright.words import _
 
 
 def _complement(angle: Scalar) -> Scalar:
@@ -21,6 +22,11 @@ def _complement(angle: Scalar) -> Scalar:
 @METRICS.register("pressure_angle")
 class PressureAngle(Metric):
     """Largest angle between the force on the driven point of a dyad and that point's velocity: α = π/2 - μ."""
+
+    label = _("largest pressure angle")
+    meaning = _(
+        "Angle between the force on the driven point and its velocity: 90° minus the transmission angle.",
+    )
 
     rank = 2
     dimension = "angle"
@@ -38,5 +44,9 @@ class PressureAngle(Metric):
     def remarks(self, value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
         if not value > self.limit:
             return ()
-        limits: dict[str, object] = {"value": shown(value, "angle"), "limit": shown(self.limit, "angle")}
-        return (Remark("pressure_angle.high", limits, warning=True),)
+        said = _(
+            "the pressure angle rises to {value}, above the recommended {limit}",
+            value=shown(value, "angle"),
+            limit=shown(self.limit, "angle"),
+        )
+        return (Remark("pressure_angle.high", said, warning=True),)

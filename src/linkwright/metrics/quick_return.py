@@ -14,11 +14,15 @@ from linkwright.cycle.summary import Summary, SummaryValue
 from linkwright.formula.trace import Scalar, floor, maximum
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, Number
+from linkwright.words import _
 
 
 @METRICS.register("quick_return_ratio")
 class QuickReturnRatio(Metric):
     """K = time of the slow stroke / time of the fast one = (π + θ)/(π - θ) ≥ 1 at uniform crank speed."""
+
+    label = _("quick-return ratio")
+    meaning = _("Time of the slow stroke over time of the fast stroke at uniform input speed.")
 
     rank = 1
     dimension = "dimensionless"
@@ -40,6 +44,9 @@ class QuickReturnRatio(Metric):
 @METRICS.register("crank_angle_between_limits")
 class CrankAngleBetweenLimits(QuickReturnRatio):
     """Acute angle θ between the crank's directions in the limit positions: π (K - 1)/(K + 1)."""
+
+    label = _("crank angle between limits")
+    meaning = _("Acute angle between the crank's directions in the two limit positions.")
 
     dimension = "angle"
     angle = True

@@ -19,6 +19,7 @@ from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.metrics.limit_positions import outermost_limits
 from linkwright.metrics.outputs import output_link
 from linkwright.metrics.transmission_angle import smallest
+from linkwright.words import _
 
 #: Transmission angle, rad, below which a position counts as a dead point.
 DEAD = 1e-6
@@ -26,6 +27,12 @@ DEAD = 1e-6
 STILL = 1e-9
 #: Places of a time, and of every formula of a driver's law in it, between which it turns back once at most.
 LOOKS, WITHIN = 721, 14
+
+
+def between(first: float, last: float, dimension: str) -> Remark:
+    """The ends of a stretch of the input as a remark."""
+    said = _("from {start} to {end}", start=shown(first, dimension), end=shown(last, dimension))
+    return Remark("range_of_motion.from_to", said)
 
 
 def reached_inputs(analysis: Analysis, start: float, end: float) -> tuple[float, float]:
@@ -64,6 +71,9 @@ def _drives(analysis: Analysis, time: float) -> bool:
 class RangeOfMotion(Metric):
     """Extent of every stretch of the input, within the cycle, in which the mechanism can be assembled."""
 
+    label = _("range of motion of the input")
+    meaning = _("Extent of the input within the cycle over which the mechanism can be assembled.")
+
     dimension = "angle"
     source = "assembly of the Assur groups; ends by halving"
     input_ranges = True
@@ -75,8 +85,7 @@ class RangeOfMotion(Metric):
         subject, kind = next(iter(analysis.motion.mechanism.drivers)), analysis.input_dimension
         for start, end in analysis.resolver.stretches:
             first, last = reached_inputs(analysis, start, end)
-            ends: dict[str, object] = {"start": shown(first, kind), "end": shown(last, kind)}
-            remarks = (Remark("range_of_motion.from_to", ends),)
+            remarks = (between(first, last, kind),)
             yield self.value(analysis, subject, abs(last - first), dimension=kind, at=first, remarks=remarks)
 
 
@@ -87,6 +96,9 @@ class DeadPoint(Metric):
     And, for each output of a machine with one driver, the inputs at which that output could not drive it: where the
     output turns back while the driver goes on.
     """
+
+    label = _("dead point")
+    meaning = _("Input at which a driving link cannot move the mechanism.")
 
     dimension = "angle"
     source = "IFToMM terminology: transmission angle zero"
@@ -110,7 +122,13 @@ class DeadPoint(Metric):
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         driver, kind = next(iter(analysis.motion.mechanism.drivers)), analysis.input_dimension
         for q, subject in _distinct((q, driver) for q in self._of_driver(analysis)):
-            remarks = (Remark("dead_point.driver", {"at": shown(q, kind)}, warning=True),)
+            remarks = (
+                Remark(
+                    "dead_point.driver",
+                    _("the driver cannot move the mechanism at {at}", at=shown(q, kind)),
+                    warning=True,
+                ),
+            )
             yield self.value(analysis, subject, q, dimension=kind, at=q, remarks=remarks)
         for output in analysis.outputs:
             link = output_link(analysis.motion.mechanism, output)
@@ -118,7 +136,16 @@ class DeadPoint(Metric):
             sides = ([limit for limit in found if limit.kind == kind] for kind in ("max", "min"))
             places = (_distinct((each.input, f"{output} {each.kind}") for each in side) for side in sides)
             for q, subject in chain.from_iterable(places):
-                remarks = (Remark("dead_point.output", {"at": shown(q, kind), "output": link}),)
+                remarks = (
+                    Remark(
+                        "dead_point.output",
+                        _(
+                            "if {output} were to drive, it could not move the mechanism at {at}",
+                            at=shown(q, kind),
+                            output=link,
+                        ),
+                    ),
+                )
                 yield self.value(analysis, subject, q, dimension=kind, at=q, remarks=remarks)
 
     def _of_driver(self, analysis: Analysis) -> Iterator[float]:

@@ -13,6 +13,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
+from linkwright.words import _
 
 
 def sides(mechanism: Mechanism) -> Iterator[tuple[str, str, str]]:
@@ -37,6 +38,9 @@ def size(joint: str, link: str) -> Callable[[Forces], Floats]:
 class PeakReaction(Metric):
     """Largest size of every joint's reaction, N."""
 
+    label = _("peak reaction")
+    meaning = _("Largest force that a joint transmits.")
+
     rank = 4
     dimension = "force"
     source = "kinetostatics: reactions by Assur group"
@@ -55,5 +59,8 @@ class PeakReaction(Metric):
 @METRICS.register("rms_reaction")
 class RmsReaction(PeakReaction):
     """Root mean square over time of the size of every joint's reaction, N."""
+
+    label = _("RMS reaction")
+    meaning = _("Root mean square over time of the force that a joint transmits.")
 
     kind = "rms"

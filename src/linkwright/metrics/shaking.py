@@ -11,6 +11,7 @@ from linkwright.kinematics.names import HARMONIC
 from linkwright.kinetostatics.load_site import turns_steadily
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
+from linkwright.words import _
 
 
 class Shaking(Metric):
@@ -34,6 +35,9 @@ class Shaking(Metric):
 class PeakShakingForce(Shaking):
     """Largest resultant of the inertia forces on the frame, N."""
 
+    label = _("peak shaking force")
+    meaning = _("Largest resultant of the inertia forces of the moving links on the frame.")
+
     dimension = "force"
     summary = Summary("shaking_force", "max")
 
@@ -41,6 +45,9 @@ class PeakShakingForce(Shaking):
 @METRICS.register("peak_shaking_moment")
 class PeakShakingMoment(Shaking):
     """Largest moment of the inertia forces about the frame's origin, N·m."""
+
+    label = _("peak shaking moment")
+    meaning = _("Largest moment of the inertia forces about the frame's origin.")
 
     dimension = "torque"
     summary = Summary("shaking_moment", "peak")
@@ -61,6 +68,9 @@ class ShakingHarmonic(Shaking):
 class ShakingForceHarmonic(ShakingHarmonic):
     """Largest force of one order of the shaking force, N: the longer half axis of the ellipse that it goes round."""
 
+    label = _("shaking force harmonic")
+    meaning = _("Largest primary (1×) and secondary (2×) inertia force on the frame.")
+
     dimension = "force"
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
@@ -72,6 +82,9 @@ class ShakingForceHarmonic(ShakingHarmonic):
 @METRICS.register("shaking_moment_harmonic")
 class ShakingMomentHarmonic(ShakingHarmonic):
     """Amplitude of one order of the shaking moment, N·m."""
+
+    label = _("shaking moment harmonic")
+    meaning = _("Amplitude of the primary (1×) and secondary (2×) shaking moment.")
 
     dimension = "torque"
 

@@ -12,6 +12,7 @@ from linkwright.elements.topology import Group
 from linkwright.kinetostatics.closure import closable
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, MetricValue, Number, Remark
+from linkwright.words import _
 
 #: Below this a dyad is nearer than 10° to a dead point.
 NEAR = 0.17
@@ -23,6 +24,11 @@ class Singularity(Metric):
 
     A larger group has its limit lowered to the power of half its equations.
     """
+
+    label = _("distance from a singular position")
+    meaning = _(
+        "Smallest determinant of a group's closure equations, 1 at best, 0 where the group is singular.",
+    )
 
     dimension = "dimensionless"
     source = "determinant of the closure Jacobian; Gosselin and Angeles, IEEE Trans. Robotics 6(3), 1990"
@@ -52,5 +58,13 @@ class Singularity(Metric):
                 yield replace(found, limit=limit)
                 continue
             at = shown(found.at if found.at is not None else float("nan"), analysis.input_dimension)
-            remark = Remark("singularity.near", {"group": group.name, "at": at}, warning=True)
+            remark = Remark(
+                "singularity.near",
+                _(
+                    "group {group} passes close to a singular position at {at}: forces grow very large there",
+                    group=group.name,
+                    at=at,
+                ),
+                warning=True,
+            )
             yield replace(found, limit=limit, remarks=(remark,))

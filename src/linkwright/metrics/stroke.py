@@ -5,17 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.core.outputs import Output
-from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
 from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.base import METRICS, Metric, MetricValue, Number, Remark
+from linkwright.metrics.base import METRICS, Metric, MetricValue, Number
 from linkwright.metrics.outputs import turns_fully
-from linkwright.metrics.range_of_motion import reached_inputs
+from linkwright.metrics.range_of_motion import between, reached_inputs
+from linkwright.words import _
 
 
 @METRICS.register("stroke")
 class Stroke(Metric):
     """Travel of every block on the frame between its outermost positions, m."""
+
+    label = _("stroke")
+    meaning = _("Travel of a block between its outermost positions.")
 
     rank = 1
     dimension = "length"
@@ -37,10 +40,7 @@ class Stroke(Metric):
             return
         for output in self._swinging(analysis):
             for (way, exact), stretch in zip(analysis.ranges(output), stretches, strict=True):
-                first, last = (
-                    shown(each, analysis.input_dimension) for each in reached_inputs(analysis, *stretch)
-                )
-                remarks = (Remark("range_of_motion.from_to", {"start": first, "end": last}),)
+                remarks = (between(*reached_inputs(analysis, *stretch), analysis.input_dimension),)
                 yield self.value(analysis, str(output), way, exact=exact, remarks=remarks)
 
     def _swinging(self, analysis: Analysis) -> list[Output]:
@@ -55,6 +55,9 @@ class Stroke(Metric):
 @METRICS.register("swing_angle")
 class SwingAngle(Stroke):
     """Angle between the outermost positions of every link that swings about the frame, rad."""
+
+    label = _("swing angle")
+    meaning = _("Angle of a link between its outermost positions.")
 
     dimension = "angle"
     kind = "angle"

@@ -24,6 +24,7 @@ from linkwright.metrics.outputs import output_link
 from linkwright.metrics.range_of_motion import turns
 from linkwright.metrics.swept_hull import Curves, SweptHull
 from linkwright.metrics.ways import SolvedCurves, Ways
+from linkwright.words import _
 
 #: Ends of ways nearer to each other than this share of the way are the same.
 SAME = 1e-9
@@ -61,13 +62,18 @@ class HullArea(Metric):
                 name: shown(side, "length")
                 for name, side in zip(("width", "height"), sides.tolist(), strict=True)
             }
-            remarks = (Remark("swept_area.box", {**box}),)
+            remarks = (Remark("swept_area.box", _("{width} wide, {height} high").format(**box)),)
             yield self.value(analysis, subject, size, exact=exact, remarks=remarks)
 
 
 @METRICS.register("swept_area")
 class SweptArea(HullArea):
     """Area of the convex hull of the curves of all points of frame and links, m²: a bound of what they sweep."""
+
+    label = _("area needed (convex hull)")
+    meaning = _(
+        "Area of the convex hull of the curves of all points, an upper bound of the swept area.",
+    )
 
     def swept(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
         return {mechanism.name: points(mechanism)}
@@ -76,6 +82,11 @@ class SweptArea(HullArea):
 @METRICS.register("swept_area_of_link")
 class SweptAreaOfLink(HullArea):
     """Area of the convex hull of the curves of every link's points, m²: a bound of what it sweeps."""
+
+    label = _("area needed by a link (convex hull)")
+    meaning = _(
+        "Area of the convex hull of the curves of a link's points, an upper bound of what it sweeps.",
+    )
 
     on_request = True
 

@@ -9,9 +9,9 @@ from linkwright.core.attached import Plotted
 from linkwright.core.quantity import number, shown_unit
 from linkwright.core.table import Table
 from linkwright.errors import RequestError
-from linkwright.metrics.base import CELLS, METRICS, MetricValue
+from linkwright.metrics.base import CELLS, METRICS, REMARK, MetricValue
 from linkwright.registry import offered
-from linkwright.words import _, say
+from linkwright.words import _
 from linkwright.words.characters import aligned_within, cells
 from linkwright.words.sentence import in_language, in_words, together
 
@@ -173,7 +173,7 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
 
     def table(self, language: str = "en") -> Table:
         """The rows, limits and remarks where there are any, and the warnings."""
-        head = [*(say(f"metrics.column.{name}", language) for name in CELLS), self._remark(language)]
+        head = [*(head.translate(language) for head in CELLS), self._remark(language)]
         rows = [[*texts, _remarks(row, language)] for texts, row in told(self.rows, language)]
         kept = [i for i in range(len(head)) if i < 5 or any(row[i] for row in rows)]
         notes = [f"! {warning}" for warning in self.warnings_in(language)]
@@ -183,7 +183,7 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
         )
 
     def _remark(self, language: str) -> str:
-        return say("metrics.column.remark", language)
+        return REMARK.translate(language)
 
     def _beneath(self, table: Table, width: int | None, language: str) -> list[str]:
         """Lines of the table with each remark on a line of its own beneath its number."""

@@ -15,6 +15,7 @@ from linkwright.kinetostatics.closure import dyads
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number, Remark
 from linkwright.metrics.outputs import output_link
+from linkwright.words import _
 
 LIMIT = radians(40)
 SOURCE = "VDI 2123; Volmer, Getriebetechnik; TU Chemnitz, Getriebelexika: not below about 40°"
@@ -24,8 +25,12 @@ def low(value: float) -> tuple[Remark, ...]:
     """A warning where a transmission angle is below the recommended one."""
     if not value < LIMIT:
         return ()
-    values: dict[str, object] = {"value": shown(value, "angle"), "limit": shown(LIMIT, "angle")}
-    return (Remark("transmission_angle.low", values, warning=True),)
+    said = _(
+        "the transmission angle falls to {value}, below the recommended {limit}",
+        value=shown(value, "angle"),
+        limit=shown(LIMIT, "angle"),
+    )
+    return (Remark("transmission_angle.low", said, warning=True),)
 
 
 def smallest(group: Group) -> Summary:
@@ -36,6 +41,12 @@ def smallest(group: Group) -> Summary:
 @METRICS.register("transmission_angle")
 class TransmissionAngle(Metric):
     """Smallest transmission angle of every dyad, 0 to π/2; defined in ``kinetostatics/closure.py``."""
+
+    label = _("smallest transmission angle")
+    meaning = _(
+        "Acute angle between coupler and output link (rod and normal of the guide): the "
+        "nearer to 90°, the better the force is passed on.",
+    )
 
     rank = 2
     dimension = "angle"
@@ -57,6 +68,11 @@ class TransmissionAngle(Metric):
 @METRICS.register("transmission_angle_of_stroke")
 class TransmissionAngleOfStroke(TransmissionAngle):
     """Smallest transmission angle of a dyad on the strokes of its output from its largest value on, and back."""
+
+    label = _("smallest transmission angle of the stroke")
+    meaning = _(
+        "Smallest transmission angle while the output moves from one limit position to the next.",
+    )
 
     def suits(self, analysis: Analysis) -> bool:
         return super().suits(analysis) and analysis.whole and bool(_driven_dyads(analysis))

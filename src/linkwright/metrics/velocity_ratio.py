@@ -14,6 +14,7 @@ from linkwright.cycle.summary import Summary, SummaryValue
 from linkwright.formula.trace import Scalar, absolute, select
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Better, Metric, Number
+from linkwright.words import _
 
 #: Of two sizes as large as each other the positive one counts, whatever rounding leaves.
 _BUT_ROUNDING = 1.0 - 1e-12
@@ -42,6 +43,9 @@ def _place(least: float, high: SummaryValue, low: SummaryValue) -> float:
 class VelocityRatio(Metric):
     """The output's rate over the input's where it is largest in size; negative where they turn against each other."""
 
+    label = _("largest velocity ratio")
+    meaning = _("Rate of the output over rate of the input where it is largest in size.")
+
     rank = 3.5
     dimension = "dimensionless"
     source = "Norton, Design of Machinery, sec. 6.4"
@@ -69,6 +73,11 @@ class VelocityRatio(Metric):
 @METRICS.register("mechanical_advantage")
 class MechanicalAdvantage(VelocityRatio):
     """Smallest output force (torque) per input torque (force) without losses: 1/|velocity ratio|."""
+
+    label = _("smallest mechanical advantage")
+    meaning = _(
+        "Output force or torque per input torque or force without losses, where it is smallest.",
+    )
 
     source = "Norton, Design of Machinery, sec. 6.4: power in equals power out"
     better: ClassVar[Better | None] = "higher"

@@ -4,7 +4,6 @@ import pytest
 
 from linkwright.metrics import METRICS
 from linkwright.units import si_unit
-from linkwright.words import say
 
 
 @pytest.mark.parametrize("name", METRICS)
@@ -14,6 +13,6 @@ def test_metric_says_what_it_is(name: str) -> None:
     assert si_unit(metric.dimension) == metric.unit
     assert len(metric.source) > 10 and METRICS[name].__doc__
     for language in ("en", "zh"):
-        assert say(f"metrics.{name}.label", language)
-        assert say(f"metrics.{name}.meaning", language).endswith((".", "。"))
+        assert metric.label_in(language)
+        assert metric.meaning_in(language).endswith((".", "。"))
     assert metric.better in (None, "higher", "lower")
