@@ -17,7 +17,7 @@ from linkwright.fields.nodes import Node, below, located
 from linkwright.files.model_file import declared_kind, is_task, read_root, read_tree
 from linkwright.files.source import GALLERY, read_source
 from linkwright.words import _
-from linkwright.words.sentence import Sentence, code_of
+from linkwright.words.sentence import code_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -36,6 +36,11 @@ READERS = {
     "sheet": "linkwright.sheets.settings:check",
     "course": "linkwright.course.task:task",
     "optimize": "linkwright.designs.optimise.problem:problem",
+}
+#: What is said of a load whose output never moves in a direction.
+NEVER = {
+    "increasing": _("the load never acts: {output} does not increase anywhere in the cycle"),
+    "decreasing": _("the load never acts: {output} does not decrease anywhere in the cycle"),
 }
 #: A coefficient of friction that no pair of materials has.
 RUBS = 2.0
@@ -251,7 +256,7 @@ def _of_loads(mechanism: Mechanism, loads: Sequence[str], varying: Sequence[str]
             continue
         if isinstance(phase, MovingPhase) and not (acts & (signals.output(phase.output)[1] != 0.0)).any():
             told, remedy = (
-                Sentence(f"check.never_{phase.direction}", output=phase.output),
+                NEVER[phase.direction].format(output=phase.output),
                 _("name an output that moves that way, or the other direction"),
             )
             found.append(Finding("warning", "", key, told, remedy, "no-motion"))

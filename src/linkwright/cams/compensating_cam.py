@@ -60,11 +60,13 @@ class CompensatingCam:
         say, output = speaker(language), str(self.output)
         first, last = (shown(each, self.mechanism.across) for each in self.zone)
         rows = {
-            "before": shown(self.before, self.output.dimension),
-            "after": shown(self.after, self.output.dimension),
-            "lift": shown(float(np.ptp(self.lifts)), self.lift_dimension),
+            _("{output} varies in it, follower at rest, by", output=output): shown(
+                self.before, self.output.dimension
+            ),
+            _("with the cam by"): shown(self.after, self.output.dimension),
+            _("whole lift"): shown(float(np.ptp(self.lifts)), self.lift_dimension),
         }
-        lines = (f"  {say(f'compensate.{key}', output=output)}: {value}" for key, value in rows.items())
+        lines = (f"  {say(what)}: {value}" for what, value in rows.items())
         return "\n".join(
             [
                 say(
@@ -87,7 +89,7 @@ class CompensatingCam:
             "output": str(self.output),
             "zone": list(self.zone),
             "before": self.before,
-            "after": self.after,
+            _("with the cam by"): self.after,
             "angles": self.angles.tolist(),
             "lifts": self.lifts.tolist(),
         }

@@ -6,16 +6,32 @@ from linkwright.cli.machine_options import Wanted
 from linkwright.core.quantity import shown
 from linkwright.core.table import Block, Row
 from linkwright.errors import LinkwrightError
+from linkwright.machine import running
 from linkwright.machine.energy import EnergyFluctuation, energy_fluctuation
 from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed_fluctuation
 from linkwright.machine.motor import motor
 from linkwright.machine.running import placed, share, speeds
 from linkwright.machine.speed import true_speed
 from linkwright.machine.torque_curve import TorqueCurve
-from linkwright.words import Say, _
+from linkwright.words import Say, _, pgettext
 
 #: A mean torque below this share of the largest one is zero.
 NOTHING = 1e-9
+
+#: What the numbers are, by the keys of their rows.
+LABELS = {
+    **running.LABELS,
+    "inertia": _("moment of inertia that is there"),
+    "formula_fluctuation": _("coefficient of speed fluctuation by the formula"),
+    "acceleration_smallest": _("largest retardation"),
+    "acceleration_largest": pgettext("machine", "largest acceleration"),
+    "disk_diameter": _("disk, diameter"),
+    "rim_diameter": _("rim, outer diameter"),
+    "width": _("  width"),
+    "thickness": _("  thickness"),
+    "mass": _("  mass"),
+    "rim_speed": _("  speed of the circumference (cast iron: up to about 30 m/s)"),
+}
 
 
 def of_areas(energy: EnergyFluctuation, wanted: Wanted, say: Say) -> list[Block]:

@@ -20,7 +20,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
 from linkwright.metrics.analysis import Kind
-from linkwright.words import Say, _
+from linkwright.words import Say, _, pgettext
 from linkwright.words.characters import aligned
 
 Wanted = tuple[Callable[[Forces], Floats], Kind]
@@ -47,11 +47,27 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     if forces is None or not solved.motion.ok.any():
         return []
     several = solved.motion.steps > 1
-    title = "largest_of_cycle" if solved.between else "largest_forces" if several else "joint_forces"
+    title = (
+        _("Largest joint forces over the cycle (between the positions, too)")
+        if solved.between
+        else _("Largest joint forces, over {count} positions", count=int(solved.motion.ok.sum()))
+        if several
+        else pgettext("solve", "Joint forces")
+    )
     pairs = reaction_pairs(forces.mechanism)
     peaks = largest_reactions(solved, degrees=degrees)
     rows = [
-        tuple(say(f"solve.{key}") for key in ("joint", "on", "force_there", "x_there", "y_there", "at_input"))
+        tuple(
+            say(key)
+            for key in (
+                _("joint"),
+                pgettext("solve", "on"),
+                _("force N"),
+                "Fx N",
+                "Fy N",
+                pgettext("solve", "at input"),
+            )
+        )
     ]
     for (joint, link), peak in zip(pairs, peaks, strict=True):
         force = peak.forces.reaction(joint, on=link)[peak.row]
@@ -59,7 +75,7 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
         rows.append((joint, link, number(peak.value), number(force[0]), number(force[1]), peak.input))
     wide = 6 if several else 5
     table = aligned([row[:wide] for row in rows], "<<>>>>"[:wide])
-    heading = say(f"solve.{title}", count=int(solved.motion.ok.sum()))
+    heading = say(title)
     rubbing = rubbing_guides(forces.mechanism)
     apart = (
         [

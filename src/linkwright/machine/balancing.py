@@ -22,8 +22,15 @@ from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.words import _
+from linkwright.words.sentence import in_language
 
 Radius = Mapping[str, float] | float
+#: What is compared, by its output.
+PEAKS = {
+    "shaking_force": _("shaking force"),
+    "shaking_moment": _("shaking moment about the origin"),
+    "input_torque": _("input torque"),
+}
 
 
 @dataclass(frozen=True)
@@ -65,17 +72,44 @@ class Balancing(Plotted, Frozen):
             for each in self.counterweights
         ]  # fmt: skip
         peaks: list[list[Cell]] = [
-            [say(f"balance.{name}"), unit, Amount(without), Amount(having),
+            [say(PEAKS[name]), unit, Amount(without), Amount(having),
              Amount(having / without, digits=4, scale=PERCENT) if without else ""]
             for name, unit, without, having in self._peaks()
         ]  # fmt: skip
-        head = [say(f"balance.column.{key}") for key in ("link", "mass", "x", "y")]
-        beside = [say(f"balance.column.{key}") for key in ("peak", "unit", "without", "with", "share")]
+        head = [
+            in_language(key, language)
+            for key in (
+                _("counterweight on"),
+                _("mass kg"),
+                "x mm",
+                "y mm",
+            )
+        ]
+        beside = [
+            say(key)
+            for key in (
+                _("peak of"),
+                _("unit"),
+                _("without"),
+                _("with"),
+                _("remains"),
+            )
+        ]
         return [*([Table(head, weights)] if weights else []), Table(beside, peaks, "<<>>>")]
 
     def text(self, language: str = "en") -> str:
         """Counterweights and their effect."""
-        none = [] if self.counterweights else ["", speaker(language)("balance.none")]
+        none = (
+            []
+            if self.counterweights
+            else [
+                "",
+                _(
+                    "No counterweight is needed: the links have no mass, or their mass centres lie where "
+                    "they must.",
+                ).translate(language),
+            ]
+        )
         tables = (["", *each.lines(language)] for each in self.tables(language))
         return "\n".join([self.mechanism.name, *none, *(line for lines in tables for line in lines)])
 

@@ -9,7 +9,6 @@ from linkwright.core.given import real
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.units import SMALLEST
 from linkwright.words import _
-from linkwright.words.sentence import Sentence
 
 #: Coefficient of speed fluctuation δ for which flywheels are laid out where none is asked for.
 FLUCTUATION = 0.02
@@ -100,13 +99,14 @@ def rim(
     J = ρ π b (D⁴ - d⁴)/32 with d = D (1 - 2 thickness_ratio). Raises LinkwrightError for values out of range.
     """
     given = (inertia, density, width_ratio, thickness_ratio)
-    for name, value in zip(("inertia", "density", "width", "thickness"), given, strict=True):
+    names = (_("moment of inertia"), _("density"), _("width"), _("thickness"))
+    for name, value in zip(names, given, strict=True):
         if not value > 0:
             raise RequestError(
                 _(
                     "the {name} of the flywheel is {value:g}; give a value above zero",
                     code="running.bad_size",
-                    name=Sentence(f"running.{name}"),
+                    name=name,
                     value=value,
                 )
             )

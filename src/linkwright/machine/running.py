@@ -26,6 +26,26 @@ from linkwright.metrics.singularity import Singularity
 from linkwright.metrics.true_speed import steady_cycle
 from linkwright.words import Message, Say, _
 
+#: What the numbers are, by the keys of their rows.
+LABELS = {
+    "speed": _("mean speed"),
+    "mean_torque": _("mean torque"),
+    "mean_power": _("mean power"),
+    "motor_power": _("power of the motor, with efficiency and margin"),
+    "motor_power_without_flywheel": _("power of the motor without a flywheel, at constant speed"),
+    "energy_lowest": _("  lowest energy, slowest running (approximately)"),
+    "energy_highest": _("  highest energy, fastest running (approximately)"),
+    "inertia_smallest": _("smallest equivalent moment of inertia"),
+    "inertia_largest": _("largest equivalent moment of inertia"),
+    "required_fluctuation": _("required coefficient of speed fluctuation"),
+    "exact_flywheel": _("flywheel for just the required coefficient, exact"),
+    "shaft_flywheel": _("  the same on the flywheel's shaft"),
+    "energy_fluctuation": _("energy fluctuation"),
+    "flywheel": _("flywheel by the formula"),
+    "slowest": _("  slowest"),
+    "fastest": _("  fastest"),
+}
+
 
 def placed(key: str, value: float, dimension: str, at: float, label: str = "") -> Row:
     """A number with the input's angle where it is."""
@@ -44,7 +64,7 @@ def speeds(curve: SpeedCurve, at: Callable[[float], float], say: Say, before: st
         f"{before}reached_fluctuation", curve.fluctuation, say(_("  coefficient really reached with it"))
     )
     ends = (("slowest", slow), ("fastest", fast))
-    return [reached, *(placed(f"{before}{key}", value, "angular_velocity", at(place), say(f"machine.{key}"))
+    return [reached, *(placed(f"{before}{key}", value, "angular_velocity", at(place), say(LABELS[key]))
                        for key, (place, value) in ends)]  # fmt: skip
 
 
@@ -87,7 +107,7 @@ class SteadyRunning(Plotted):
     def text(self, language: str = "en") -> str:
         """The numbers with labels, units and places, and what is to be said beside them."""
         say, remarks = speaker(language), self.notes(language)
-        lines = [self.equivalent.forces.mechanism.name, *together(self.blocks(say), "machine", say)]
+        lines = [self.equivalent.forces.mechanism.name, *together(self.blocks(say), LABELS, say)]
         return "\n".join([*lines, *([""] if remarks else []), *remarks])
 
     def blocks(self, say: Say) -> list[Block]:
@@ -133,7 +153,15 @@ class SteadyRunning(Plotted):
         """The remarks, that no flywheel is needed, and warnings of singular positions."""
         near = Singularity().evaluate(self.equivalent.forces.motion)
         found = [each.say(language) for each in self.remarks]
-        found += [] if self.exact_flywheel else [speaker(language)("machine.none_needed")]
+        found += (
+            []
+            if self.exact_flywheel
+            else [
+                _("No flywheel is needed: the machine's own inertia keeps the speed even enough.").translate(
+                    language
+                )
+            ]
+        )
         return found + [f"! {remark.text(language)}" for value in near for remark in value.warnings]
 
     @property

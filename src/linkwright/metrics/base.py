@@ -167,8 +167,8 @@ class Metric(ABC):
     ``on_request``: only where it is asked for by name; ``own_values``: one machine's ``values`` are found in a way of
     their own, beside the ``numbers`` of many designs; ``judged_last``: ``suits`` reads what is found of the machine,
     which all others have asked for by then; ``input_ranges``: it is the extent of the input's ranges in
-    which the mechanism can be assembled; ``labels``: its names by dimensions that have one of their own (a driver that
-    slides has a force).
+    which the mechanism can be assembled; ``labels``: its names by dimensions that have one of their own (of
+    a driver that slides, a force).
     """
 
     name: ClassVar[str]

@@ -151,7 +151,10 @@ class DeadPoint(Metric):
     def _of_driver(self, analysis: Analysis) -> Iterator[float]:
         if not analysis.resolver.possible:
             return
-        for time in (*(time for time, _ in analysis.resolver.edges), *analysis.resolver.changes.tolist()):
+        for time in (
+            *(time for time, _unused in analysis.resolver.edges),
+            *analysis.resolver.changes.tolist(),
+        ):
             yield analysis.resolver.input_at(time)
         for group in dyads(analysis.motion.structure):
             low = analysis.part(smallest(group))

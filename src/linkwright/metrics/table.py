@@ -53,7 +53,7 @@ def _remarks(row: MetricValue | None, language: str) -> str:
         return ""
     said = [remark.text(language) for remark in row.remarks if not remark.warning]
     mark = MARK.strip() if row.warnings else ""
-    return f"{mark} {say('finding.semicolon', language).join(said)}".strip()
+    return f"{mark} {_('; ').translate(language).join(said)}".strip()
 
 
 class MetricsTable(Plotted, Sequence[MetricValue]):

@@ -11,12 +11,19 @@ from typing import Any
 from linkwright import gallery
 from linkwright.core.dataclass import dataclass
 from linkwright.files.model_file import load
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 #: Units of the last printed digit by which a rounded number may differ.
 ROUNDED = 0.51
 #: Keys of ``expected`` that are numbers of the structure.
 STRUCTURE = ("mobility", "grubler", "class")
+
+
+#: Why a printed number is wrong, by the word of the case.
+WHY = {
+    "arc_cosine": _("the angle comes from an arc cosine, which cannot be negative"),
+    "follows": _("follows from the rocker's wrong angle"),
+}
 
 
 @dataclass(frozen=True)
@@ -80,7 +87,7 @@ def from_data() -> Iterator[Published]:
 
 def _reference(what: str, given: Any, *, printed: bool) -> Reference:
     if isinstance(given, Mapping):
-        why = Sentence(f"validate.why_{given['why']}")
+        why = WHY[given["why"]]
         return Reference(what, str(given["printed"]), printed, str(given["right"]), why)
     return Reference(what, str(given), printed)
 

@@ -69,7 +69,16 @@ class Validation:
         ``width``: characters across within which texts of the table are folded.
         """
         say = speaker(language)
-        head = [say(f"validate.{key}") for key in ("case", "numbers", "from_source", "agree", "worst")]
+        head = [
+            say(key)
+            for key in (
+                _("case"),
+                _("numbers"),
+                _("printed by the source"),
+                _("agree"),
+                _("largest difference, last digits"),
+            )
+        ]
         rows: list[list[Cell]] = []
         for (case, _unused), checks in self.cases().items():
             worst = max(checks, key=lambda each: abs(each.digits))

@@ -28,6 +28,9 @@ linkwright gallery show slider_crank_inline
 linkwright gallery copy jaw_crusher_sixbar .     a file of your own to change"""
 )
 
+CALCULATIONS = _("Calculations of machine parts (linkwright beam, statics, vibration, …):")
+TASKS = _("Tasks of synthesis (linkwright synthesize gallery:NAME):")
+
 
 def arguments(option: Options) -> None:
     option("action", "list|show|copy", nargs="?", default="list", help=_("what to do (default: list)"))
@@ -71,9 +74,9 @@ def _list(options: argparse.Namespace, session: Session) -> int:
     wide = max((len(entry["name"]) for entry in entries), default=0)
     for entry in entries:
         if parts and entry is parts[0]:
-            session.show(f"\n{session.say('gallery.calculations')}")
+            session.show(f"\n{session.say(CALCULATIONS)}")
         if tasks and entry is tasks[0]:
-            session.show(f"\n{session.say('gallery.tasks')}")
+            session.show(f"\n{session.say(TASKS)}")
         name, title = entry["name"], title_said(entry["title"], session.language)
         session.show(f"{session.strong(name)}{' ' * (wide - len(name))}  {title}")
     session.show()

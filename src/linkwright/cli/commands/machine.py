@@ -244,5 +244,7 @@ def _show(title: str, blocks: list[Block], remarks: list[str], session: Session)
     if session.json:
         session.show_data({"ok": True, "name": title, **rows_data(blocks), "remarks": remarks})
         return
-    lines = [session.strong(title), *together(blocks, "machine", session.say)]
+    from linkwright.cli.machine_rows import LABELS
+
+    lines = [session.strong(title), *together(blocks, LABELS, session.say)]
     session.show("\n".join([*lines, *([""] if remarks else []), *remarks]))

@@ -13,7 +13,7 @@ from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.given import CURVE_STEPS
 from linkwright.errors import LinkwrightError, about
-from linkwright.words import _
+from linkwright.words import Message, _
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -98,8 +98,15 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Draws a diagram and writes it; 1 where a position is not reached."""
     _require_kind(options)
-    fluctuation = options.fluctuation and _number(options.fluctuation, "fluctuation", 0.0, math.inf)
-    dpi = _number(options.dpi, "dpi", 9.999, 2400.0)
+    fluctuation = options.fluctuation and _number(
+        options.fluctuation,
+        _('--fluctuation is "{text}"; give a number above zero, such as 0.02', code="plot.bad_fluctuation"),
+        0.0,
+        math.inf,
+    )
+    dpi = _number(
+        options.dpi, _('--dpi is "{text}"; give a number from 10 to 2400', code="plot.bad_dpi"), 9.999, 2400.0
+    )
     path = _path(options)
     motions = _solved(options, session)
     diagram = _drawn(options, session, motions, fluctuation)
@@ -220,8 +227,8 @@ def _write(diagram: Diagram, path: Path, dpi: float, options: argparse.Namespace
         session.show_written(path)
 
 
-def _number(text: str, name: str, above: float, most: float) -> float:
+def _number(text: str, refusal: Message, above: float, most: float) -> float:
     good = re.fullmatch(r"\d*\.?\d+(e[+-]?\d+)?", text.strip(), re.IGNORECASE)
     if good is None or not above < float(text) <= most:
-        raise UsageError(f"plot.bad_{name}", text=text)
+        raise UsageError(refusal.format(text=text))
     return float(text)

@@ -87,5 +87,12 @@ def _counts(program: Program, say: Say) -> str:
     kinds = sorted({*design, *position})
     rows: list[list[Cell]] = [[kind, design.get(kind, 0), position.get(kind, 0)] for kind in kinds]
     rows.append([say(_("total")), sum(design.values()), sum(position.values())])
-    head = [say(f"structure.{key}") for key in ("operation", "per_design", "per_position")]
+    head = [
+        say(key)
+        for key in (
+            _("operation"),
+            _("per design"),
+            _("per position"),
+        )
+    ]
     return "\n".join(Table(head, rows).lines())

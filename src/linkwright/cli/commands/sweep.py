@@ -9,7 +9,7 @@ from linkwright.cli.commands.study import ranges_of, sampling_arguments, vary_ar
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.given import STEPS
-from linkwright.words import _
+from linkwright.words import _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.export.sweep_parts import SweepParts
@@ -102,7 +102,15 @@ def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> N
             )
         )
     )
-    head = [say(f"sweep.column.{name}") for name in ("number", "least", "greatest", "designs")]
+    head = [
+        say(name)
+        for name in (
+            _("column"),
+            _("least"),
+            _("greatest"),
+            pgettext("sweep", "designs"),
+        )
+    ]
     rows: list[list[Cell]] = [
         [name, Amount(low), Amount(high), count] for name, (low, high, count) in ranges.items()
     ]

@@ -10,7 +10,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, number_of
 from linkwright.cli.session import Session
 from linkwright.core.table import Amount, Cell, Table
-from linkwright.words import Say, _
+from linkwright.words import Say, _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.synthesis.result import Synthesis, SynthesisError
@@ -183,7 +183,14 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
 
 
 def _effort_lines(efforts: list[dict[str, float]], say: Say) -> list[str]:
-    head = [say(f"synthesize.column.{name}") for name in ("number", "torque", "reaction")]
+    head = [
+        say(name)
+        for name in (
+            _("no."),
+            _("peak torque"),
+            pgettext("synthesize", "peak reaction"),
+        )
+    ]
     rows: list[list[Cell]] = [
         [number, Amount(each["peak_input_torque"], "torque", 5), Amount(each["peak_reaction"], "force", 5)]
         for number, each in enumerate(efforts, 1)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from linkwright.equations.notation import quantity, row, sign
 from linkwright.equations.reading import read, read_name
 from linkwright.errors import LinkwrightError
-from linkwright.machine.running import SteadyRunning
+from linkwright.machine.running import LABELS, SteadyRunning
 from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
@@ -50,7 +50,7 @@ def blocks(case: Case) -> Iterator[Block]:
                 )
             )
         )
-    cells = (row.cells("machine", say) for block in running.blocks(say) for row in block.rows)
+    cells = (row.cells(LABELS, say) for block in running.blocks(say) for row in block.rows)
     rows = tuple(tuple(literal(cell.strip()) for cell in each) for each in cells)
     head = (say(_("design number")), say(_("value")), say(_("unit")), say(_("at the input")))
     yield Table(say(_("Motor, energy fluctuation and flywheel")), head, rows, "<><>", "flywheel")

@@ -24,7 +24,14 @@ _PARTS = 3
 
 def data_table(design: CamDesign, say: Say, parts: int) -> TablePanel:
     """Motion, sizes and checks of a cam: name, symbol, value; in so many parts side by side."""
-    head = [say(f"cam_sheet.{key}") for key in ("quantity", "symbol", "value")]
+    head = [
+        say(key)
+        for key in (
+            _("quantity"),
+            _("symbol"),
+            _("value"),
+        )
+    ]
     rows = [*_motion(design, say), *_sizes(design, say), *_checks(design, say)]
     return TablePanel("table_data", 2.0, head, rows, say(_("Data of the cam")), parts=parts)
 
