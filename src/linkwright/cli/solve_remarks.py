@@ -20,8 +20,9 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
 from linkwright.metrics.analysis import Kind
-from linkwright.words import Say, _, pgettext
+from linkwright.words import Say, _, language_of, pgettext
 from linkwright.words.characters import aligned
+from linkwright.words.sentence import in_language
 
 Wanted = tuple[Callable[[Forces], Floats], Kind]
 
@@ -58,7 +59,7 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     peaks = largest_reactions(solved, degrees=degrees)
     rows = [
         tuple(
-            say(key)
+            in_language(key, language_of(say))
             for key in (
                 _("joint"),
                 pgettext("solve", "on"),

@@ -13,7 +13,7 @@ from linkwright.core.table import Column
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure import Structure
 from linkwright.structure.analysis import turned_against
-from linkwright.words import Say, _
+from linkwright.words import Say, _, language_of, pgettext
 from linkwright.words.characters import GAP, cells, padded
 from linkwright.words.sentence import in_language
 
@@ -184,6 +184,33 @@ def total_width(columns: Sequence[Column], say: Say) -> int:
     return sum(widths) + len(GAP) * (len(widths) - 1)
 
 
+#: What columns are called under their owners' names, by their quantities.
+QUANTITIES: dict[str, str] = {
+    "time": _("time"),
+    "angle": _("angle"),
+    "angular_velocity": pgettext("solve", "velocity"),
+    "angular_acceleration": pgettext("solve", "acceleration"),
+    "displacement": _("displacement"),
+    "velocity": _("velocity"),
+    "acceleration": _("acceleration"),
+    "direction": pgettext("solve", "direction"),
+    "couple": _("couple"),
+    "effort": _("effort"),
+    "torque": _("torque"),
+    "force": _("force"),
+    "": "",
+    "position.x": "x",
+    "position.y": "y",
+    "velocity.x": "vx",
+    "velocity.y": "vy",
+    "acceleration.x": "ax",
+    "acceleration.y": "ay",
+    "x": "Fx",
+    "y": "Fy",
+    "magnitude": "F",
+}
+
+
 def _widths(columns: Sequence[Column], say: Say) -> list[int]:
     return [
         max(cells(text) for text in [*column.cells(), label(column, say), column.unit]) for column in columns
@@ -192,10 +219,7 @@ def _widths(columns: Sequence[Column], say: Say) -> list[int]:
 
 def label(column: Column, say: Say) -> str:
     """What a column is called under its owner's name."""
-    try:
-        return say(f"solve.quantity.{column.quantity}")
-    except KeyError:
-        return column.quantity
+    return in_language(QUANTITIES.get(column.quantity, column.quantity), language_of(say))
 
 
 def table(columns: Sequence[Column], say: Say) -> list[str]:

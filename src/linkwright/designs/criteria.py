@@ -66,7 +66,14 @@ class Criterion:
         except LinkwrightError as error:
             if error.code != "metrics.no_value":
                 raise
-            raise type(error)("study.no_value_for", label=each.label, **error.values) from None
+            raise type(error)(
+                _(
+                    "{name!r} of {label!r} has no value for {subject!r}; {hint}",
+                    code="study.no_value_for",
+                    label=each.label,
+                    **error.values,
+                )
+            ) from None
 
 
 def criteria(names: Iterable[str] | str) -> list[Criterion]:

@@ -225,7 +225,15 @@ def _no_subject(
     error: type[LinkwrightError], name: str, subject: str, known: Iterable[str]
 ) -> LinkwrightError:
     metric, _unused, _unused2 = name.partition(" ")
-    return error("metrics.no_value", name=metric, subject=subject, hint=offered(subject, known))
+    return error(
+        _(
+            '"{name}" has no value for "{subject}"; {hint}',
+            code="metrics.no_value",
+            name=metric,
+            subject=subject,
+            hint=offered(subject, known),
+        )
+    )
 
 
 def may_have(subject: str, analysis: Analysis) -> bool:
