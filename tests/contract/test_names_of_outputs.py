@@ -24,7 +24,7 @@ def test_commands_take_one_name(tmp_path: Path, capsys: pytest.CaptureFixture[st
     [
         "driver.effort", "input_torque", "jaw", "jaw.angle", "reaction O5 on jaw", "C.x", "C.velocity", "power",
         "jaw.D.velocity.x", "shaking_force", "transmission_angle B", "velocity_ratio jaw", "closeness",
-        "cosine jaw.angle 2", "sine reaction O5 on jaw.x 1",
+        "cosine jaw.angle 2", "jaw.centre.velocity", "sine reaction O5 on jaw.x 1",
     ],
 )  # fmt: skip
 def test_commands_take_every_name(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -240,16 +240,21 @@ class Output:
         return KINDS[self.kind].word or self.kind
 
     @property
+    def _owner(self) -> str:
+        """The user's name of its owner: of a mass centre ``jaw.centre``."""
+        return self.owner.replace(".@centre", ".centre")
+
+    @property
     def name(self) -> str:
         """Its name in the user's words, as studies take it: ``jaw.angle``, ``C.x``, ``reaction O5 on jaw``."""
         axis = self.component and f".{self.component}"
-        form = KINDS[self.kind].form
+        form, owner = KINDS[self.kind].form, self._owner
         if form == "owner":
-            return self.owner
+            return owner
         if form in ("part", "place"):
-            return f"{self.owner}.{self.word}{axis}" if form == "part" else f"{self.owner}{axis}"
+            return f"{owner}.{self.word}{axis}" if form == "part" else f"{owner}{axis}"
         on = f"on {self.on}" if self.on and KINDS[self.kind].of == "joint" else self.on
-        return " ".join(filter(None, (self.word, self.owner, on))) + axis
+        return " ".join(filter(None, (self.word, owner, on))) + axis
 
     def sentence(self, *, alone: bool = False) -> Message:
         """What it is, in words of any language: ``angular velocity of jaw``; ``alone``: the machine's one driver."""
@@ -274,7 +279,11 @@ class Output:
         if not self.owner:
             return self.component and self.word
         return (
-            "" if self.kind in ("input", "named") else f"{self.owner} on {self.on}" if self.on else self.owner
+            ""
+            if self.kind in ("input", "named")
+            else f"{self._owner} on {self.on}"
+            if self.on
+            else self._owner
         )
 
     @property

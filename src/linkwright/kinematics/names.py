@@ -83,7 +83,7 @@ def canonical(mechanism: Mechanism, link: str, point: str) -> str:
 
 def point_key(mechanism: Mechanism, name: str) -> str:
     """The canonical key of a point, or of a link's mass centre: ``jaw.centre``."""
-    name = str(name)
+    name = str(name).replace(".@centre", ".centre")
     link = mechanism.links.get(name.removesuffix(".centre"))
     if name.endswith(".centre") and link is not None and "centre" not in link.points:
         return name.removesuffix("centre") + "@centre"
