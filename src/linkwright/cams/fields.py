@@ -13,10 +13,10 @@ from linkwright.errors import ModelError
 from linkwright.fields.base import Field, Quantities, Quantity, Word, given
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
+from linkwright.fields.tables import Listed, Table, Whole
 from linkwright.laws.program_fields import RATES, ProgramField
 from linkwright.laws.smoothest import ORDERS, FoundProgram, Window
 from linkwright.parts.base import fault
-from linkwright.parts.fields import Listed, Table, Whole
 from linkwright.words import _
 
 

@@ -10,7 +10,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Quantity, Schema, Word, given
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
-from linkwright.parts.fields import Flag
+from linkwright.fields.tables import Flag
 
 KINDS = ("roller", "knife", "flat")
 MOTIONS = ("translating", "oscillating")

@@ -1,4 +1,4 @@
-"""Fields of machine-part files beyond those of mechanisms: tables in tables, lists of tables, samples."""
+"""Fields of machine-part files beyond those of mechanisms: samples, known values, quantities of any dimension."""
 
 from __future__ import annotations
 
@@ -14,15 +14,10 @@ from linkwright.fields.base import Field, Schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
-from linkwright.fields.tables import MOST, ByAddress, Either, Flag, Listed, Make, Named, Table, Whole
+from linkwright.fields.tables import Either
 from linkwright.registry import nearest
 from linkwright.words import _
 from linkwright.words.sentence import Sentence
-
-__all__ = [
-    "MOST", "AnyQuantity", "ByAddress", "Either", "Flag", "Known", "Listed", "Make", "Named", "Numbers",
-    "Sample", "Table", "Whole", "unknown_name",
-]  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,10 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS
 from linkwright.designs.ranges import dimension_of
 from linkwright.fields.base import Quantity, Text, Word, given
+from linkwright.fields.tables import ByAddress, Either, Listed, Named, Table, Whole
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.fields import AnyQuantity, ByAddress, Either, Listed, Named, Table, Whole
+from linkwright.parts.fields import AnyQuantity
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.units import si_unit
 

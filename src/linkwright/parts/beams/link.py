@@ -17,6 +17,7 @@ from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, SelfCheckError
 from linkwright.fields.base import Quantity, Text, given
+from linkwright.fields.tables import Listed, Whole
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import applied_rows, driver_wrenches
 from linkwright.kinetostatics.run import solve_forces
@@ -28,7 +29,6 @@ from linkwright.parts.beams.axis import LinkAxis, SpreadMass
 from linkwright.parts.beams.balance import polynomial_text
 from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, require_modulus, section_field
-from linkwright.parts.fields import Listed, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.words import Say, _
 

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Quantity, Text, given
-from linkwright.parts.fields import Known, Table
+from linkwright.fields.tables import Table
+from linkwright.parts.fields import Known
 
 
 @dataclass(frozen=True)

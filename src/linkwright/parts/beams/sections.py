@@ -11,8 +11,9 @@ from linkwright.errors import Finding, RequestError
 from linkwright.fields.base import Field, Quantities, Quantity, Text
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
+from linkwright.fields.tables import Table
 from linkwright.parts.base import fault
-from linkwright.parts.fields import Known, Table
+from linkwright.parts.fields import Known
 from linkwright.words import _
 
 #: IPE profiles, EN 10365: h, b, web, flange, root radius (mm), area (mm²), I (mm⁴), W (mm³).

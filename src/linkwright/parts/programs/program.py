@@ -23,8 +23,9 @@ from linkwright.fields.base import Field, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
+from linkwright.fields.tables import Flag, Listed, Named, Table
 from linkwright.parts.base import Problem, Result, fault
-from linkwright.parts.fields import AnyQuantity, Flag, Listed, Named, Table
+from linkwright.parts.fields import AnyQuantity
 from linkwright.parts.programs.formula import Constraint, Formula, constraint, formula
 from linkwright.parts.programs.linear import conflict, feasible, runaway, solve_linear
 from linkwright.parts.programs.nonlinear import (

@@ -16,8 +16,8 @@ from linkwright.fields.base import Quantities, Quantity, Text, given, quantity_s
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.fields.reading import Place, Reader
+from linkwright.fields.tables import Either, Listed, Named, Table
 from linkwright.parts.base import fault
-from linkwright.parts.fields import Either, Listed, Named, Table
 from linkwright.words import _
 
 #: A sum smaller than this share of its largest part is zero but for rounding.

@@ -12,8 +12,8 @@ from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
+from linkwright.fields.tables import Named, Table
 from linkwright.parts.base import Problem, Result, fault, signed
-from linkwright.parts.fields import Named, Table
 from linkwright.words import Say, _
 
 #: What is left of the unbalances of a rotor that is balanced, as share of their sizes.

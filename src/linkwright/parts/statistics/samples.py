@@ -18,8 +18,9 @@ from linkwright.equations.reading import measured
 from linkwright.equations.steps import Step, Value
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, Text, Word, given
+from linkwright.fields.tables import Listed, Named, Table, Whole
 from linkwright.parts.base import Problem, Result, fault
-from linkwright.parts.fields import AnyQuantity, Listed, Named, Numbers, Sample, Table, Whole
+from linkwright.parts.fields import AnyQuantity, Numbers, Sample
 from linkwright.parts.statistics.describe import (
     DISTRIBUTIONS,
     POSITIVE,

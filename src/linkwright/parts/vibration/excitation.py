@@ -11,7 +11,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Quantities, Quantity, Text
-from linkwright.parts.fields import AnyQuantity, Listed, Table
+from linkwright.fields.tables import Listed, Table
+from linkwright.parts.fields import AnyQuantity
 
 
 @dataclass(frozen=True)

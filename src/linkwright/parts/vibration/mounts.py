@@ -17,11 +17,11 @@ from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.base import Quantities, Quantity, given
+from linkwright.fields.tables import Named, Table, Whole
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Result, fault
-from linkwright.parts.fields import Named, Table, Whole
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.vibration.linear import largest_between
 from linkwright.words import Say, _

@@ -21,8 +21,9 @@ from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
+from linkwright.fields.tables import Listed, Named, Table
 from linkwright.parts.base import Problem, Result, fault
-from linkwright.parts.fields import AnyQuantity, Listed, Named, Table
+from linkwright.parts.fields import AnyQuantity
 from linkwright.parts.vibration.excitation import (
     EXCITATION,
     STRAIGHT,
