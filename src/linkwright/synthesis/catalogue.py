@@ -22,7 +22,8 @@ from linkwright.synthesis.requirements.slider_crank import (
 )
 from linkwright.synthesis.requirements.straight_line import straight_line
 from linkwright.synthesis.requirements.toggle import toggle
-from linkwright.synthesis.result import Synthesis, refuse
+from linkwright.synthesis.result import Synthesis, SynthesisError
+from linkwright.words import _
 
 #: The form of each demand, the same in all tasks.
 FORMS: Mapping[str, str] = {
@@ -95,7 +96,14 @@ def slider_crank(
     elif transmission_angle is not None and given <= {"transmission_angle", "offset"}:
         found = slider_crank_from_transmission(stroke, transmission_angle, offset or 0.0)
     else:
-        raise refuse("slider_crank.demands", given=tuple(sorted(given)) or "stroke")
+        raise SynthesisError(
+            _(
+                "a slider-crank needs stroke and one of: rod_ratio (and offset_ratio); "
+                "quick_return_ratio and offset; transmission_angle (and offset); given: {given}",
+                code="synthesize.slider_crank.demands",
+                given=tuple(sorted(given)) or "stroke",
+            )
+        )
     return found if rounding is None else rounded_slider_crank(found, rounding)
 
 

@@ -22,13 +22,24 @@ from linkwright.errors import LinkwrightError, speaker
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.merit import merit
+from linkwright.synthesis.names import DEFECTS, ERRORS, TYPE_NAMES, name_said
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words import Message, Say, _, has, pgettext
-from linkwright.words.sentence import Sentence, in_language
+from linkwright.words import Message, Say, _, pgettext
+from linkwright.words.sentence import in_language
 
 #: Share of the longest length, or of a radian, below which a deviation is rounding.
 ROUNDING = 1e-12
-COLUMNS = ("number", "type", "error", "worst", "defects", "input", "transmission", "ratio", "longest")
+COLUMNS = (
+    _("no."),
+    _("type"),
+    pgettext("synthesize", "error"),
+    _("worst"),
+    _("defects"),
+    pgettext("synthesize", "input"),
+    _("μ min"),
+    _("l max/min"),
+    _("l max"),
+)
 #: Share of its size within which a linkage does what another one does.
 SAME = 0.01
 
@@ -217,19 +228,23 @@ class Synthesis(Plotted):
 
 def title_said(found: Synthesis, tell: Say) -> str:
     """The task and how many candidates there are."""
-    key = "synthesize.title_one" if len(found) == 1 else "synthesize.title"
-    return tell(key, task=name_said(found.task, tell), count=len(found))
+    title = (
+        _("Synthesis: {task}, {count} candidate")
+        if len(found) == 1
+        else _("Synthesis: {task}, {count} candidates")
+    )
+    return tell(title, task=name_said(found.task, tell), count=len(found))
 
 
 def _report(found: Synthesis, language: str, width: int | None) -> list[str]:
     """Title, table of candidates, dimensions of each, counts and notes."""
     tell = speaker(language)
-    head = [tell(f"synthesize.column.{name}") for name in COLUMNS]
+    head = [tell(each) for each in COLUMNS]
     rows = [_row(number, each, found.extent, tell) for number, each in enumerate(found.candidates, 1)]
     between = tell(_(", "))
     lines = [
         title_said(found, tell),
-        tell(f"synthesize.error.{found.error_name}"),
+        tell(ERRORS[found.error_name]),
         "",
         *Table(head, rows, "><>><<>>>").lines(language, width),
         "",
@@ -276,14 +291,14 @@ def _purpose(found: Synthesis, each: Candidate, language: str) -> str:
 
 def defects_text(each: Candidate, tell: Say) -> str:
     """The defects of a candidate, or that there are none."""
-    words = [tell(f"synthesize.defect.{name}") for name in each.defects]
+    words = [tell(DEFECTS[name]) for name in each.defects]
     return tell(_(", ")).join(words) or tell(_("none"))
 
 
 def _row(number: int, each: Candidate, extent: float, tell: Say) -> list[str]:
     return [
         str(number),
-        tell(f"synthesize.type.{each.grashof_type}"),
+        tell(TYPE_NAMES[each.grashof_type]),
         *error_texts(each),
         defects_text(each, tell),
         tell(pgettext("synthesize", "turns") if each.turns else _("swings")),
@@ -306,16 +321,6 @@ def error_texts(each: Candidate) -> tuple[str, str]:
     return ("0", "0") if exact else (f"{each.error:.4g}", f"{each.worst:.4g}")
 
 
-def name_said(name: str, tell: Say) -> str:
-    """The word for a task, a link, a value with its unit or a count; other names as they are."""
-    stem, _unused, unit = name.partition(" ")
-    numbered = stem.removeprefix("link")
-    if numbered.isdecimal():
-        return tell(_("link{number}", number=numbered))
-    word = tell(f"synthesis_names.{stem}") if has(f"synthesis_names.{stem}") else stem
-    return f"{word} {unit}".rstrip()
-
-
 def _length(value: float) -> str:
     return f"{value * 1e3:.7g} mm" if value < 1 else f"{value:.7g} m"
 
@@ -331,14 +336,77 @@ class SynthesisError(LinkwrightError):
         return SynthesisError, (self.args[0], self.nearest)
 
 
-def refuse(rule: str, nearest: Synthesis | None = None, **values: object) -> SynthesisError:
-    """The error with the sentence of a key of the catalogue ``synthesize``."""
-    return SynthesisError(Sentence(f"synthesize.{rule}", **values), nearest)
-
-
-def note(key: str, **values: object) -> Message:
-    """A sentence of the catalogue ``synthesize``."""
-    return Sentence(f"synthesize.{key}", **values)
+#: Sentences that several tasks say.
+FREE_CURVE_FILE = _(
+    'the curve\'s file "{path}" cannot be read; name a .csv, .txt or .svg file',
+    code="synthesize.free_curve.file",
+)
+FREE_CURVE_NO_CURVE = _(
+    "a free curve needs its points or a file, and one of them only; give points: or file:",
+    code="synthesize.free_curve.no_curve",
+)
+FREE_CURVE_NO_PATH = _(
+    '"{path}" has no path that can be drawn; save the curve as a path, polyline or polygon',
+    code="synthesize.free_curve.no_path",
+)
+FUNCTION_NONE = _(
+    "no {linkage} was found that moves through all positions; leave more numbers free or change the function",
+    code="synthesize.function.none",
+)
+LINK_RATIO_UNMET = _(
+    "no linkage was found whose longest link is at most {given} times its shortest; the "
+    "smallest ratio found is {least} (the nearest solution has that): allow a larger "
+    "link_ratio",
+    code="synthesize.link_ratio_unmet",
+)
+MOTION_FITTED = _(
+    "{poses} poses cannot all be met exactly; the links' lengths differ between the poses by the error shown",
+    code="synthesize.motion.fitted",
+)
+MOTION_NO_MOVABLE = _(
+    "no linkage moves through all poses in order without being dismantled; the best one has: {why}",
+    code="synthesize.motion.no_movable",
+)
+MOTION_NO_PAIRS = _(
+    "no two dyads make a linkage within the given region; enlarge it",
+    code="synthesize.motion.no_pairs",
+)
+MOTION_POSES = _(
+    "the poses must be a list of two or more x, y, angle; write [[x, y, angle], …]",
+    code="synthesize.motion.poses",
+)
+NOT_POSITIVE = _("{name} is {given}; it must be positive and finite", code="synthesize.not_positive")
+PATH_NO_REAL = _(
+    "no real four-bar passes exactly through the {count} points in every class that was "
+    "found; the nearest solution is that of least squares, with a sum of squared distances "
+    "of {error} m²",
+    code="synthesize.path.no_real",
+)
+PATH_ONE_PLACE = _(
+    "all points of the path lie in one place; give different points",
+    code="synthesize.path.one_place",
+)
+POINTS = _(
+    "the points must be a list of pairs of finite coordinates; write [[x, y], [x, y], …]",
+    code="synthesize.points",
+)
+TOO_ROUNDED = _(
+    "with lengths rounded to multiples of {given} mm the best linkage no longer meets the "
+    "demands; give a smaller rounding (the nearest solution is not rounded)",
+    code="synthesize.rounding",
+)
+NO_TASK = _('there is no task "{task}"; known: {known}', code="synthesize.task")
+DEMAND_MISSING = _('the task "{task}" needs "{demand}": {form}', code="synthesize.task.missing")
+NOT_WITH = _('"{demand}" does not apply with {other}; leave out one of them', code="synthesize.task.not_with")
+ONLY_WITH = _(
+    '"{demand}" applies only with "{needs}"; leave it out or give that as well',
+    code="synthesize.task.only_with",
+)
+DEMAND_UNKNOWN = _('"{demand}" is no demand of the task "{task}"; {hint}', code="synthesize.task.unknown")
+TRANSMISSION_RANGE = _(
+    "a smallest transmission angle of {given} deg cannot be had; ask for more than 0 and less than 90 deg",
+    code="synthesize.transmission_range",
+)
 
 
 def ranking(error: Floats, merits: Floats, sound: Flags, size: float) -> Whole:
@@ -393,10 +461,25 @@ def whole(*, least: int = 1, **values: float) -> None:
     for name, value in values.items():
         real(name, value, finite=False)
         if not (value == value and value >= least and float(value).is_integer()):
-            raise refuse("not_whole", name=name, given=f"{value:g}", least=least)
+            raise SynthesisError(
+                _(
+                    "{name} is {given}; give a whole number of {least} or more",
+                    code="synthesize.not_whole",
+                    name=name,
+                    given=f"{value:g}",
+                    least=least,
+                )
+            )
 
 
 def allowed_transmission(angle: float) -> None:
     """Raises SynthesisError for a smallest transmission angle (rad) outside [0, 90°)."""
     if not 0.0 <= angle < math.pi / 2 - 1e-6:
-        raise refuse("transmission", given=f"{math.degrees(angle):g}")
+        raise SynthesisError(
+            _(
+                "a smallest transmission angle of {given} deg cannot be had; ask for 0 deg or more, "
+                "below 90 deg",
+                code="synthesize.transmission",
+                given=f"{math.degrees(angle):g}",
+            )
+        )

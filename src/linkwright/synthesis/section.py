@@ -20,8 +20,8 @@ from linkwright.fields.reading import Place, Reader, Saying, Sayings
 from linkwright.files.read_model import TASK_KEYS
 from linkwright.files.reader import Reader as FileReader
 from linkwright.registry import listed, nearest
-from linkwright.synthesis.result import note
-from linkwright.words import Message
+from linkwright.synthesis.result import DEMAND_MISSING, DEMAND_UNKNOWN, NO_TASK
+from linkwright.words import Message, _
 from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
@@ -43,6 +43,31 @@ SHAPES: Mapping[str, tuple[tuple[str, ...], int]] = {
     "poses": (("length", "length", "angle"), 2),
 }
 _ANY: Schema = {"type": ["string", "number"]}
+#: Forms of values in words.
+FORMS = {
+    "length": _("a length with its unit, such as 40 mm", code="synthesize.task.form.length"),
+    "angle": _("an angle with its unit, such as 30 deg", code="synthesize.task.form.angle"),
+    "number": _("a number", code="synthesize.task.form.number"),
+    "count": _("a whole number", code="synthesize.task.form.count"),
+    "flag": _("true or false", code="synthesize.task.form.flag"),
+    "file": _("the name of a file, beside this one", code="synthesize.task.form.file"),
+    "word": _("a word", code="synthesize.task.form.word"),
+    "points": _(
+        "a list of points with units, such as [[0 mm, 10 mm], [5 mm, 12 mm]]",
+        code="synthesize.task.form.points",
+    ),
+    "point": _("a point with units, such as [0 mm, 10 mm]", code="synthesize.task.form.point"),
+    "poses": _(
+        "a list of poses with units, such as [[0 mm, 10 mm, 30 deg], …]",
+        code="synthesize.task.form.poses",
+    ),
+    "angles": _("a list of angles with units, such as [30 deg, 60 deg]", code="synthesize.task.form.angles"),
+    "lengths": _("a list of lengths with units, such as [30 mm, 60 mm]", code="synthesize.task.form.lengths"),
+    "window": _(
+        "two corners with units, such as [[0 mm, 0 mm], [80 mm, 50 mm]]",
+        code="synthesize.task.form.window",
+    ),
+}
 
 
 def tasks() -> dict[str, Task]:
@@ -54,7 +79,7 @@ def tasks() -> dict[str, Task]:
 
 def form_of(form: str) -> Message:
     """A form in words."""
-    return Sentence(f"synthesize.task.form.{form}")
+    return FORMS[form]
 
 
 @dataclass(frozen=True)
@@ -135,7 +160,14 @@ class Demand(Field):
                 if dimension in bare:
                     return None
                 bare.add(dimension)
-                told = with_remedy(error.message, note("task.unit_of_all", line=UNIT_KEYS[dimension]))
+                told = with_remedy(
+                    error.message,
+                    _(
+                        'write units, or "{line}" beside the task for all bare numbers',
+                        code="synthesize.task.unit_of_all",
+                        line=UNIT_KEYS[dimension],
+                    ),
+                )
             reader.error(node, place, told, "", error.code)
             return None
 
@@ -143,7 +175,13 @@ class Demand(Field):
         kind = "model.a_list" if isinstance(node, Sequence) else "model.a_mapping"
         said = node.text if isinstance(node, Scalar) else Sentence(kind)
         demand = place.key.rpartition(".")[2]
-        told = note("task.value", demand=demand, form=form_of(self.form), given=said)
+        told = _(
+            "{demand}: {form} is wanted; given: {given}",
+            code="synthesize.task.value",
+            demand=demand,
+            form=form_of(self.form),
+            given=said,
+        )
         reader.error(node, place, told, "", "type")
 
     def shape(self) -> Schema:
@@ -153,7 +191,7 @@ class Demand(Field):
             return {"type": "string"}
         dimensions, depth = SHAPES[self.form]
         found: Schema = _ANY if depth else quantity_schema(dimensions[0])
-        for _ in range(depth):
+        for _unused in range(depth):
             found = {"type": "array", "items": found}
         return found
 
@@ -172,7 +210,7 @@ class TaskSection(Field):
         task = said.text if isinstance(said, Scalar) else ""
         if task not in known:
             near = nearest(task, list(known))
-            told = note("task", task=task, known=near or tuple(known))
+            told = NO_TASK.format(task=task, known=near or tuple(known))
             reader.error(said or section, place.child("task"), told, "", "unknown-task")
             return None
         with reader.saying(_sayings(known[task], task)):
@@ -181,7 +219,10 @@ class TaskSection(Field):
             demands.pop(key, None)
         places = section.get("outputs")
         if places is not None and demands.get("linkage") == "slider_crank":
-            told = note("function.places")
+            told = _(
+                "the outputs of a slider_crank are lengths; give them as places: [30 mm, 60 mm, 80 mm]",
+                code="synthesize.function.places",
+            )
             reader.error(places, place.child("outputs"), told, "", "angles-for-places")
         return task, demands
 
@@ -221,11 +262,11 @@ def _sayings(task: Task, name: str) -> Sayings:
     return {
         "unknown_key": Saying(
             "unknown-demand",
-            lambda key_, **_: note("task.unknown", demand=key_, task=name, hint=listed(key_, known)),
+            lambda key_, **others: DEMAND_UNKNOWN.format(demand=key_, task=name, hint=listed(key_, known)),
         ),
         "missing_key": Saying(
             "missing-demand",
-            lambda key_, **_: note("task.missing", task=name, demand=key_, form=form_of(known[key_])),
+            lambda key_, **others: DEMAND_MISSING.format(task=name, demand=key_, form=form_of(known[key_])),
         ),
     }
 

@@ -17,8 +17,9 @@ from linkwright.files.model_file import read_nodes
 from linkwright.files.reader import Reader
 from linkwright.files.source import GALLERY, read_source
 from linkwright.registry import listed, nearest
-from linkwright.synthesis.result import Synthesis, note, refuse
+from linkwright.synthesis.result import DEMAND_MISSING, DEMAND_UNKNOWN, NO_TASK, Synthesis, SynthesisError
 from linkwright.synthesis.section import form_of, read_section, tasks
+from linkwright.words import _
 
 
 def synthesize(task: str | Path, **demands: Any) -> Synthesis:
@@ -36,20 +37,22 @@ def synthesize(task: str | Path, **demands: Any) -> Synthesis:
     if isinstance(task, PathLike):
         return synthesize_file(task)
     if not isinstance(task, str):
-        raise refuse("task", task=told(task), known=tuple(known))
+        raise SynthesisError(NO_TASK.format(task=told(task), known=tuple(known)))
     if task not in known:
         if task.startswith(GALLERY) or task.lower().endswith((".yaml", ".yml", ".json")) or exists(task):
             return synthesize_file(task)
         near = nearest(task, list(known))
-        raise refuse("task", task=task, known=near or tuple(known))
+        raise SynthesisError(NO_TASK.format(task=task, known=near or tuple(known)))
     chosen = known[task]
     for key in demands:
         if key not in chosen.demands:
             hint = listed(key, chosen.demands)
-            raise refuse("task.unknown", demand=key, task=task, hint=hint)
+            raise SynthesisError(DEMAND_UNKNOWN.format(demand=key, task=task, hint=hint))
     for key in chosen.needed:
         if key not in demands:
-            raise refuse("task.missing", task=task, demand=key, form=form_of(chosen.demands[key]))
+            raise SynthesisError(
+                DEMAND_MISSING.format(task=task, demand=key, form=form_of(chosen.demands[key]))
+            )
     return chosen.run(**demands)
 
 
@@ -84,7 +87,22 @@ def asked_in(text: str, name: str, folder: str = "") -> tuple[str, dict[str, Any
         raise ModelError(reader.findings)
     if findings or not isinstance(section, MappingNode):
         place = f"{name}:1:1"
-        raise ModelError(findings or [Finding("error", place, "", note("task.section"), "", "missing")])
+        raise ModelError(
+            findings
+            or [
+                Finding(
+                    "error",
+                    place,
+                    "",
+                    _(
+                        'the file has no section "synthesis"; add one with task: and its demands',
+                        code="synthesize.task.section",
+                    ),
+                    "",
+                    "missing",
+                )
+            ]
+        )
     task, demands, findings = read_section(section, name, folder)
     if findings:
         raise ModelError(findings)

@@ -4,12 +4,12 @@ import re
 from pathlib import Path
 
 import linkwright as lw
-from linkwright import words
+from linkwright.synthesis.names import NAMES
 
 
 def test_names_of_synthesis_have_words() -> None:
     """Counts and values are keys of mappings in the code: each has its word."""
-    known = {key: words.say(f"synthesis_names.{key}", "zh") for key in words.catalogue("synthesis_names")}
+    known = {name: each.translate("zh") for name, each in NAMES.items()}
     root = Path(lw.__file__).parent / "synthesis"
     code = "".join(path.read_text(encoding="utf-8") for path in root.rglob("*.py"))
     with_units = set(re.findall(r'"(\w+) \[(?:rad|m)\]":', code)) - {"lengths", "points"}

@@ -183,14 +183,7 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
 
 
 def _effort_lines(efforts: list[dict[str, float]], say: Say) -> list[str]:
-    head = [
-        say(name)
-        for name in (
-            _("no."),
-            _("peak torque"),
-            pgettext("synthesize", "peak reaction"),
-        )
-    ]
+    head = [say(_("no.")), say(_("peak torque")), say(pgettext("synthesize", "peak reaction"))]
     rows: list[list[Cell]] = [
         [number, Amount(each["peak_input_torque"], "torque", 5), Amount(each["peak_reaction"], "force", 5)]
         for number, each in enumerate(efforts, 1)

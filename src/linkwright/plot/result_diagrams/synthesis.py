@@ -14,12 +14,23 @@ from linkwright.plot.diagrams.axes import Legend, unit_of
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.names import draw_support
 from linkwright.synthesis.result import Candidate, Synthesis, title_said
-from linkwright.words import _, say
+from linkwright.words import _, pgettext, say
 
 SHOWN = 4
 #: What the output of a task's curve is, where it is not that of a function; factors to the unit of its axis.
 OUTPUTS = {"slider_crank": "place", "toggle": "ratio", "dwell": "angle"}
 FACTORS = {"place": 1e3, "angle": float(np.degrees(1.0)), "ratio": 1.0}
+#: Curves of the plane, by their names.
+CURVES = {
+    "circle_points": _("circle points"),
+    "centre_points": pgettext("synthesize", "centre points"),
+}
+#: What a function gives, by its kind.
+AXES = {
+    "angle": _("output (°)"),
+    "place": _("place of the slider (mm)"),
+    "ratio": _("force ratio P/F"),
+}
 
 
 @result_diagram("synthesis", Synthesis)
@@ -42,7 +53,7 @@ def _plane(axes: Axes, result: Synthesis, language: str, legend: Legend) -> None
     for name, curve in result.curves.items():
         colour = FAINT if "centre" in name else "#d9a13b"
         (dots,) = axes.plot(*_places(curve), ".", ms=2.5, color=colour)
-        legend.add(say(f"synthesize.legend.{name}", language), dots)
+        legend.add(say(CURVES[name], language), dots)
     for number, each in enumerate(result.candidates[:SHOWN]):
         colour = COLOURS[number % len(COLOURS)]
         label = _("candidate {number}", number=number + 1).translate(language)
@@ -81,7 +92,7 @@ def _function(axes: Axes, result: Synthesis, language: str) -> None:
     if target is not None and not np.iscomplexobj(target):
         axes.plot(*(factors * target), "o", ms=4, mfc="none", color=INK)
     axes.set_xlabel(_("input (°)").translate(language))
-    axes.set_ylabel(say(f"synthesize.axis.{kind}", language))
+    axes.set_ylabel(say(AXES[kind], language))
 
 
 def _links(axes: Axes, each: Candidate, colour: str) -> Any:
@@ -126,8 +137,12 @@ def draw_structural_error(result: Synthesis, request: Request) -> Figure:
     if result.error_name not in ("angle", "length"):
         axes.locator_params(axis="x", integer=True)
     axes.set_xlabel(label)
-    key = "angle" if angles else "length"
-    axes.set_ylabel(say(f"synthesis_steps.axis.deviation_{key}", request.language))
+    axes.set_ylabel(
+        say(
+            _("deviation (°)") if angles else _("deviation (mm)"),
+            request.language,
+        )
+    )
     axes.margins(x=0.05, y=0.15)
     framed(figure, title_said(result, speaker(request.language)), request)
     return figure

@@ -15,6 +15,7 @@ from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_f
 from linkwright.plot.diagrams.axes import Legend
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.names import draw_support
+from linkwright.plot.result_diagrams.synthesis import CURVES
 from linkwright.synthesis.motion_generation.generate import MotionDerivation
 from linkwright.synthesis.requirements.crank_rocker import CrankRockerDerivation, QuickReturnDerivation
 from linkwright.synthesis.requirements.slider_crank import SliderCrankDerivation
@@ -164,7 +165,7 @@ def motion(plane: Plane, d: MotionDerivation, result: Synthesis) -> None:
         curve = whole[np.abs(whole - middle) <= reach]
         colour = FAINT if "centre" in name else "#d9a13b"
         (dots,) = plane.axes.plot(1e3 * curve.real, 1e3 * curve.imag, ".", ms=2, color=colour)
-        plane.legend.add(plane.say(f"synthesize.legend.{name}"), dots)
+        plane.legend.add(plane.say(CURVES[name]), dots)
     size = AXES * max(result.extent, 1e-9)
     for number, (place, angle) in enumerate(zip(d.p, d.phi, strict=True), 1):
         if not math.isnan(angle):

@@ -18,6 +18,12 @@ from linkwright.words.sentence import in_language
 
 #: Share of the page's width that a diagram takes, and one with a function beside the linkages.
 WIDTH, WIDE = 0.75, 1.0
+#: Captions of diagrams.
+CAPTIONS = {
+    "synthesis": _("The best candidates, their curves, and what was demanded"),
+    "structural_error": _("Deviation at every demanded position"),
+    "construction": _("Construction, to scale"),
+}
 
 
 @section("synthesis", _("Synthesis"), 12.0, optional=True)
@@ -77,7 +83,7 @@ def _figure(found: Synthesis, kind: str, language: str) -> Iterator[Block]:
 
     if not RESULT_DIAGRAMS[kind].suits(found):
         return
-    caption = speaker(language)(f"synthesis_steps.caption.{kind}")
+    caption = speaker(language)(CAPTIONS[kind])
     try:
         yield Figure(
             caption, ((picture(found.plot(kind, language=language, title="")), _width(found, kind)),)

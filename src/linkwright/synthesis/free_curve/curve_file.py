@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from linkwright.core.arrays import Complexes
-from linkwright.synthesis.result import refuse
+from linkwright.synthesis.result import FREE_CURVE_FILE, FREE_CURVE_NO_PATH, SynthesisError
+from linkwright.words import _
 
 _TOKEN = re.compile(r"([MmLlHhVvCcSsQqTtAaZz])|([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|([^\s,])")
 #: What begins as a number does, and two numbers with commas between blanks.
@@ -26,7 +27,7 @@ def read_curve(path: Path) -> Complexes:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError):
-        raise refuse("free_curve.file", path=path) from None
+        raise SynthesisError(FREE_CURVE_FILE.format(path=path)) from None
     return _svg(text, path) if path.suffix.lower() == ".svg" else _columns(text, path)
 
 
@@ -48,10 +49,24 @@ def _columns(text: str, path: Path) -> Complexes:
         if point is None and not found and not _NUMBER.match(plain):
             continue
         if point is None or (not decimal and _EITHER.match(plain)):
-            raise refuse("free_curve.line", path=path, line=number, text=line.strip()[:40])
+            raise SynthesisError(
+                _(
+                    '{path}, line {line}: "{text}" are not two numbers; give x and y, such as 1.5, 2.0',
+                    code="synthesize.free_curve.line",
+                    path=path,
+                    line=number,
+                    text=line.strip()[:40],
+                )
+            )
         found.append(point)
     if len(found) < 2:
-        raise refuse("free_curve.few", path=path)
+        raise SynthesisError(
+            _(
+                '"{path}" has fewer than two points; give x and y on each line',
+                code="synthesize.free_curve.few",
+                path=path,
+            )
+        )
     return np.array(found)
 
 
@@ -71,7 +86,7 @@ def _svg(text: str, path: Path) -> Complexes:
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError:
-        raise refuse("free_curve.file", path=path) from None
+        raise SynthesisError(FREE_CURVE_FILE.format(path=path)) from None
     for element in root.iter():
         name = str(element.tag).rpartition("}")[2]
         if name == "path" and element.get("d"):
@@ -79,17 +94,17 @@ def _svg(text: str, path: Path) -> Complexes:
         if name in ("polyline", "polygon") and element.get("points"):
             end = "Z" if name == "polygon" else ""
             return path_points(f"M {element.get('points')} {end}", path).conj()
-    raise refuse("free_curve.no_path", path=path)
+    raise SynthesisError(FREE_CURVE_NO_PATH.format(path=path))
 
 
 def path_points(text: str, path: Path) -> Complexes:
     """Points along the first subpath of an SVG path's data."""
     tokens = [match.groups() for match in _TOKEN.finditer(text)]
     if not tokens or any(wrong for _, _, wrong in tokens) or tokens[0][0] not in ("M", "m"):
-        raise refuse("free_curve.no_path", path=path)
+        raise SynthesisError(FREE_CURVE_NO_PATH.format(path=path))
     pen = _Pen()
     command, numbers = "", [float("nan")] * 0
-    for letter, number, _ in [*tokens, ("Z" if tokens[-1][0] in ("Z", "z") else "", "", "")]:
+    for letter, number, _unused in [*tokens, ("Z" if tokens[-1][0] in ("Z", "z") else "", "", "")]:
         if number:
             numbers.append(float(number))
             takes = _TAKES.get(command.upper(), 0)
@@ -104,7 +119,7 @@ def path_points(text: str, path: Path) -> Complexes:
             break
         command, numbers = letter, []
     if len(pen.points) < 2:
-        raise refuse("free_curve.no_path", path=path)
+        raise SynthesisError(FREE_CURVE_NO_PATH.format(path=path))
     return np.array(pen.points)
 
 

@@ -21,7 +21,17 @@ from linkwright.synthesis.free_curve.search import JOINTS, Search
 from linkwright.synthesis.free_curve.target import Target
 from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.requirements.slider_crank import not_negative, positive
-from linkwright.synthesis.result import Candidate, Derivation, Synthesis, note, refuse, whole
+from linkwright.synthesis.result import (
+    FREE_CURVE_NO_CURVE,
+    ONLY_WITH,
+    PATH_ONE_PLACE,
+    TRANSMISSION_RANGE,
+    Candidate,
+    Derivation,
+    Synthesis,
+    SynthesisError,
+    whole,
+)
 from linkwright.words import _
 
 #: Positions of a candidate's curve.
@@ -30,6 +40,31 @@ SHOWN = 721
 FARTHEST, LEAST = 1e9, 1e-12
 #: Designs are alike whose error (share), transmission angle (rad) and size (rms radii) differ less.
 ALIKE = 0.02, 0.03, 0.2
+#: What all linkages found keep to, and that none does: where the input turns fully, and where it may swing.
+TURNING = (
+    _(
+        "The crank turns fully; transmission angle of every dyad at least {angle} deg over the "
+        "whole turn, every joint within {size} rms radii of the curve's centroid.",
+        code="synthesize.free_curve.turning",
+    ),
+    _(
+        "no linkage was found that turns fully with transmission angles of {angle} deg within "
+        "{size} rms radii; ask for less, or give more seconds (the nearest ones are shown)",
+        code="synthesize.free_curve.none_turning",
+    ),
+)
+SWINGING = (
+    _(
+        "The input may swing; while it draws, the transmission angle of every dyad is at least "
+        "{angle} deg and every joint within {size} rms radii of the curve's centroid.",
+        code="synthesize.free_curve.swinging",
+    ),
+    _(
+        "no linkage was found that draws the curve with transmission angles of {angle} deg "
+        "within {size} rms radii; ask for less, or give more seconds (the nearest ones are shown)",
+        code="synthesize.free_curve.none_swinging",
+    ),
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,13 +138,26 @@ def free_curve(
     whole(seed=seed, least=0)
     whole(joints=joints, least=JOINTS[0])
     if joints > JOINTS[-1]:
-        raise refuse("free_curve.joints", given=joints, most=JOINTS[-1])
+        raise SynthesisError(
+            _(
+                "a search with at most {given} joints cannot be made; ask for 5 (four-bar, slider-crank) "
+                "to {most}",
+                code="synthesize.free_curve.joints",
+                given=joints,
+                most=JOINTS[-1],
+            )
+        )
     if not 0 < transmission_angle < math.pi / 2:
-        raise refuse("transmission_range", given=f"{math.degrees(transmission_angle):g}")
+        raise SynthesisError(TRANSMISSION_RANGE.format(given=f"{math.degrees(transmission_angle):g}"))
     positive(size=size, seconds=seconds)
     not_negative(error=error)
     if not available():
-        raise refuse("free_curve.compiler")
+        raise SynthesisError(
+            _(
+                "free curves need llvmlite, which does not run here; install it, or use the task path",
+                code="synthesize.free_curve.compiler",
+            )
+        )
     target = Target(curve, closes, transmission_angle, size, turning)
     search = Search(target, int(joints), seconds, int(seed), progress or current_progress())
     return _ranked(target, search.run(), curve, error, int(count), search)
@@ -119,20 +167,27 @@ def _curve(
     points: ArrayLike | None, file: str | Path | None, unit: float | None, closed: bool | None
 ) -> tuple[Complexes, bool]:
     if (points is None) == (file is None):
-        raise refuse("free_curve.no_curve")
+        raise SynthesisError(FREE_CURVE_NO_CURVE)
     if unit is not None and file is None:
-        raise refuse("task.only_with", demand="file_unit", needs="file")
+        raise SynthesisError(ONLY_WITH.format(demand="file_unit", needs="file"))
     unit = 1e-3 if unit is None else unit
     positive(file_unit=unit)
     z = complex_points(points) if points is not None else unit * read_curve(Path(str(file)))
     if not len(z):
-        raise refuse("free_curve.no_curve")
+        raise SynthesisError(FREE_CURVE_NO_CURVE)
     far = float(np.abs([z.real, z.imag]).max())
     if not far < FARTHEST:
-        raise refuse("free_curve.far", given=f"{far:.3g}", most=f"{FARTHEST:g}")
+        raise SynthesisError(
+            _(
+                "the curve has a coordinate of {given} m; give coordinates below {most} m (see its unit)",
+                code="synthesize.free_curve.far",
+                given=f"{far:.3g}",
+                most=f"{FARTHEST:g}",
+            )
+        )
     z = z[np.append(True, np.abs(np.diff(z)) > 0)]
     if np.abs(z - z[0]).max() < LEAST * max(1.0, far):
-        raise refuse("path.one_place")
+        raise SynthesisError(PATH_ONE_PLACE)
     joined = abs(z[-1] - z[0]) < 1e-9 * np.abs(z - z[0]).max()
     closes = joined if closed is None else closed
     return (z[:-1] if joined and closes else z), bool(closes)
@@ -143,9 +198,16 @@ def _ranked(
 ) -> Synthesis:
     found = [(each, _facts(each, target)) for each in designs]
     within = [(each, facts) for each, facts in found if Placed(each, target).keeps()]
-    how = "turning" if target.turning else "swinging"
+    kept_to, none = TURNING if target.turning else SWINGING
     asked = {"angle": f"{math.degrees(target.least):g}", "size": f"{target.largest:g}"}
-    notes = [note(f"free_curve.{how}", **asked), note("free_curve.measure")]
+    notes = [
+        kept_to.format(**asked),
+        _(
+            "drawn_as_given: 1 where the curve is drawn in the order of its points, 0 backwards; "
+            "fastest_at_1_Hz: greatest speed at one turn per second, m/s.",
+            code="synthesize.free_curve.measure",
+        ),
+    ]
     kept = surrounding()
     if search.stopped and not within:
         raise KeyboardInterrupt
@@ -171,7 +233,7 @@ def _ranked(
             if nearest
             else None
         )
-        raise refuse(f"free_curve.none_{how}", near, **asked)
+        raise SynthesisError(none.format(**asked), near)
     front = _front(within)
     good = sorted(
         (each for each in front if each[1][0] <= error), key=lambda each: (each[0].links, each[1][0])
@@ -183,7 +245,16 @@ def _ranked(
         "free_curve", made, "curve", _shown(curve, target.closed), counts, tuple(notes), derivation=derivation
     )
     if error and not good:
-        raise refuse("free_curve.error", result, given=f"{error:g}", least=f"{made[0].error:.3g}")
+        raise SynthesisError(
+            _(
+                "no linkage was found within the error {given}; the least is {least} (shown); allow more "
+                "joints or more seconds",
+                code="synthesize.free_curve.error",
+                given=f"{error:g}",
+                least=f"{made[0].error:.3g}",
+            ),
+            result,
+        )
     return result
 
 

@@ -31,23 +31,34 @@ from linkwright.synthesis.function_generation.generators import (
     TurningFourBar,
 )
 from linkwright.synthesis.merit import merit
+from linkwright.synthesis.names import DEFECTS, TYPE_NAMES
 from linkwright.synthesis.requirements.slider_crank import multiple, positive
 from linkwright.synthesis.result import (
+    FUNCTION_NONE,
+    NOT_POSITIVE,
+    NOT_WITH,
+    ONLY_WITH,
+    TOO_ROUNDED,
     Candidate,
     Derivation,
     Synthesis,
     SynthesisError,
     allowed_transmission,
     different,
-    note,
     ranked,
-    refuse,
     whole,
 )
+from linkwright.words import _
 
 FINE = 181
 #: Candidates whose points differ less than this share of their size are one.
 DISTINCT = 0.01
+#: What to do where no linkage is good enough, by how it was found.
+HINTS = {
+    "exact": _('give "least_squares: true", which allows a small error'),
+    "equation": _('leave out "equation_error", which allows other link lengths'),
+    "fitted": _("leave more numbers free or change the function"),
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,7 +177,7 @@ def _rounded(found: Synthesis, demand: FunctionDemand, quality: Quality, roundin
     good = [one for each, one in made
             if one is not None and set(one.defects) <= set(each.defects) and quality.of(one)[0]]  # fmt: skip
     if not good or good[0] is not made[0][1]:
-        raise refuse("rounding", found, given=f"{1e3 * rounding:g}")
+        raise SynthesisError(TOO_ROUNDED.format(given=f"{1e3 * rounding:g}"), found)
     derivation = found.derivation
     if isinstance(derivation, FunctionDerivation):
         derivation = replace(derivation, unrounded=_sides(found.best))
@@ -204,7 +215,7 @@ def _applicable(
     """Raises SynthesisError for a demand that the kind of linkage does not have."""
     slider = linkage == "slider_crank"
     if places is not None and np.size(outputs):
-        raise refuse("task.not_with", demand="places", other='"outputs"')
+        raise SynthesisError(NOT_WITH.format(demand="places", other='"outputs"'))
     for demand, given, needs in (
         ("gear_ratio", gear_ratio is not None and linkage != "geared_five_bar", "geared_five_bar"),
         ("equation_error", equation_error and linkage != "four_bar", "four_bar"),
@@ -212,9 +223,9 @@ def _applicable(
         ("places", places is not None and not slider, "slider_crank"),
     ):
         if given:
-            raise refuse("task.only_with", demand=demand, needs=f"linkage: {needs}")
+            raise SynthesisError(ONLY_WITH.format(demand=demand, needs=f"linkage: {needs}"))
     if frame is not None and slider:
-        raise refuse("task.not_with", demand="frame", other='"linkage: slider_crank"')
+        raise SynthesisError(NOT_WITH.format(demand="frame", other='"linkage: slider_crank"'))
 
 
 def _values(given: ArrayLike) -> Floats:
@@ -227,13 +238,34 @@ def _values(given: ArrayLike) -> Floats:
 
 def _check(x: Floats, y: Floats, linkage: str, frame: float) -> None:
     if linkage not in KINDS:
-        raise refuse("function.linkage", linkage=linkage, known=tuple(KINDS))
+        raise SynthesisError(
+            _(
+                'there is no function generator "{linkage}"; known: {known}',
+                code="synthesize.function.linkage",
+                linkage=linkage,
+                known=tuple(KINDS),
+            )
+        )
     if x.ndim != 1 or x.shape != y.shape or not np.isfinite(np.concatenate([x, y])).all():
-        raise refuse("function.values", inputs=x.size, outputs=y.size)
+        raise SynthesisError(
+            _(
+                "inputs and outputs must be lists of the same number of finite values; given: {inputs} "
+                "and {outputs}",
+                code="synthesize.function.values",
+                inputs=x.size,
+                outputs=y.size,
+            )
+        )
     if len(x) < 3:
-        raise refuse("function.few", count=len(x))
+        raise SynthesisError(
+            _(
+                "{count} pairs of values are too few for a function; give 3 or more",
+                code="synthesize.function.few",
+                count=len(x),
+            )
+        )
     if not 0 < real("frame", frame, finite=False) < math.inf:
-        raise refuse("not_positive", name="frame", given=f"{frame:g}")
+        raise SynthesisError(NOT_POSITIVE.format(name="frame", given=f"{frame:g}"))
 
 
 def _distinct(x: Floats, y: Floats, fitting: bool) -> None:
@@ -242,16 +274,38 @@ def _distinct(x: Floats, y: Floats, fitting: bool) -> None:
     What is ``fitting`` may hold a pair twice, but not one input with two outputs.
     """
     if np.ptp(y) <= 1e-12 * max(1e-300, float(np.abs(y).max())):
-        raise refuse("function.constant")
+        raise SynthesisError(
+            _(
+                "all outputs are equal: no linkage of this kind stands still while its input moves; the "
+                "task dwell has one that rests for a part of the turn",
+                code="synthesize.function.constant",
+            )
+        )
     same = np.triu(np.abs(np.exp(1j * x[:, None]) - np.exp(1j * x)) < 1e-9, 1)
     apart = np.where(same, np.abs(y[:, None] - y), -1.0)
     full = np.abs(apart - 2 * np.pi) < 1e-9
     apart = np.where(full, 0.0, apart)
     i, j = np.unravel_index(int(apart.argmax()), apart.shape)
     if not fitting and 0 <= apart[i, j] <= 1e-9:
-        raise refuse("function.same", first=int(i) + 1, second=int(j) + 1)
+        raise SynthesisError(
+            _(
+                "pairs {first} and {second} are the same; leave one out",
+                code="synthesize.function.same",
+                first=int(i) + 1,
+                second=int(j) + 1,
+            )
+        )
     if apart[i, j] > 1e-9:
-        raise refuse("function.repeated", first=int(i) + 1, second=int(j) + 1, apart=f"{apart[i, j]:.4g}")
+        raise SynthesisError(
+            _(
+                "pairs {first} and {second} have the same input, and their outputs are {apart} apart, "
+                "half of which every linkage is off at one of them; leave one out",
+                code="synthesize.function.repeated",
+                first=int(i) + 1,
+                second=int(j) + 1,
+                apart=f"{apart[i, j]:.4g}",
+            )
+        )
 
 
 def _exact(demand: FunctionDemand, quality: Quality, frame: float, count: int, seed: int) -> Synthesis:
@@ -265,8 +319,16 @@ def _exact(demand: FunctionDemand, quality: Quality, frame: float, count: int, s
     if not len(zeros):
         nearest = _fitted(KINDS["four_bar"](), demand, Quality(), frame, count, seed)
         error = f"{nearest.best.error:.4g}"
-        raise refuse(
-            "function.exact", nearest, linkage=note("type.four_bar"), count=len(demand.inputs), error=error
+        raise SynthesisError(
+            _(
+                "no real {linkage} has the given zero angles and meets all {count} positions exactly; "
+                "the nearest solution has a greatest error of {error}",
+                code="synthesize.function.exact",
+                linkage=TYPE_NAMES["four_bar"],
+                count=len(demand.inputs),
+                error=error,
+            ),
+            nearest,
         )
     pin: Complexes = lengths[:, :1] * np.exp(1j * (demand.inputs + zeros[:, :1]))
     joint = 1 + lengths[:, 2:] * np.exp(1j * (demand.outputs + zeros[:, 1:]))
@@ -294,8 +356,16 @@ def _exact(demand: FunctionDemand, quality: Quality, frame: float, count: int, s
     chosen = different(tuple(made), DISTINCT * frame)[:count]
     result = Synthesis("function", chosen, "angle", target, counts, derivation=derivation)
     if made[0].defects:
-        why = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in made[0].defects))
-        raise refuse("function.no_movable", result, linkage=note("type.four_bar"), why=why)
+        why = tuple(DEFECTS[name] for name in made[0].defects)
+        raise SynthesisError(
+            _(
+                "every {linkage} that meets the positions exactly has defects; the best one has: {why}",
+                code="synthesize.function.no_movable",
+                linkage=TYPE_NAMES["four_bar"],
+                why=why,
+            ),
+            result,
+        )
     if not good:
         raise _short(quality, result, "four_bar", "exact")
     return result
@@ -326,14 +396,14 @@ def _by_equation(demand: FunctionDemand, quality: Quality, frame: float) -> Synt
     a, b, c = equation.lengths
     given = replace(demand, input_zero=zeros[0], output_zero=zeros[1] + (np.pi if c < 0 else 0.0))
     if not np.isfinite(a + b + c):
-        raise refuse("function.none", linkage=note("type.four_bar"))
+        raise SynthesisError(FUNCTION_NONE.format(linkage=TYPE_NAMES["four_bar"]))
     generator = KINDS["four_bar"]()
     start = zeros[0] + (np.pi if a < 0 else 0.0)
     x = np.array([[math.log(abs(a)), math.log(b), math.log(abs(c)), start]])
     sides = [_candidate(generator, given, x, np.array([[side]]), frame) for side in (-1.0, 1.0)]
     chosen = ranked([each for each in sides if each is not None], demand.size)[:1]
     if not chosen:
-        raise refuse("function.none", linkage=note("type.four_bar"))
+        raise SynthesisError(FUNCTION_NONE.format(linkage=TYPE_NAMES["four_bar"]))
     derivation = FunctionDerivation(
         "equation", demand.inputs, demand.outputs, zeros, (False, False), frame, equation=equation
     )
@@ -347,15 +417,26 @@ def _by_equation(demand: FunctionDemand, quality: Quality, frame: float) -> Synt
 def _short(quality: Quality, nearest: Synthesis, linkage: str, how: str) -> SynthesisError:
     """The refusal of what no linkage has that was found: an input that turns, or the transmission angle."""
     turned = quality.of(nearest.best)[1] > 0
-    rule = "function.transmission" if turned else "function.no_turn"
-    return refuse(
-        rule,
-        nearest,
-        linkage=note(f"type.{linkage}"),
+    rule = (
+        _(
+            "no {linkage} was found with a smallest transmission angle of {asked} deg; the largest "
+            "found is {most} deg (the nearest solution is shown): ask for less, or {hint}",
+            code="synthesize.function.transmission",
+        )
+        if turned
+        else _(
+            "no {linkage} was found whose input turns fully (the nearest solution is shown); leave "
+            '"turning" out, or {hint}',
+            code="synthesize.function.no_turn",
+        )
+    )
+    told = rule.format(
+        linkage=TYPE_NAMES[linkage],
         asked=number(quality.transmission, "angle", 5),
         most=f"{math.floor(100 * math.degrees(nearest.best.transmission_angle)) / 100:g}",
-        hint=note(f"function.hint.{how}"),
+        hint=HINTS[how],
     )
+    return SynthesisError(told, nearest)
 
 
 def _four_bar_curve(demand: FunctionDemand, pin: Complexes, joint: Complexes, zero: float) -> Floats:
@@ -392,7 +473,7 @@ def _fitted(
         if good:
             break
     if not made:
-        raise refuse("function.none", linkage=note(f"type.{generator.name}"))
+        raise SynthesisError(FUNCTION_NONE.format(linkage=TYPE_NAMES[generator.name]))
     extent = 0.0 if generator.output_is_angle else float(np.ptp(demand.outputs))
     order = ranked(good, demand.size, extent) if good else _by_quality(made, quality)
     chosen = different(order, DISTINCT * scale)[:count]

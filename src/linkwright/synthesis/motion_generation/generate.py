@@ -42,21 +42,28 @@ from linkwright.synthesis.motion_generation.families import (
     usual_window,
 )
 from linkwright.synthesis.motion_generation.mixed_poses import counted_solutions, mixed_solutions
+from linkwright.synthesis.names import DEFECTS
 from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import (
+    LINK_RATIO_UNMET,
+    MOTION_FITTED,
+    MOTION_NO_MOVABLE,
+    MOTION_NO_PAIRS,
+    MOTION_POSES,
+    NOT_WITH,
+    POINTS,
     Candidate,
     Derivation,
     Synthesis,
     SynthesisError,
     different,
     merits,
-    note,
     ranked,
     ranking,
-    refuse,
     whole,
 )
+from linkwright.words import _
 
 Pose = Sequence[float]
 
@@ -136,7 +143,7 @@ def motion_generation(
     if not good:
         nearest = replace(found, candidates=tuple(sorted(found, key=lambda each: each.link_ratio)))
         least = f"{math.ceil(1e3 * nearest.best.link_ratio) / 1e3:g}"
-        raise refuse("link_ratio_unmet", nearest, given=f"{link_ratio:g}", least=least)
+        raise SynthesisError(LINK_RATIO_UNMET.format(given=f"{link_ratio:g}", least=least), nearest)
     return replace(found, candidates=good)
 
 
@@ -162,11 +169,19 @@ def _applicable(phi: Floats, within: object, line: object, **pivots: Sequence[ob
     named = [name for name, given in pivots.items() if len(given)]
     lines = named + ["pivot_line"] * (line is not None) + ["within"] * (within is not None)
     if lines and np.isnan(phi).any():
-        raise refuse("task.not_with", demand=lines[0], other=note("motion.free_angles"))
+        raise SynthesisError(
+            NOT_WITH.format(
+                demand=lines[0], other=_("poses whose angle is free", code="synthesize.motion.free_angles")
+            )
+        )
     if line is not None and named:
-        raise refuse("task.not_with", demand="pivot_line", other=f'"{named[0]}"')
+        raise SynthesisError(NOT_WITH.format(demand="pivot_line", other=f'"{named[0]}"'))
     if within is not None and sum(len(given) for given in pivots.values()) > 1:
-        raise refuse("task.not_with", demand="within", other=note("motion.two_pivots"))
+        raise SynthesisError(
+            NOT_WITH.format(
+                demand="within", other=_("two or more given pivots", code="synthesize.motion.two_pivots")
+            )
+        )
 
 
 def _guided(
@@ -182,7 +197,15 @@ def _guided(
     found, error = _all_dyads(p, phi, window, fixed_pivots, moving_pivots, pivot_line)
     counts = {"dyads": len(found), "sliders": int(found.slides.sum())}
     if len(found) < 2 and len(p) == 5:
-        raise refuse("motion.no_dyads", _nearest(p, phi, link_ratio, count), real=len(found))
+        raise SynthesisError(
+            _(
+                "{real} real Burmester dyads fit the five poses, two are needed; the nearest solution is "
+                "that of least squares, with the errors shown",
+                code="synthesize.motion.no_dyads",
+                real=len(found),
+            ),
+            _nearest(p, phi, link_ratio, count),
+        )
     if within is not None and not len(fixed_pivots) + len(moving_pivots):
         inside = np.flatnonzero(held(found, window))
         found, error = found[inside], error[inside]
@@ -194,12 +217,12 @@ def _guided(
         derivation=_derivation(p, phi, link_ratio),
     )  # fmt: skip
     if not chosen:
-        raise refuse("motion.no_pairs")
+        raise SynthesisError(MOTION_NO_PAIRS)
     if all(each.defects for each in chosen):
-        flaws = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in chosen[0].defects))
-        raise refuse("motion.no_movable", result, why=flaws)
+        flaws = tuple(DEFECTS[name] for name in chosen[0].defects)
+        raise SynthesisError(MOTION_NO_MOVABLE.format(why=flaws), result)
     if len(p) > 5:
-        result = replace(result, notes=(note("motion.fitted", poses=len(p)),))
+        result = replace(result, notes=(MOTION_FITTED.format(poses=len(p)),))
     return result
 
 
@@ -212,7 +235,7 @@ def _window(corners: tuple[tuple[float, float], tuple[float, float]]) -> Window:
 def _two_points(given: Sequence[Sequence[float]]) -> tuple[complex, complex]:
     found = complex_points(given)
     if len(found) != 2:
-        raise refuse("points")
+        raise SynthesisError(POINTS)
     return complex(found[0]), complex(found[1])
 
 
@@ -220,9 +243,9 @@ def _read(poses: ArrayLike) -> tuple[Complexes, Floats]:
     try:
         given = np.asarray(poses, float)
     except (TypeError, ValueError):
-        raise refuse("motion.poses") from None
+        raise SynthesisError(MOTION_POSES) from None
     if given.ndim != 2 or given.shape[1] != 3 or len(given) < 2 or not np.isfinite(given[:, :2]).all():
-        raise refuse("motion.poses")
+        raise SynthesisError(MOTION_POSES)
     p, phi = given[:, 0] + 1j * given[:, 1], given[:, 2]
     size = np.ptp(p.real) + np.ptp(p.imag)
     same = [
@@ -232,7 +255,14 @@ def _read(poses: ArrayLike) -> tuple[Complexes, Floats]:
         if abs(p[i] - p[j]) <= 1e-12 * size and abs(cmath.exp(1j * (phi[i] - phi[j])) - 1) < 1e-12
     ]
     if same:
-        raise refuse("motion.same", first=same[0][1], second=same[0][0])
+        raise SynthesisError(
+            _(
+                "poses {first} and {second} are the same; leave one out",
+                code="synthesize.motion.same",
+                first=same[0][1],
+                second=same[0][0],
+            )
+        )
     return p, phi
 
 
@@ -245,31 +275,73 @@ def _special(p: Complexes, phi: Floats, link_ratio: float, count: int) -> None:
         pole = complex(np.linalg.lstsq((e - 1)[:, None], -d, rcond=None)[0][0])
         if np.abs(d + (e - 1) * pole).max() <= 1e-9 * (size + abs(pole)):
             place = p[0] + pole
-            raise refuse("motion.one_pin", x=f"{place.real:.6g}", y=f"{place.imag:.6g}")
+            raise SynthesisError(
+                _(
+                    "all poses are turns about one point, ({x}, {y}) m: a single pin there guides the body, "
+                    "and no linkage is needed; move a pose if a four-bar is wanted",
+                    code="synthesize.motion.one_pin",
+                    x=f"{place.real:.6g}",
+                    y=f"{place.imag:.6g}",
+                )
+            )
     if turns or len(p) < 3:
         return
     if np.linalg.matrix_rank(np.stack([d.real, d.imag]), 1e-9 * size) < 2:
-        raise refuse("motion.slide")
+        raise SynthesisError(
+            _(
+                "the poses do not turn and lie on one line: a straight guide leads the body, and no "
+                "four-bar does; turn or move a pose",
+                code="synthesize.motion.slide",
+            )
+        )
     found = circles(size * AROUND, p, d, e)
     off = np.abs(found.positions - found.centre[:, None])
     error = ((off - off.mean(1, keepdims=True)) ** 2).sum(1)
     if np.sqrt(error.max()) > 1e-9 * size:
         made = _pairs(found, error, p, phi, link_ratio, count)
-        notes = (note("motion.fitted", poses=len(p)),)
+        notes = (MOTION_FITTED.format(poses=len(p)),)
         nearest = Synthesis("motion", made, "deviation", _shown(p, phi), notes=notes, extent=extent_of(p))
-        raise refuse("motion.no_turn", nearest, off=f"{np.sqrt(error.max() / len(p)):.4g}")
+        raise SynthesisError(
+            _(
+                "the poses do not turn, so all points of the body move alike, and their places lie on no "
+                "circle: the nearest parallelogram is off by {off} m (shown); turn a pose or move it",
+                code="synthesize.motion.no_turn",
+                off=f"{np.sqrt(error.max() / len(p)):.4g}",
+            ),
+            nearest,
+        )
 
 
 def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesis:
     """Poses some of whose angles are free."""
     if len(p) < 3:
-        raise refuse("motion.mixed", poses=len(p))
+        raise SynthesisError(
+            _(
+                "{poses} poses are too few where angles are free; give three or more",
+                code="synthesize.motion.mixed",
+                poses=len(p),
+            )
+        )
     every = counted_solutions(p, phi)
-    notes = (note("motion.mixed_note", free=int(np.isnan(phi).sum())),)
+    notes = (
+        _(
+            "{free} angles are free: solutions from many starts, not provably all",
+            code="synthesize.motion.mixed_note",
+            free=int(np.isnan(phi).sum()),
+        ),
+    )
     counts = {}
     if every is not None:
         counts = {"solutions": every[1], "real": len(every[0])}
-        notes = (note("motion.mixed_all", found=every[1], known=every[2], real=len(every[0])),)
+        notes = (
+            _(
+                "{found} of {known} solutions were found, {real} of them real",
+                code="synthesize.motion.mixed_all",
+                found=every[1],
+                known=every[2],
+                real=len(every[0]),
+            ),
+        )
     made: list[Candidate] = []
     for angles, pair, squares in mixed_solutions(p, phi) if every is None or not every[0] else every[0]:
         for first, second in ((0, 1), (1, 0)):
@@ -279,7 +351,7 @@ def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesi
     size = _scale(p)
     chosen = different(ranked(made, size, extent_of(p)), 0.02 * size)[:count]
     if not chosen:
-        raise refuse("motion.no_pairs")
+        raise SynthesisError(MOTION_NO_PAIRS)
     result = Synthesis(
         "motion",
         chosen,
@@ -291,10 +363,19 @@ def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesi
         derivation=MotionDerivation(p, phi, link_ratio),
     )
     if every is not None and not every[0]:
-        raise refuse("motion.mixed_none", result, found=every[1], error=f"{chosen[0].error:.4g}")
+        raise SynthesisError(
+            _(
+                "none of the {found} solutions of these poses and points is real; the nearest solution "
+                "is that of least squares, whose links' lengths differ by {error} m",
+                code="synthesize.motion.mixed_none",
+                found=every[1],
+                error=f"{chosen[0].error:.4g}",
+            ),
+            result,
+        )
     if chosen[0].defects:
-        flaws = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in chosen[0].defects))
-        raise refuse("motion.no_movable", result, why=flaws)
+        flaws = tuple(DEFECTS[name] for name in chosen[0].defects)
+        raise SynthesisError(MOTION_NO_MOVABLE.format(why=flaws), result)
     return result
 
 
@@ -305,12 +386,24 @@ def _all_dyads(
     """Dyads and the squared errors of their lengths."""
     if line is not None:
         if len(p) not in (3, 4):
-            raise refuse("motion.line", poses=len(p))
+            raise SynthesisError(
+                _(
+                    "{poses} poses do not fit pivots on a line; give three or four poses",
+                    code="synthesize.motion.line",
+                    poses=len(p),
+                )
+            )
         found = _on_line(p, phi, line)
         return found, np.zeros(len(found))
     if fixed or moving:
         if len(p) > 3:
-            raise refuse("motion.pivots", poses=len(p))
+            raise SynthesisError(
+                _(
+                    "{poses} poses leave no pivot free to be given; give pivots for two or three poses",
+                    code="synthesize.motion.pivots",
+                    poses=len(p),
+                )
+            )
         d, e = relative_poses(p, phi)
         given = [_with_centre(p, phi, complex(place)) for place in complex_points(fixed)] if fixed else []
         given += [complex(place) - p[0] for place in complex_points(moving)] if moving else []
@@ -419,7 +512,7 @@ def _nearest(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthe
     """The best linkages of least squares, where the exact ones are not real."""
     found, squares = fitted(p, phi, np.random.default_rng(0))
     chosen = _pairs(found, squares, p, phi, link_ratio, count) if len(found) > 1 else ()
-    notes = (note("motion.fitted", poses=len(p)),)
+    notes = (MOTION_FITTED.format(poses=len(p)),)
     if not chosen:
         return None
     return Synthesis("motion", chosen, "deviation", _shown(p, phi), notes=notes, extent=extent_of(p))

@@ -13,7 +13,8 @@ from linkwright.core.given import require
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.linkage import Linkage
-from linkwright.synthesis.result import Candidate, Synthesis, refuse
+from linkwright.synthesis.result import Candidate, Synthesis, SynthesisError
+from linkwright.words import _
 
 Four = tuple[complex, complex, complex, complex]
 
@@ -27,10 +28,20 @@ def cognates(linkage: Linkage) -> Synthesis:
     require(linkage, Linkage)
     points = linkage.points
     if linkage.guides or not {"O1", "A", "B", "O2", "P"} <= set(points):
-        raise refuse("cognates.four_bar")
+        raise SynthesisError(
+            _(
+                "cognates belong to a four-bar with pins and a coupler point P; give one",
+                code="synthesize.cognates.four_bar",
+            )
+        )
     o1, a, b, o2, p = (points[name] for name in ("O1", "A", "B", "O2", "P"))
     if min(abs(p - a), abs(p - b)) < 1e-9 * abs(b - a):
-        raise refuse("cognates.pin")
+        raise SynthesisError(
+            _(
+                "the coupler point lies on a pin, so its path is a circle without cognates; move it",
+                code="synthesize.cognates.pin",
+            )
+        )
     found = tuple(_candidate(each, p) for each in ((o1, a, b, o2), *both(o1, a, b, o2, p)))
     return Synthesis("cognates", found)
 

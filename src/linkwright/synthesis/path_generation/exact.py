@@ -12,10 +12,20 @@ from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.merit import extent_of, merit
+from linkwright.synthesis.names import DEFECTS
 from linkwright.synthesis.nine_points.classes import is_real, relatives
 from linkwright.synthesis.nine_points.query import NinePoints, nine_points
 from linkwright.synthesis.path_generation.generate import complex_points, path_generation
-from linkwright.synthesis.result import Candidate, Derivation, Synthesis, note, refuse, whole
+from linkwright.synthesis.result import (
+    PATH_NO_REAL,
+    PATH_ONE_PLACE,
+    Candidate,
+    Derivation,
+    Synthesis,
+    SynthesisError,
+    whole,
+)
+from linkwright.words import _
 
 #: Sum of squares below which a path of least squares passes its points exactly, in units of their size squared.
 EXACT = 1e-18
@@ -54,13 +64,27 @@ def exact_path_generation(points: ArrayLike, *, count: int = 6, seed: int = 0) -
     whole(least=0, seed=seed)
     z = complex_points(points)
     if not 3 <= len(z) <= 9:
-        raise refuse("path.exact_few", count=len(z))
+        raise SynthesisError(
+            _(
+                "exact path generation takes 3 to 9 points, given: {count}; leave angles out and use "
+                "least squares for more",
+                code="synthesize.path.exact_few",
+                count=len(z),
+            )
+        )
     size = float(np.sqrt(np.mean(np.abs(z - z.mean()) ** 2)))
     if not size > 0:
-        raise refuse("path.one_place")
+        raise SynthesisError(PATH_ONE_PLACE)
     same = np.argwhere(np.triu(np.abs(z[:, None] - z) <= 1e-9 * size, 1))
     if len(same):
-        raise refuse("path.same_point", first=int(same[0, 0]) + 1, second=int(same[0, 1]) + 1)
+        raise SynthesisError(
+            _(
+                "points {first} and {second} are the same; leave one out",
+                code="synthesize.path.same_point",
+                first=int(same[0, 0]) + 1,
+                second=int(same[0, 1]) + 1,
+            )
+        )
     if len(z) < 9:
         return _fewer(z, size, count, seed)
     found = nine_points(z)
@@ -71,7 +95,7 @@ def _fewer(z: Complexes, size: float, count: int, seed: int) -> Synthesis:
     found = path_generation(z, count=4 * count, seed=seed)
     exact = tuple(each for each in found if each.error <= EXACT * size**2 and not each.defects)
     if not exact:
-        raise refuse("path.no_real", found, count=len(z), error=f"{found.best.error:.4g}")
+        raise SynthesisError(PATH_NO_REAL.format(count=len(z), error=f"{found.best.error:.4g}"), found)
     return replace(found, task="exact_path", candidates=exact[:count], counts={"exact": len(exact)}, notes=())
 
 
@@ -80,7 +104,7 @@ def _nine(z: Complexes, found: NinePoints, count: int, seed: int) -> Synthesis:
     counts = {"classes": len(found.solutions), "real": len(real)}
     if not len(real):
         nearest = path_generation(z, count=count, seed=seed)
-        raise refuse("path.no_real", nearest, count=9, error=f"{nearest.best.error:.4g}")
+        raise SynthesisError(PATH_NO_REAL.format(count=9, error=f"{nearest.best.error:.4g}"), nearest)
     u = np.concatenate(relatives(real, found.q))
     usable = np.isfinite(u).all(1) & (np.abs(u[:, [0, 2, 4, 6]]).max(1) < 1e4)
     u = u[usable]
@@ -94,12 +118,30 @@ def _nine(z: Complexes, found: NinePoints, count: int, seed: int) -> Synthesis:
     order = np.lexsort((-merits, ~facts.sound))[:count]
     made = tuple(_candidate(z, pivots, pins, facts, int(i)) for i in order)
     counts |= {"four_bars": len(u), "sound": int(facts.sound.sum())}
-    notes = (note("path.nine", classes=counts["classes"], real=counts["real"], sound=counts["sound"]),)
+    notes = (
+        _(
+            "{classes} of 1442 classes of four-bars were found for the points; {real} of them are "
+            "real, {sound} without defects",
+            code="synthesize.path.nine",
+            classes=counts["classes"],
+            real=counts["real"],
+            sound=counts["sound"],
+        ),
+    )
     derivation = NinePointDerivation(z, counts["classes"], len(real), len(u), int(facts.sound.sum()))
     result = Synthesis("exact_path", made, "squares", z, counts, notes, extent=extent, derivation=derivation)
     if made[0].defects:
-        why = note("motion.defects", defects=tuple(note(f"defect.{name}") for name in made[0].defects))
-        raise refuse("path.no_movable", result, real=len(u), why=why)
+        why = tuple(DEFECTS[name] for name in made[0].defects)
+        raise SynthesisError(
+            _(
+                "{real} real four-bars pass exactly through the points, none in order on one branch; the "
+                "best one shows: {why}",
+                code="synthesize.path.no_movable",
+                real=len(u),
+                why=why,
+            ),
+            result,
+        )
     return result
 
 

@@ -18,16 +18,19 @@ from linkwright.synthesis.path_generation.projection import Demand
 from linkwright.synthesis.path_generation.search import Found, search
 from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import (
+    ONLY_WITH,
+    PATH_ONE_PLACE,
+    POINTS,
     Candidate,
     Derivation,
     Synthesis,
+    SynthesisError,
     allowed_transmission,
     different,
-    note,
     ranked,
-    refuse,
     whole,
 )
+from linkwright.words import _
 
 #: Solutions whose lengths agree so far (relative) are one.
 ALIKE = 1e-4
@@ -85,7 +88,7 @@ def path_generation(
     if bound is not None:
         positive(bound=bound)
     if not phase and angles is None:
-        raise refuse("task.only_with", demand="phase: false", needs="angles")
+        raise SynthesisError(ONLY_WITH.format(demand="phase: false", needs="angles"))
     demand = _demand(points, angles, phase, pivot, direction)
     rng = np.random.default_rng(seed)
     candidates = _candidates(search(demand, bound, transmission_angle, False, rng))
@@ -95,8 +98,20 @@ def path_generation(
     extent = extent_of(demand.points)
     chosen = different(ranked(candidates, demand.size**2, extent), ALIKE * demand.size)[:count]
     if not chosen:
-        raise refuse("path.none")
-    notes = (note("path.ordered"),) if chosen[0].defects else ()
+        raise SynthesisError(
+            _("no four-bar was found for the path; check the points", code="synthesize.path.none")
+        )
+    notes = (
+        (
+            _(
+                "no candidate passes the points in the given order on one branch: the best one has the "
+                "defects shown; leave out points or allow larger lengths",
+                code="synthesize.path.ordered",
+            ),
+        )
+        if chosen[0].defects
+        else ()
+    )
     derivation = PathDerivation(demand, transmission_angle, len(candidates))
     result = Synthesis(
         "path", chosen, "squares", demand.points, notes=notes, extent=extent, derivation=derivation
@@ -114,16 +129,35 @@ def _contradictions(demand: Demand, bound: float | None, result: Synthesis) -> N
         i, j = np.unravel_index(int(apart.argmax()), apart.shape)
         if apart[i, j] > 1e-9 * demand.size:
             least = f"{apart[i, j] ** 2 / 2:.4g}"
-            raise refuse(
-                "path.same_angle", result, first=i + 1, second=j + 1, apart=f"{apart[i, j]:.4g}", least=least
+            raise SynthesisError(
+                _(
+                    "points {first} and {second} have the same crank angle and lie {apart} m apart; no path "
+                    "comes below a sum of squared distances of {least} m² there (the nearest solution is "
+                    "shown); change one of the angles",
+                    code="synthesize.path.same_angle",
+                    first=i + 1,
+                    second=j + 1,
+                    apart=f"{apart[i, j]:.4g}",
+                    least=least,
+                ),
+                result,
             )
     if bound is not None:
         far = np.abs(demand.points - (demand.pivot or 0.0))
         most = bound * (1 + math.sqrt(2) * (2 if demand.pivot is None else 1))
         if far.max() > most:
             number, given = int(far.argmax()) + 1, f"{bound:.4g}"
-            raise refuse(
-                "path.reach", result, number=number, far=f"{far.max():.4g}", bound=given, most=f"{most:.4g}"
+            raise SynthesisError(
+                _(
+                    "point {number} lies {far} m away, and within the bound {bound} m a four-bar reaches "
+                    "{most} m at most; allow a larger bound (the nearest solution is shown)",
+                    code="synthesize.path.reach",
+                    number=number,
+                    far=f"{far.max():.4g}",
+                    bound=given,
+                    most=f"{most:.4g}",
+                ),
+                result,
             )
 
 
@@ -133,16 +167,35 @@ def _demand(
 ) -> Demand:  # fmt: skip
     z = complex_points(points)
     if len(z) < 3:
-        raise refuse("path.few", count=len(z))
+        raise SynthesisError(
+            _(
+                "{count} points are too few for a path; give 3 or more",
+                code="synthesize.path.few",
+                count=len(z),
+            )
+        )
     theta = np.zeros(len(z)) if angles is None else np.asarray(angles, float)
     if theta.shape != z.shape or not np.isfinite(theta).all():
-        raise refuse("path.angles", angles=int(np.isfinite(theta).sum()), points=len(z))
+        raise SynthesisError(
+            _(
+                "{angles} crank angles do not fit {points} points; give one for each point",
+                code="synthesize.path.angles",
+                angles=int(np.isfinite(theta).sum()),
+                points=len(z),
+            )
+        )
     place = None if pivot is None else complex_points([pivot])[0]
     found = Demand(z, theta, phase, angles is not None, place, direction)
     if not found.size > 0:
-        raise refuse("path.one_place")
+        raise SynthesisError(PATH_ONE_PLACE)
     if found.timed and np.abs(np.exp(1j * theta) - np.exp(1j * theta[0])).max() < 1e-9:
-        raise refuse("path.one_angle")
+        raise SynthesisError(
+            _(
+                "all points have the same crank angle, at which a coupler point is at one place; give "
+                "different angles",
+                code="synthesize.path.one_angle",
+            )
+        )
     return found
 
 
@@ -154,9 +207,9 @@ def complex_points(points: ArrayLike) -> Complexes:
             given = given[:, 0].astype(float) + 1j * given[:, 1].astype(float)
         given = given.astype(complex)
     except (ValueError, TypeError):
-        raise refuse("points") from None
+        raise SynthesisError(POINTS) from None
     if given.ndim != 1 or not np.isfinite(given).all():
-        raise refuse("points")
+        raise SynthesisError(POINTS)
     return given
 
 

@@ -19,7 +19,16 @@ from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.linkage import Guide, Linkage
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, not_negative, positive
-from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError, note, refuse, whole
+from linkwright.synthesis.result import (
+    LINK_RATIO_UNMET,
+    ONLY_WITH,
+    Candidate,
+    Derivation,
+    Synthesis,
+    SynthesisError,
+    whole,
+)
+from linkwright.words import _
 
 SAMPLES = 20_001
 #: A rocker swings less than half a turn.
@@ -89,7 +98,13 @@ def crank_rocker(
     positive(swing_angle=swing_angle, **({} if link_ratio is None else {"link_ratio": link_ratio}))
     not_negative(frame=frame, rocker=rocker)
     if not frame and not rocker:
-        raise refuse("crank_rocker.length")
+        raise SynthesisError(
+            _(
+                "a crank-rocker needs the length of its frame or of its rocker; give frame: 300 mm or "
+                "rocker: 200 mm",
+                code="synthesize.crank_rocker.length",
+            )
+        )
     theta = angle_between_limits(quick_return_ratio)
     pivots, limits = _family(swing_angle, theta)
     both = bool(frame and rocker)
@@ -110,10 +125,22 @@ def crank_rocker(
         nearest = crank_rocker(
             swing_angle, quick_return_ratio, frame, rocker=rocker, link_ratio=least, count=1
         )
-        raise refuse(
-            "link_ratio_unmet", nearest, given=f"{link_ratio:g}", least=f"{math.ceil(1e3 * least) / 1e3:g}"
+        raise SynthesisError(
+            LINK_RATIO_UNMET.format(given=f"{link_ratio:g}", least=f"{math.ceil(1e3 * least) / 1e3:g}"),
+            nearest,
         )
-    notes = () if within.any() else (note("link_ratio", least=f"{least:.4g}"),)
+    notes = (
+        ()
+        if within.any()
+        else (
+            _(
+                "no member of the family has its longest link within five times its shortest; the "
+                "smallest ratio is {least}",
+                code="synthesize.link_ratio",
+                least=f"{least:.4g}",
+            ),
+        )
+    )
     limit = usual if link_ratio is None else link_ratio
     if not within.any():
         limit = 1.05 * least
@@ -152,9 +179,22 @@ def _none(swing: float, k: float, frame: float, count: int) -> SynthesisError:
         theta *= 1 - BELOW
     near = _ratio(theta)
     nearest = crank_rocker(possible, near, frame, count=count)
-    rule = "crank_rocker.range" if possible < swing else "crank_rocker.none"
+    rule = (
+        _(
+            "no crank-rocker has the swing angle {swing} deg with K = {k}; the swing must be below "
+            "180 deg (the nearest solution swings {near_swing} deg with K = {near})",
+            code="synthesize.crank_rocker.range",
+        )
+        if possible < swing
+        else _(
+            "no crank-rocker has the swing angle {swing} deg and K = {k} on one circuit; with this "
+            "swing K stays below {most} (the nearest solution has K = {near})",
+            code="synthesize.crank_rocker.none",
+        )
+    )
     said = {"swing": f"{math.degrees(swing):g}", "k": f"{k:g}", "most": f"{_ratio(border):.5g}"}
-    return refuse(rule, nearest, near_swing=number(possible, "angle", 5), near=f"{near:.5g}", **said)
+    told = rule.format(near_swing=number(possible, "angle", 5), near=f"{near:.5g}", **said)
+    return SynthesisError(told, nearest)
 
 
 def _ratio(theta: float) -> float:
@@ -171,7 +211,15 @@ def _not_both(swing: float, k: float, frame: float, rocker: float) -> SynthesisE
         "rocker": number(rocker, "length"),
         "near": number(near, "length"),
     }
-    return refuse("crank_rocker.both", crank_rocker(swing, k, frame, rocker=near), **told)
+    return SynthesisError(
+        _(
+            "with this swing angle and K a frame of {frame} mm has no rocker of {rocker} mm; the "
+            "nearest solution has one of {near} mm",
+            code="synthesize.crank_rocker.both",
+            **told,
+        ),
+        crank_rocker(swing, k, frame, rocker=near),
+    )
 
 
 def _good(swing: float, theta: float) -> Flags:
@@ -275,14 +323,31 @@ def quick_return(
     positive(frame=frame)
     not_negative(stroke=stroke, rod=rod)
     if rod and not stroke:
-        raise refuse("task.only_with", demand="rod", needs="stroke")
+        raise SynthesisError(ONLY_WITH.format(demand="rod", needs="stroke"))
     theta = angle_between_limits(quick_return_ratio)
     if theta <= 0:
         near = quick_return(LEAST_RATIO, frame, stroke=stroke)
-        raise refuse("quick_return.one", near, near=f"{LEAST_RATIO:g}")
+        raise SynthesisError(
+            _(
+                "a crank with a slotted lever has K > 1; ask for a larger quick-return ratio (the "
+                "nearest solution has {near})",
+                code="synthesize.quick_return.one",
+                near=f"{LEAST_RATIO:g}",
+            ),
+            near,
+        )
     if math.cos(theta / 2) < 1e-6:
         near = quick_return(MOST_RATIO, frame, stroke=stroke)
-        raise refuse("quick_return.most", near, given=f"{quick_return_ratio:g}", near=f"{MOST_RATIO:g}")
+        raise SynthesisError(
+            _(
+                "K = {given} asks for a crank as long as its distance from the lever's pivot; ask for a "
+                "smaller quick-return ratio (the nearest solution has {near})",
+                code="synthesize.quick_return.most",
+                given=f"{quick_return_ratio:g}",
+                near=f"{MOST_RATIO:g}",
+            ),
+            near,
+        )
     crank = frame * math.sin(theta / 2)
     points = {"O1": 0j, "O3": -1j * frame, "A": complex(crank)}
     lever = (complex(crank) + 1j * frame) / abs(complex(crank) + 1j * frame)
@@ -299,7 +364,15 @@ def quick_return(
         length = rod or max(arm / 2, 1.1 * least)
         if length < least * (1 - 1e-9):
             near = quick_return(quick_return_ratio, frame, stroke=stroke, rod=least)
-            raise refuse("quick_return.rod", near, least=f"{least:.6g}")
+            raise SynthesisError(
+                _(
+                    "the rod is too short: the ram would turn back before the lever does; give {least} m or "
+                    "more (the nearest solution has that)",
+                    code="synthesize.quick_return.rod",
+                    least=f"{least:.6g}",
+                ),
+                near,
+            )
         points["F"] = complex(points["E"].real + math.sqrt(length**2 - sink**2), height - frame)
         links |= {"link": ("E", "F"), "ram": ("F",)}
         guides["guide"] = Guide("frame", "O3", 0.0, "ram", "F", height)

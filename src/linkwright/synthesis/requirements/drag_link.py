@@ -21,7 +21,8 @@ from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import TYPES, Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, positive
-from linkwright.synthesis.result import Derivation, Synthesis, SynthesisError, refuse
+from linkwright.synthesis.result import Derivation, Synthesis, SynthesisError
+from linkwright.words import _
 
 GRID, ROUNDS, BEST = 60_000, 40, 60
 DOUBLE = TYPES.index("double_crank")
@@ -77,13 +78,30 @@ def _none(quick_return_ratio: float, frame: float, link_ratio: float) -> Synthes
         while _best(0.0, wider)[1] <= 0:
             wider *= 1.2
         given = {"ratio": f"{link_ratio:g}", "least": f"{wider:.4g}"}
-        return refuse("drag_link.links", drag_link(1.0, frame, link_ratio=wider), **given)
+        return SynthesisError(
+            _(
+                "no drag link was found whose longest link is at most {ratio} times its shortest; allow "
+                "{least} (the nearest solution has that, with K = 1)",
+                code="synthesize.drag_link.links",
+                **given,
+            ),
+            drag_link(1.0, frame, link_ratio=wider),
+        )
     while high / low > 1.005:
         middle = math.sqrt(low * high)
         reached = _best(angle_between_limits(middle), link_ratio)[1] > 0
         low, high = (middle, high) if reached else (low, middle)
     nearest = drag_link(low, frame, link_ratio=link_ratio)
-    return refuse("drag_link.none", nearest, k=f"{quick_return_ratio:g}", most=f"{low:.4g}")
+    return SynthesisError(
+        _(
+            "no drag link was found with K = {k} and the demanded ratio of links; at most K = {most} "
+            "was reached (the nearest solution has that): lower K or allow a larger link_ratio",
+            code="synthesize.drag_link.none",
+            k=f"{quick_return_ratio:g}",
+            most=f"{low:.4g}",
+        ),
+        nearest,
+    )
 
 
 def _best(theta: float, link_ratio: float) -> tuple[Floats, float]:
@@ -94,7 +112,7 @@ def _best(theta: float, link_ratio: float) -> tuple[Floats, float]:
     x = rng.uniform(low, high, (GRID, 3))
     width = (high - low) / 8
     best, value = x[0], -1.0
-    for _ in range(ROUNDS):
+    for _unused in range(ROUNDS):
         _, score = _score(x, math.pi + theta, link_ratio)
         order = np.argsort(-score)[:BEST]
         if score[order[0]] > value:

@@ -20,7 +20,8 @@ from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.function_generation.generators import Stephenson
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.requirements.slider_crank import positive
-from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError, refuse
+from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError
+from linkwright.words import _
 
 #: Crank-rockers tried, positions of a turn, arcs kept; positions of the turn of a candidate.
 ATLAS, SAMPLES, ARCS, FINE = 4000, 72, 40, 3600
@@ -92,7 +93,15 @@ def dwell(crank_angle: float, swing_angle: float, *, frame: float = 1.0, seed: i
             nearest: Synthesis | None = dwell(*possible, frame=frame, seed=seed)
         except SynthesisError as error:
             nearest = error.nearest
-        raise refuse("dwell.range", nearest, **degrees)
+        raise SynthesisError(
+            _(
+                "the rest can last up to 180 deg of the crank, and the swing be up to 149 deg, and "
+                "{crank} deg and {swing} deg are demanded (the nearest solution is shown)",
+                code="synthesize.dwell.range",
+                **degrees,
+            ),
+            nearest,
+        )
     arcs = _arcs(crank_angle, np.random.default_rng(seed))
     fans = [_fan(arcs, i, swing_angle) for i in range(len(arcs.d))]
     made = [_output(arcs, i, fans[i], crank_angle, swing_angle, frame) for i in range(len(fans))]
@@ -114,8 +123,25 @@ def _none(
             if found is not None:
                 near = number(fans[i].travel, "angle", 4)
                 nearest = Synthesis("dwell", (found[0],), "rest", derivation=found[1])
-                return refuse("dwell.none", nearest, near=near, **degrees)
-    return refuse("dwell.no_arc", None, **degrees)
+                return SynthesisError(
+                    _(
+                        "no output was found that swings {swing} deg and rests for {crank} deg of the crank with "
+                        "a transmission angle above 30 deg; the nearest solution swings {near} deg: ask for a "
+                        "shorter rest or that swing",
+                        code="synthesize.dwell.none",
+                        near=near,
+                        **degrees,
+                    ),
+                    nearest,
+                )
+    return SynthesisError(
+        _(
+            "no stretch of a coupler curve was found that is nearly an arc over {crank} deg of the "
+            "crank (swing {swing} deg); ask for a shorter rest",
+            code="synthesize.dwell.no_arc",
+            **degrees,
+        )
+    )
 
 
 def _arcs(crank_angle: float, rng: np.random.Generator) -> Arcs:
@@ -240,7 +266,7 @@ def _refined(p: Complexes, centre: complex, rod: float, fan: Fan, swing: float) 
         return float(np.ptp(_follow(p, pivot, np.array([length]), rod, centre)[0])) - swing
 
     low, high = excess(before), excess(arm)
-    for _ in range(30):
+    for _unused in range(30):
         if not np.isfinite(low + high) or high == low or abs(high) < 1e-12:
             break
         before, arm = arm, arm - high * (arm - before) / (high - low)

@@ -18,7 +18,15 @@ from linkwright.core.given import real
 from linkwright.core.quantity import number
 from linkwright.synthesis.assessment import assess_slider_cranks
 from linkwright.synthesis.build import candidate, slider_crank
-from linkwright.synthesis.result import Derivation, Synthesis, refuse
+from linkwright.synthesis.result import (
+    NOT_POSITIVE,
+    TOO_ROUNDED,
+    TRANSMISSION_RANGE,
+    Derivation,
+    Synthesis,
+    SynthesisError,
+)
+from linkwright.words import _
 
 ROUND = 1e-12
 
@@ -52,7 +60,7 @@ def rounded_slider_crank(found: Synthesis, rounding: float) -> Synthesis:
     given = derivation.crank, derivation.rod, derivation.offset
     crank, rod, offset = (multiple(each, rounding) for each in given)
     if not crank or crank + offset > rod:
-        raise refuse("rounding", found, given=f"{1e3 * rounding:g}")
+        raise SynthesisError(TOO_ROUNDED.format(given=f"{1e3 * rounding:g}"), found)
     return _result(replace(derivation, rounded=(crank, rod, offset)))
 
 
@@ -74,7 +82,16 @@ def slider_crank_from_ratios(stroke: float, rod_ratio: float, offset_ratio: floa
     if rod_ratio < 1 + offset_ratio - ROUND or rod_ratio <= 1:
         least = max(1 + offset_ratio, 1.001)
         nearest = slider_crank_from_ratios(stroke, least, offset_ratio)
-        raise refuse("slider_crank.ratio", nearest, given=f"{rod_ratio:g}", least=f"{1 + offset_ratio:g}")
+        raise SynthesisError(
+            _(
+                "rod ratio λ = {given} is too small for the crank to turn; it needs λ ≥ 1 + ε = {least} "
+                "(the nearest solution has that)",
+                code="synthesize.slider_crank.ratio",
+                given=f"{rod_ratio:g}",
+                least=f"{1 + offset_ratio:g}",
+            ),
+            nearest,
+        )
     inner = max((rod_ratio - 1) ** 2 - offset_ratio**2, 0.0)
     crank = stroke / (math.sqrt((rod_ratio + 1) ** 2 - offset_ratio**2) - math.sqrt(inner))
     return _result(
@@ -99,13 +116,28 @@ def slider_crank_from_quick_return(stroke: float, quick_return_ratio: float, off
     if theta <= 0:
         near = min(1.02, largest)
         nearest = slider_crank_from_quick_return(stroke, near, offset)
-        raise refuse(
-            "slider_crank.no_quick_return", nearest, given=f"{quick_return_ratio:g}", near=f"{near:.6g}"
+        raise SynthesisError(
+            _(
+                "a slider-crank with offset has K > 1, and K = {given} is demanded; give offset 0 with a "
+                "rod ratio or a transmission angle, or a larger K (the nearest solution has K = {near}; "
+                "a longer rod comes nearer)",
+                code="synthesize.slider_crank.no_quick_return",
+                given=f"{quick_return_ratio:g}",
+                near=f"{near:.6g}",
+            ),
+            nearest,
         )
     if theta >= math.pi / 2 or offset > stroke / math.tan(theta) * (1 + ROUND):
         nearest = slider_crank_from_quick_return(stroke, largest, offset)
-        raise refuse(
-            "slider_crank.quick_return", nearest, given=f"{quick_return_ratio:g}", most=f"{largest:.6g}"
+        raise SynthesisError(
+            _(
+                "stroke and offset allow no quick-return ratio {given}; at most K = {most} (the nearest "
+                "solution has that)",
+                code="synthesize.slider_crank.quick_return",
+                given=f"{quick_return_ratio:g}",
+                most=f"{largest:.6g}",
+            ),
+            nearest,
         )
     difference = offset * stroke / math.sin(theta)
     total = stroke**2 / 2 + offset * stroke / math.tan(theta)
@@ -131,7 +163,7 @@ def slider_crank_from_transmission(
     positive(stroke=stroke)
     not_negative(offset=offset)
     if not 0 < transmission_angle < math.pi / 2:
-        raise refuse("transmission_range", given=number(transmission_angle, "angle"))
+        raise SynthesisError(TRANSMISSION_RANGE.format(given=number(transmission_angle, "angle")))
     slope = math.cos(transmission_angle)
 
     def excess(crank: float) -> float:
@@ -140,7 +172,7 @@ def slider_crank_from_transmission(
         return math.sqrt((rod + crank) ** 2 - offset**2) - math.sqrt(inner) - stroke
 
     low, high = 0.0, stroke / 2
-    for _ in range(200):
+    for _unused in range(200):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if excess(middle) < 0 else (low, middle)
     crank = high if offset else stroke / 2
@@ -156,8 +188,14 @@ def angle_between_limits(quick_return_ratio: float) -> float:
     """θ = π (K - 1)/(K + 1), rad; raises SynthesisError for K < 1 and infinite K."""
     positive(quick_return_ratio=quick_return_ratio)
     if not quick_return_ratio >= 1:
-        raise refuse(
-            "quick_return_below_one", given=f"{quick_return_ratio:g}", inverse=f"{1 / quick_return_ratio:.6g}"
+        raise SynthesisError(
+            _(
+                "the quick-return ratio {given} is below 1; it is slow time over fast time, 1 or more; "
+                "with the crank turning the other way it is {inverse}",
+                code="synthesize.quick_return_below_one",
+                given=f"{quick_return_ratio:g}",
+                inverse=f"{1 / quick_return_ratio:.6g}",
+            )
         )
     return math.pi * ((quick_return_ratio - 1) / (quick_return_ratio + 1))
 
@@ -166,14 +204,21 @@ def positive(**values: float) -> None:
     """Raises SynthesisError for a value that is not positive and finite."""
     for name, value in values.items():
         if not 0 < real(name, value, finite=False) < math.inf:
-            raise refuse("not_positive", name=name, given=f"{value:g}")
+            raise SynthesisError(NOT_POSITIVE.format(name=name, given=f"{value:g}"))
 
 
 def not_negative(**values: float) -> None:
     """Raises SynthesisError for a value that is negative or not finite."""
     for name, value in values.items():
         if not 0 <= real(name, value, finite=False) < math.inf:
-            raise refuse("negative", name=name, given=f"{value:g}")
+            raise SynthesisError(
+                _(
+                    "{name} is {given}; it must not be negative",
+                    code="synthesize.negative",
+                    name=name,
+                    given=f"{value:g}",
+                )
+            )
 
 
 def _result(derivation: SliderCrankDerivation) -> Synthesis:

@@ -23,7 +23,8 @@ from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import coupler_unit, four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.requirements.slider_crank import positive
-from linkwright.synthesis.result import Candidate, Derivation, Synthesis, refuse
+from linkwright.synthesis.result import NOT_POSITIVE, Candidate, Derivation, Synthesis, SynthesisError
+from linkwright.words import _
 
 SAMPLES = 361
 #: Positions of the stretch that are shown.
@@ -73,10 +74,17 @@ def straight_line(length: float, *, deviation: float | None = None, kind: str | 
     """
     positive(length=length)
     if kind is not None and kind not in KINDS:
-        raise refuse("straight_line.kind", kind=kind, known=tuple(KINDS))
+        raise SynthesisError(
+            _(
+                'there is no straight-line linkage "{kind}"; known: {known}',
+                code="synthesize.straight_line.kind",
+                kind=kind,
+                known=tuple(KINDS),
+            )
+        )
     allowed = (0.001 * length if deviation is None else deviation) / length
     if not allowed > 0:
-        raise refuse("not_positive", name="deviation", given=f"{allowed * length:g}")
+        raise SynthesisError(NOT_POSITIVE.format(name="deviation", given=f"{allowed * length:g}"))
     names = KINDS if kind is None else (kind,)
     good, within = _straight(names, length, allowed), allowed
     while not good:
@@ -86,7 +94,17 @@ def straight_line(length: float, *, deviation: float | None = None, kind: str | 
     result = Synthesis("straight_line", good, "deviation", extent=length, derivation=derivation)
     if within > allowed:
         given, least = f"{allowed * length:.4g}", f"{good[0].error:.4g}"
-        raise refuse("straight_line.none", result, kind=str(kind), given=given, least=least)
+        raise SynthesisError(
+            _(
+                "{kind} has no stretch that stays within {given} m; allow a larger deviation (the "
+                "nearest solution has {least} m)",
+                code="synthesize.straight_line.none",
+                kind=str(kind),
+                given=given,
+                least=least,
+            ),
+            result,
+        )
     return result
 
 

@@ -16,7 +16,8 @@ import numpy as np
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.build import slider_crank
 from linkwright.synthesis.requirements.slider_crank import positive
-from linkwright.synthesis.result import Candidate, Derivation, Synthesis, refuse
+from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -43,13 +44,30 @@ def toggle(force_ratio: float, distance: float, stroke: float) -> Synthesis:
     positive(force_ratio=force_ratio, distance=distance, stroke=stroke)
     if stroke < distance:
         nearest = toggle(force_ratio, distance, distance)
-        raise refuse("toggle.stroke", nearest, stroke=f"{stroke:g}", distance=f"{distance:g}")
+        raise SynthesisError(
+            _(
+                "the stroke {stroke} m is shorter than the distance {distance} m at which the force "
+                "ratio is wanted (the nearest solution has a stroke of that distance)",
+                code="synthesize.toggle.stroke",
+                stroke=f"{stroke:g}",
+                distance=f"{distance:g}",
+            ),
+            nearest,
+        )
     alpha = math.atan(1 / (2 * force_ratio))
     length = distance / (4 * math.sin(alpha / 2) ** 2)
     begin = 1 - stroke / (2 * length)
     if begin <= 0:
         longest = 2 * length
-        raise refuse("toggle.too_long", toggle(force_ratio, distance, 0.95 * longest), most=f"{longest:.6g}")
+        raise SynthesisError(
+            _(
+                "the force ratio at that distance gives links for a stroke of at most {most} m; the "
+                "nearest solution has a stroke just below it",
+                code="synthesize.toggle.too_long",
+                most=f"{longest:.6g}",
+            ),
+            toggle(force_ratio, distance, 0.95 * longest),
+        )
     first = 2 * math.asin(math.sqrt(stroke / (4 * length)))
     knee = cmath.rect(length, first)
     linkage = slider_crank(0, knee, complex(2 * length * begin), 1, span=(0.002 * first, first), turns=False)

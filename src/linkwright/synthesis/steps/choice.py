@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from linkwright.equations.steps import Step
-from linkwright.synthesis.result import defects_text, error_texts, merits, name_said
+from linkwright.synthesis.names import ERRORS, TYPE_NAMES, name_said
+from linkwright.synthesis.result import defects_text, error_texts, merits
 from linkwright.synthesis.steps.writing import Writer, decimals, numbers
 from linkwright.words import _, pgettext
 
@@ -15,11 +16,32 @@ DETERMINED = ("slider_crank", "quick_return", "toggle")
 RANKED = ("function", "motion", "path", "exact_path")
 #: Share by which errors must differ to count.
 APART = 0.0025
+#: Why the first candidate was taken, by the task.
+REASONS = {
+    "crank_rocker": _(
+        "Candidate 1 has the largest smallest transmission angle of the family, {angle}°; the "
+        "others lie evenly over it.",
+    ),
+    "drag_link": _(
+        "It has the largest smallest transmission angle that was found, {angle}°, with a ratio "
+        "of links of {ratio}.",
+    ),
+    "dwell": _(
+        "Candidate 1 is taken for its smallest deviation during the rest; its smallest "
+        "transmission angle is {angle}°.",
+    ),
+    "straight_line": _("Candidate 1 is the smallest linkage that is straight enough."),
+    "free_curve": _(
+        "No candidate is beaten by another in error, number of links, transmission angle and "
+        "size at once; the first has the smallest error, or the fewest links among those that "
+        "are good enough. Its smallest transmission angle is {angle}°.",
+    ),
+}
 
 
 def write_choice(w: Writer) -> None:
     """Table of the candidates, their lengths, and the reason of the choice."""
-    step = w.step("choice")
+    step = w.step(_("Choice among the candidates"))
     _facts(w, step)
     _lengths(w, step)
     step.say(_reason(w))
@@ -31,7 +53,7 @@ def _facts(w: Writer, step: Step) -> None:
     errors, worst = zip(*(error_texts(one) for one in each), strict=True)
     columns = [
         (say(_("no.")), numbers(len(each))),
-        (say(_("type")), [say(f"synthesize.type.{one.grashof_type}") for one in each]),
+        (say(_("type")), [say(TYPE_NAMES[one.grashof_type]) for one in each]),
         (say(pgettext("synthesize", "error")), errors),
         (say(_("worst")), worst),
         (say(_("defects")), [defects_text(one, say) for one in each]),
@@ -43,10 +65,10 @@ def _facts(w: Writer, step: Step) -> None:
     ]  # fmt: skip
     align = "><>><<>>>"
     if found.task in RANKED and len(each) > 1:
-        columns.append((w.words(_("merit")), decimals(merits(each, found.extent), 4)))
+        columns.append((w.say(_("merit")), decimals(merits(each, found.extent), 4)))
         align += ">"
-    w.table(step, "table.candidates", columns, align)
-    step.say(say(f"synthesize.error.{found.error_name}"))
+    w.table(step, _("Candidates"), columns, align)
+    step.say(say(ERRORS[found.error_name]))
 
 
 def _lengths(w: Writer, step: Step) -> None:
@@ -61,7 +83,7 @@ def _lengths(w: Writer, step: Step) -> None:
             (w.over(name_said(name, w.say)), w.lengths([lengths[name] for _unused, lengths in rows]))
             for name in names
         ]
-        w.table(step, "table.lengths", columns)
+        w.table(step, _("Link lengths"), columns)
 
 
 def _reason(w: Writer) -> str:
@@ -69,11 +91,11 @@ def _reason(w: Writer) -> str:
     found, best = w.found, w.found.best
     angle = f"{math.degrees(best.transmission_angle):.2f}"
     if found.task in DETERMINED:
-        return w.words(_("The demands determine the linkage; there is nothing to choose."))
+        return w.say(_("The demands determine the linkage; there is nothing to choose."))
     if found.task not in RANKED:
-        return w.words(f"reason.{found.task}", angle=angle, ratio=f"{best.link_ratio:.3g}")
+        return w.say(REASONS[found.task], angle=angle, ratio=f"{best.link_ratio:.3g}")
     if getattr(found.derivation, "method", "") == "equation":
-        return w.words(
+        return w.say(
             _(
                 "The linear equations have one solution. Of both assembly modes the one with the "
                 "smaller structural error was taken; its smallest transmission angle is {angle}°.",
@@ -81,7 +103,7 @@ def _reason(w: Writer) -> str:
             )
         )
     if len(found) == 1:
-        return w.words(
+        return w.say(
             _(
                 "No other different candidate was found; its smallest transmission angle is {angle}°.",
                 angle=angle,
@@ -89,7 +111,7 @@ def _reason(w: Writer) -> str:
         )
     second = found[1]
     if bool(second.defects) != bool(best.defects):
-        return w.words(
+        return w.say(
             _(
                 "Candidate 1 is taken because candidate 2 has defects: {defects}.",
                 defects=defects_text(second, w.say),
@@ -97,7 +119,7 @@ def _reason(w: Writer) -> str:
         )
     alike = error_texts(best)[0] == "0" and error_texts(second)[0] == "0"
     if not alike and abs(best.error - second.error) > APART * second.error:
-        return w.words(
+        return w.say(
             _(
                 "Candidate 1 is taken for its smaller error: {error} against {next}.",
                 error=error_texts(best)[0],
@@ -105,7 +127,7 @@ def _reason(w: Writer) -> str:
             )
         )
     first, other = merits(found.candidates[:2], found.extent)
-    return w.words(
+    return w.say(
         _(
             "Errors and defects are alike, so the merit decides, {merit} against {next}: the "
             "sine of the smallest transmission angle (here {angle}°), less for a linkage larger "

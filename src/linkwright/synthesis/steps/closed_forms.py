@@ -37,7 +37,7 @@ SHOWN = 7
 def extreme_position_angle(w: Writer, step: Step, ratio: Term, radians: float) -> Term:
     """θ = 180° (K - 1)/(K + 1)."""
     step.say(
-        w.words(
+        w.say(
             _(
                 "The fast stroke takes the crank angle 180° − θ, the slow one 180° + θ, so K = (180° "
                 "+ θ)/(180° − θ), and",
@@ -50,21 +50,21 @@ def extreme_position_angle(w: Writer, step: Step, ratio: Term, radians: float) -
 
 def rounded(w: Writer, names: Sequence[str], lengths: Sequence[float], after: Sequence[float]) -> None:
     """The step in which lengths (m) are rounded; from there on the rounded ones are used."""
-    step = w.step("rounded")
-    step.say(w.words(_("From here on with the rounded lengths:")))
+    step = w.step(_("Rounded lengths"))
+    step.say(w.say(_("From here on with the rounded lengths:")))
     columns = [
-        (w.words(pgettext("synthesis_steps", "length")), list(names)),
-        (w.over(w.words(_("calculated"))), w.lengths(lengths)),
-        (w.over(w.words(_("rounded"))), w.lengths(after)),
+        (w.say(pgettext("synthesis_steps", "length")), list(names)),
+        (w.over(w.say(_("calculated"))), w.lengths(lengths)),
+        (w.over(w.say(_("rounded"))), w.lengths(after)),
     ]
-    w.table(step, "table.rounded", columns, "<>>")
+    w.table(step, _("Rounding of the lengths"), columns, "<>>")
 
 
 def slider_crank(w: Writer, d: SliderCrankDerivation) -> None:
     """Crank, rod and offset from the stroke; then stroke, K and transmission angles again from the lengths."""
     r, rod, e = w.length("r", d.crank), w.length("l", d.rod), w.length("e", d.offset)
     stroke = w.length("H", d.stroke)
-    step = w.step("given")
+    step = w.step(pgettext("synthesis_steps", "Given"))
     step.give(stroke, w.unit)
     {"ratios": _from_ratios, "quick_return": _from_quick_return, "transmission": _from_transmission}[d.way](
         w, d, step, (stroke, r, rod, e)
@@ -80,9 +80,9 @@ def _from_ratios(w: Writer, d: SliderCrankDerivation, given: Step, terms: tuple[
     stroke, r, rod, e = terms
     lam = given.give(w.value("λ", d.rod_ratio), "")
     eps = given.give(w.value("ε", d.offset_ratio), "") if d.offset_ratio else ZERO
-    step = w.step("lengths")
+    step = w.step(_("Link lengths"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "In the limit positions crank and rod lie in one line, at l + r and l − r from the "
                 "crank's pivot. With l = λ r and e = ε r the stroke is",
@@ -102,12 +102,12 @@ def _from_quick_return(w: Writer, d: SliderCrankDerivation, given: Step, terms: 
     stroke, r, rod, e = terms
     ratio = given.give(w.value("K", d.quick_return_ratio), "")
     given.give(e, w.unit)
-    step = w.step("theta")
+    step = w.step(_("Angle between the crank's limit directions"))
     angle = math.pi * (d.quick_return_ratio - 1) / (d.quick_return_ratio + 1)
     theta = extreme_position_angle(w, step, ratio, angle)
-    step = w.step("lengths")
+    step = w.step(_("Link lengths"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "The crank's pivot and both limit positions of the slider pin are a triangle with "
                 "the sides l + r and l − r, the angle θ between them and the side H opposite, at the "
@@ -130,9 +130,9 @@ def _from_transmission(w: Writer, d: SliderCrankDerivation, given: Step, terms: 
     least = given.give(w.angle("μ", d.transmission_angle, "min"), "°")
     if d.offset:
         given.give(e, w.unit)
-    step = w.step("lengths")
+    step = w.step(_("Link lengths"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "The transmission angle is smallest where the crank is perpendicular to the guide on "
                 "the side away from it: cos μ_min = (r + e)/l.",
@@ -142,7 +142,7 @@ def _from_transmission(w: Writer, d: SliderCrankDerivation, given: Step, terms: 
     if d.offset:
         step.relate(stroke, root((rod + r).squared - e.squared) - root((rod - r).squared - e.squared))
         step.say(
-            w.words(_("With l = (r + e)/cos μ_min the stroke grows with r; bisection of this equation gives"))
+            w.say(_("With l = (r + e)/cos μ_min the stroke grows with r; bisection of this equation gives"))
         )
         step.give(r, w.unit)
     else:
@@ -153,9 +153,9 @@ def _from_transmission(w: Writer, d: SliderCrankDerivation, given: Step, terms: 
 def _slider_check(w: Writer, lengths: tuple[Term, Term, Term]) -> None:
     """Limit positions, stroke, K, and the transmission angles of both strokes."""
     r, rod, e = lengths
-    step = w.step("check")
+    step = w.step(_("Check with the lengths found"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "Limit positions of the slider pin along the guide, from the foot of the crank's "
                 "pivot; the stroke is their distance:",
@@ -174,7 +174,7 @@ def _slider_check(w: Writer, lengths: tuple[Term, Term, Term]) -> None:
         ratio = (HALF_TURN + theta) / (HALF_TURN - theta)
         step.find(w.value("K", ratio.value), ratio, "")
     step.say(
-        w.words(
+        w.say(
             _(
                 "The crank turns fully: r + e = {sum} is at most l = {rod}.",
                 sum=w.length_text((r + e).value / w.scale),
@@ -183,7 +183,7 @@ def _slider_check(w: Writer, lengths: tuple[Term, Term, Term]) -> None:
         )
     )
     step.say(
-        w.words(
+        w.say(
             _(
                 "Smallest transmission angle of the slow (s) and of the fast (f) stroke, with the "
                 "crank perpendicular to the guide on the guide's side and on the other one:",
@@ -204,15 +204,15 @@ def _side(hypotenuse: Term, e: Term) -> Term:
 
 def quick_return(w: Writer, d: QuickReturnDerivation) -> None:
     """Crank and arm of a slotted lever from K, the distance of its pivots and the stroke."""
-    step = w.step("given")
+    step = w.step(pgettext("synthesis_steps", "Given"))
     ratio = step.give(w.value("K", d.quick_return_ratio), "")
     frame = step.give(w.length("d", d.frame), w.unit)
     stroke = step.give(w.length("H", d.stroke), w.unit) if d.stroke else ZERO
-    step = w.step("theta")
+    step = w.step(_("Angle between the crank's limit directions"))
     theta = extreme_position_angle(w, step, ratio, d.theta)
-    step = w.step("lengths")
+    step = w.step(_("Link lengths"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "In the limit positions the lever is tangent to the circle of the crank pin; the "
                 "lever swings by θ:",
@@ -224,8 +224,8 @@ def quick_return(w: Writer, d: QuickReturnDerivation) -> None:
     if d.stroke:
         _ram(w, d, step, theta, stroke)
     w.picture("construction")
-    step = w.step("check")
-    step.say(w.words(_("From crank and frame again:")))
+    step = w.step(_("Check with the lengths found"))
+    step.say(w.say(_("From crank and frame again:")))
     swing = TWO * arcsine(crank / frame)
     found = step.find(w.angle("θ", math.radians(swing.value)), swing, "°")
     again = (HALF_TURN + found) / (HALF_TURN - found)
@@ -234,10 +234,10 @@ def quick_return(w: Writer, d: QuickReturnDerivation) -> None:
 
 def _ram(w: Writer, d: QuickReturnDerivation, step: Step, theta: Term, stroke: Term) -> None:
     """The lever's arm, the place of the guide and the rod."""
-    step.say(w.words(_("The end of the arm travels the chord of its arc, which is the stroke:")))
+    step.say(w.say(_("The end of the arm travels the chord of its arc, which is the stroke:")))
     arm = step.find(w.length("L", d.arm), stroke / (TWO * sine(theta / TWO)), w.unit)
     step.say(
-        w.words(
+        w.say(
             _(
                 "The guide halves the sagitta s of that arc, so that the rod is inclined equally to "
                 "both sides. Distance y of the guide from the lever's pivot, and the sagitta:",
@@ -248,7 +248,7 @@ def _ram(w: Writer, d: QuickReturnDerivation, step: Step, theta: Term, stroke: T
     sagitta = arm * (ONE - cosine(theta / TWO))
     height = step.find(w.length("s", sagitta.value / w.scale), sagitta, w.unit)
     step.say(
-        w.words(
+        w.say(
             _(
                 "With the rod l (as demanded, else at least half the arm) the ram's largest pressure "
                 "angle is",
@@ -262,13 +262,13 @@ def _ram(w: Writer, d: QuickReturnDerivation, step: Step, theta: Term, stroke: T
 
 def toggle(w: Writer, d: ToggleDerivation) -> None:
     """Angle and links of a toggle from its force ratio, and the ratio over the stroke."""
-    step = w.step("given")
+    step = w.step(pgettext("synthesis_steps", "Given"))
     ratio = step.give(w.value("n", d.force_ratio), "")
     distance = step.give(w.length("s", d.distance), w.unit)
     stroke = step.give(w.length("H", d.stroke), w.unit)
-    step = w.step("lengths")
+    step = w.step(_("Link lengths"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "Virtual work of the force F on the knee and P on the slider: P/F = 1/(2 tan α), so "
                 "at the ratio n",
@@ -276,16 +276,16 @@ def toggle(w: Writer, d: ToggleDerivation) -> None:
         )
     )
     alpha = step.find(w.angle("α", d.alpha), arctangent(ONE / (TWO * ratio)), "°")
-    step.say(w.words(_("The slider is s = 2 l (1 − cos α) = 4 l sin²(α/2) before the dead point:")))
+    step.say(w.say(_("The slider is s = 2 l (1 − cos α) = 4 l sin²(α/2) before the dead point:")))
     link = step.find(w.length("l", d.link), distance / (FOUR * sine(alpha / TWO).squared), w.unit)
-    step.say(w.words(_("Over the whole stroke H = 4 l sin²(α_0/2), so that it begins at")))
+    step.say(w.say(_("Over the whole stroke H = 4 l sin²(α_0/2), so that it begins at")))
     step.find(w.angle("α", d.first_angle, "0"), TWO * arcsine(root(stroke / (FOUR * link))), "°")
-    step = w.step("check")
-    step.say(w.words(_("Distance before the dead point and force ratio at some angles:")))
+    step = w.step(_("Check with the lengths found"))
+    step.say(w.say(_("Distance before the dead point and force ratio at some angles:")))
     angles = np.unique(np.append(np.linspace(d.first_angle, d.alpha / 4, SHOWN), d.alpha))[::-1]
     rows = [
         ("α / °", degrees(angles)),
-        (w.over(w.words(_("distance before the dead point"))), w.lengths(2 * d.link * (1 - np.cos(angles)))),
+        (w.over(w.say(_("distance before the dead point"))), w.lengths(2 * d.link * (1 - np.cos(angles)))),
         ("P/F", decimals(1 / (2 * np.tan(angles)), 4)),
     ]
-    w.table(step, "table.toggle", rows)
+    w.table(step, _("Force ratio over the stroke"), rows)

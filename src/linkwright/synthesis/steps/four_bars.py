@@ -10,6 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import TWO, Term, arccosine
+from linkwright.synthesis.names import TYPE_NAMES
 from linkwright.synthesis.result import Candidate
 from linkwright.synthesis.steps.writing import Writer, decimals, degrees, numbers
 from linkwright.words import _
@@ -28,7 +29,7 @@ def four_bar_lengths(w: Writer, each: Candidate) -> tuple[Term, Term, Term, Term
 
 def examine(w: Writer, each: Candidate) -> None:
     """The step that examines a four-bar: Grashof, transmission angle, and the branch at its positions."""
-    step = w.step("examined")
+    step = w.step(_("Grashof's condition, transmission angle and branch"))
     sides = four_bar_lengths(w, each)
     grashof(w, step, sides, each)
     if each.turns:
@@ -36,7 +37,7 @@ def examine(w: Writer, each: Candidate) -> None:
     else:
         angle = f"{math.degrees(each.transmission_angle):.2f}"
         step.say(
-            w.words(
+            w.say(
                 _(
                     "The input does not turn fully; between its first and its last position the "
                     "transmission angle never falls below {angle}°.",
@@ -52,7 +53,7 @@ def grashof(w: Writer, step: Step, sides: tuple[Term, ...], each: Candidate) -> 
     """Sum of the shortest and the longest link against that of the others."""
     low, *middle, high = sorted(sides, key=lambda term: term.amount)
     step.say(
-        w.words(
+        w.say(
             _(
                 "Shortest and longest link, and the other two (a input, b coupler, c output, d frame):",
             )
@@ -62,16 +63,28 @@ def grashof(w: Writer, step: Step, sides: tuple[Term, ...], each: Candidate) -> 
         total = first + second
         step.find(w.length("S", total.value / w.scale, str(index)), total, w.unit)
     gap = low.amount + high.amount - middle[0].amount - middle[1].amount
-    sign = "equal" if abs(gap) <= 1e-12 * high.amount else "less" if gap < 0 else "more"
-    kind = w.say(f"synthesize.type.{each.grashof_type}")
-    step.say(w.words(f"grashof_{sign}", kind=kind, shortest=low.plain))
+    kind = TYPE_NAMES[each.grashof_type]
+    if abs(gap) <= 1e-12 * high.amount:
+        step.say(w.say(_("Both sums are equal: the linkage has a change point.")))
+    elif gap < 0:
+        step.say(
+            w.say(
+                _(
+                    "The first sum is smaller, and {shortest} is the shortest link: a {kind}.",
+                    kind=kind,
+                    shortest=low.plain,
+                )
+            )
+        )
+    else:
+        step.say(w.say(_("The first sum is larger, so no link turns fully: a {kind}.", kind=kind)))
 
 
 def transmission(w: Writer, step: Step, sides: tuple[Term, ...]) -> None:
     """Transmission angles where the input lies along the frame: the smallest is one of them."""
     a, b, c, d = sides
     step.say(
-        w.words(
+        w.say(
             _(
                 "The angle between coupler and output is extreme where the input lies along the frame:",
             )
@@ -82,7 +95,7 @@ def transmission(w: Writer, step: Step, sides: tuple[Term, ...]) -> None:
         step.find(w.angle("μ", math.acos(max(-1.0, min(1.0, cosine.value))), index), arccosine(cosine), "°")
     found = [item.value for item in step.equations[-2:]]
     least = min(min(angle, 180.0 - angle) for angle in found)
-    step.say(w.words(_("Smallest transmission angle: {angle}°.", angle=f"{least:.2f}")))
+    step.say(w.say(_("Smallest transmission angle: {angle}°.", angle=f"{least:.2f}")))
 
 
 def signed_transmission(each: Candidate) -> Floats:
@@ -108,7 +121,7 @@ def branches(w: Writer, step: Step, each: Candidate) -> None:
     o1, o2, b = points["O1"], points["O2"], each.positions["B"]
     turned = np.degrees(_one_way(np.angle(a - o1)))
     step.say(
-        w.words(
+        w.say(
             _(
                 "Input angle θ and transmission angle μ with the sign of its side; the link lengths "
                 "from the coordinates:",
@@ -116,16 +129,16 @@ def branches(w: Writer, step: Step, each: Candidate) -> None:
         )
     )
     columns = [
-        (w.words(_("position")), numbers(len(a))),
+        (w.say(_("position")), numbers(len(a))),
         ("θ / °", decimals(turned, 4)),
         ("μ / °", degrees(signed_transmission(each))),
         (w.over("|O1A|"), w.lengths(np.abs(a - o1))),
         (w.over("|AB|"), w.lengths(np.abs(b - a))),
         (w.over("|O2B|"), w.lengths(np.abs(b - o2))),
     ]
-    w.table(step, "table.branches", columns)
+    w.table(step, _("Transmission angle with its sign, and link lengths in every position"), columns)
     step.say(
-        w.words(
+        w.say(
             _(
                 "μ keeps its sign and θ runs one way: all positions lie on one branch, in their order.",
             )

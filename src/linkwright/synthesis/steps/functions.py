@@ -16,6 +16,7 @@ from linkwright.equations.steps import Step
 from linkwright.equations.terms import TWO, Term, cosine, root, sine, symbol
 from linkwright.synthesis.function_generation.exact import Freudenstein
 from linkwright.synthesis.function_generation.generate import FunctionDerivation
+from linkwright.synthesis.names import TYPE_NAMES
 from linkwright.synthesis.steps.closed_forms import rounded
 from linkwright.synthesis.steps.four_bars import coordinates, examine, four_bar_lengths
 from linkwright.synthesis.steps.writing import (
@@ -28,7 +29,7 @@ from linkwright.synthesis.steps.writing import (
     product,
     small,
 )
-from linkwright.words import _
+from linkwright.words import _, pgettext
 
 #: Pairs up to which every equation is printed.
 ALL_ROWS = 8
@@ -52,23 +53,23 @@ def function(w: Writer, d: FunctionDerivation) -> None:
 
 
 def _given(w: Writer, d: FunctionDerivation) -> None:
-    step = w.step("given")
+    step = w.step(pgettext("synthesis_steps", "Given"))
     places = w.found.error_name == "length"
     outputs = w.lengths(d.outputs) if places else degrees(d.outputs)
-    step.say(w.words(_("{count} pairs of input φ and output.", count=len(d.inputs))))
+    step.say(w.say(_("{count} pairs of input φ and output.", count=len(d.inputs))))
     columns = [
-        (w.words(_("pair")), numbers(len(d.inputs))),
+        (w.say(_("pair")), numbers(len(d.inputs))),
         ("φ / °", degrees(d.inputs)),
         (w.over("s") if places else "ψ / °", outputs),
     ]
-    w.table(step, "table.pairs", columns)
+    w.table(step, _("Pairs of input and output"), columns)
     if w.found.best.linkage.kind != "slider_crank":
         step.give(w.length("d", d.frame), w.unit)
     for index, free, zero in zip(("φ", "ψ"), d.free, d.zeros, strict=True):
         of_slider = places and index == "ψ"
         if free:
             step.say(
-                w.words(
+                w.say(
                     (
                         _("The zero of the slider's place is free.")
                         if of_slider
@@ -84,10 +85,8 @@ def _given(w: Writer, d: FunctionDerivation) -> None:
 
 # Freudenstein's equation ------------------------------------------------------------------------
 def _equation(w: Writer, d: FunctionDerivation) -> None:
-    step = w.step("freudenstein")
-    step.say(
-        w.words(_("With input a, coupler b, output c and frame d, the coupler's constant length gives:"))
-    )
+    step = w.step(_("Freudenstein's equation"))
+    step.say(w.say(_("With input a, coupler b, output c and frame d, the coupler's constant length gives:")))
     a, b, c, frame = _free_symbols(w)
     p = [symbol(name, 0.5) for name in P]
     phi, psi, gamma = (w.angle(name, 1.0) for name in ("φ", "ψ", "γ"))
@@ -112,11 +111,11 @@ def _free_symbols(w: Writer) -> tuple[Term, ...]:
 
 def _cosines(w: Writer, equation: Freudenstein, moved: bool) -> None:
     """Every pair's angles with the zero angles added, and their cosines."""
-    step = w.step("cosines")
+    step = w.step(_("Angles and cosines of the pairs"))
     if moved:
-        step.say(w.words(_("The angles of the links are those of the pairs plus the zero angles:")))
+        step.say(w.say(_("The angles of the links are those of the pairs plus the zero angles:")))
     columns = [
-        (w.words(_("pair")), numbers(len(equation.phi))),
+        (w.say(_("pair")), numbers(len(equation.phi))),
         ("φ / °", degrees(equation.phi)),
         ("ψ / °", degrees(equation.psi)),
         ("γ = ψ − φ / °", degrees(equation.psi - equation.phi)),
@@ -124,7 +123,7 @@ def _cosines(w: Writer, equation: Freudenstein, moved: bool) -> None:
         ("cos γ", decimals(equation.rows[:, 1], 6)),
         ("cos φ", decimals(equation.right, 6)),
     ]
-    w.table(step, "table.cosines", columns)
+    w.table(step, _("Angles and cosines"), columns)
 
 
 def _solved(w: Writer, d: FunctionDerivation) -> None:
@@ -132,14 +131,14 @@ def _solved(w: Writer, d: FunctionDerivation) -> None:
     equation = d.equation
     assert equation is not None
     unknown, count = entries([each] for each in P), len(equation.phi)
-    step = w.step("system")
+    step = w.step(_("System of equations and its solution"))
     if count <= ALL_ROWS:
         rows = [[f"cos ψ_{i}", f"cos γ_{i}", "1"] for i in range(1, count + 1)]
         product(step, entries(rows), unknown, "=", entries([f"cos φ_{i}"] for i in range(1, count + 1)))
         product(step, matrix(equation.rows), unknown, "=", matrix(equation.right))
     if d.method == "equation" and count > 3:
         step.say(
-            w.words(
+            w.say(
                 _(
                     "There are more pairs than unknowns, so the sum of the squared residuals is made "
                     "smallest. Normal equations, with sums over all pairs:",
@@ -149,7 +148,7 @@ def _solved(w: Writer, d: FunctionDerivation) -> None:
         product(step, _sums(count), unknown, "=", entries([each] for each in _sums_right()))
         product(step, matrix(equation.normal), unknown, "=", matrix(equation.moment))
     step.say(
-        w.words(
+        w.say(
             _("Solution:")
             if count == 3
             else (
@@ -183,7 +182,7 @@ def _from_coefficients(w: Writer, d: FunctionDerivation) -> None:
     """Lengths from P₀, P₁, P₂; negative ones point the other way."""
     equation = d.equation
     assert equation is not None
-    step = w.step("lengths")
+    step = w.step(_("Link lengths"))
     p = [symbol(name, float(value)) for name, value in zip(P, equation.p, strict=True)]
     frame = w.length("d", d.frame)
     c = step.find(w.length("c", float(equation.lengths[2]) * d.frame), -(p[1] * frame), w.unit)
@@ -193,7 +192,7 @@ def _from_coefficients(w: Writer, d: FunctionDerivation) -> None:
     turned = [term.plain for term in (a, c) if term.amount < 0.0]
     if turned:
         step.say(
-            w.words(
+            w.say(
                 _(
                     "Negative: {names}. Such a link points the opposite way, so its angle is larger by "
                     "180°; its length is the absolute value.",
@@ -205,11 +204,11 @@ def _from_coefficients(w: Writer, d: FunctionDerivation) -> None:
 
 def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
     """The free zero angle as a root of the determinant."""
-    step = w.step("zero_angle")
+    step = w.step(_("Free zero angle"))
     h = d.harmonics
     assert h is not None
     step.say(
-        w.words(
+        w.say(
             _(
                 "Four pairs agree for three unknowns where the determinant of the four equations "
                 "vanishes. In the free zero angle ζ it is D(ζ) = k_0 + k_1 cos ζ + k_2 sin ζ + k_3 "
@@ -226,7 +225,7 @@ def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
     if all(d.free):
         fixed = w.angle("ζ", d.zeros[0], "φ")
         step.say(
-            w.words(
+            w.say(
                 _(
                     "The input's zero angle is free as well and was tried at evenly spaced values; taken was",
                 )
@@ -234,15 +233,15 @@ def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
         )
         step.give(fixed, "°")
     step.give(zeta, "°")
-    step.say(w.words(_("Root of the determinant, found from the quartic in e^(iζ); put into D:")))
+    step.say(w.say(_("Root of the determinant, found from the quartic in e^(iζ); put into D:")))
     step.find(symbol("D", 0.0), value, "")
 
 
 def _five_pairs(w: Writer, d: FunctionDerivation) -> None:
     """Five pairs: Burmester's points of the motion of the output link against the input link."""
-    step = w.step("five_pairs")
+    step = w.step(_("Five pairs by Burmester's points"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "Seen from the output link, the input link takes five poses; pins that stay on "
                 "circles about points of the output are Burmester's, at most four, one of which is "
@@ -279,10 +278,10 @@ def _coefficients(sides: tuple[Term, Term, Term, Term]) -> tuple[Term, Term, Ter
 
 # errors -----------------------------------------------------------------------------------------
 def _search(w: Writer, d: FunctionDerivation) -> None:
-    step = w.step("search")
-    names = w.say(f"synthesize.type.{d.kind}")
+    step = w.step(_("What is searched, and how"))
+    names = w.say(TYPE_NAMES[d.kind])
     step.say(
-        w.words(
+        w.say(
             _(
                 "No closed form: the {linkage} with the smallest root mean square structural error "
                 "is searched, by Levenberg–Marquardt in {unknowns} free numbers, from the best of "
@@ -304,11 +303,11 @@ def _search(w: Writer, d: FunctionDerivation) -> None:
     }
     if scale == 1.0:
         step.say(
-            w.words(_("The output {symbol} is the output link's coordinate plus {constant}.").format(**told))
+            w.say(_("The output {symbol} is the output link's coordinate plus {constant}.").format(**told))
         )
     else:
         step.say(
-            w.words(
+            w.say(
                 _(
                     "The output {symbol} is the output link's coordinate times {scale}, plus {constant}."
                 ).format(scale=f"{scale:.6g}", **told)
@@ -319,38 +318,38 @@ def _search(w: Writer, d: FunctionDerivation) -> None:
 def _errors(w: Writer, d: FunctionDerivation) -> None:
     """What Freudenstein's equation leaves, and the structural error, at every pair."""
     best = w.found.best
-    step = w.step("error")
+    step = w.step(_("Error at every position"))
     places = w.found.error_name == "length"
     if d.method == "search":
         step.say(
-            w.words(
+            w.say(
                 _(
                     "Coordinates of the moving points at every pair, from which the output can be measured:",
                 )
             )
         )
         moving = [name for name in best.positions if name not in best.linkage.frame]
-        columns = [(w.words(_("pair")), numbers(len(d.inputs))), *coordinates(w, best, moving)]
-        w.table(step, "table.positions", columns)
+        columns = [(w.say(_("pair")), numbers(len(d.inputs))), *coordinates(w, best, moving)]
+        w.table(step, _("Positions of the moving points"), columns)
     found = d.outputs + best.deviations
     shown = w.lengths if places else degrees
     off = small(best.deviations * w.scale, w.scale) if places else small(np.degrees(best.deviations))
     letter = "s" if places else "ψ"
     unit = w.unit if places else "°"
     columns = [
-        (w.words(_("pair")), numbers(len(d.inputs))),
+        (w.say(_("pair")), numbers(len(d.inputs))),
         ("φ / °", degrees(d.inputs)),
         (f"{letter} / {unit}", shown(d.outputs)),
-        (w.words(_("{symbol} generated / {unit}", symbol=letter, unit=unit)), shown(found)),
+        (w.say(_("{symbol} generated / {unit}", symbol=letter, unit=unit)), shown(found)),
         (f"Δ{letter} / {unit}", off),
     ]
-    w.table(step, "table.error", columns)
+    w.table(step, _("Deviation at every position"), columns)
     if w.found.error_name != "none":
         rms, worst = (
             _shown(w, each, places) for each in (_rms(best.deviations), np.abs(best.deviations).max())
         )
         step.say(
-            w.words(_("Structural error: root mean square {rms}, greatest {worst}.", rms=rms, worst=worst))
+            w.say(_("Structural error: root mean square {rms}, greatest {worst}.", rms=rms, worst=worst))
         )
     w.picture("structural_error")
 
@@ -375,11 +374,11 @@ def _residuals(w: Writer, step: Step, d: FunctionDerivation) -> None:
         right = np.cos(phi)
         terms = _coefficients(_lengths(w, d))
         p = np.array([term.value for term in terms])
-    step.say(w.words(_("Both sides of Freudenstein's equation at every pair:")))
+    step.say(w.say(_("Both sides of Freudenstein's equation at every pair:")))
     columns = [
-        (w.words(_("pair")), numbers(len(right))),
+        (w.say(_("pair")), numbers(len(right))),
         ("cos φ", decimals(right, 6)),
         ("P_0 cos ψ + P_1 cos γ + P_2", decimals(rows @ p, 6)),
-        (w.words(_("residual")), small(rows @ p - right)),
+        (w.say(_("residual")), small(rows @ p - right)),
     ]
-    w.table(step, "table.residual", columns)
+    w.table(step, _("Residual of Freudenstein's equation"), columns)

@@ -11,19 +11,19 @@ from linkwright.synthesis.requirements.drag_link import DragLinkDerivation
 from linkwright.synthesis.steps.closed_forms import HALF_TURN, extreme_position_angle
 from linkwright.synthesis.steps.four_bars import examine, four_bar_lengths
 from linkwright.synthesis.steps.writing import Writer
-from linkwright.words import _
+from linkwright.words import _, pgettext
 
 
 def crank_rocker(w: Writer, d: CrankRockerDerivation) -> None:
     """The circle of the crank's pivots, the pivot that was taken, the lengths, and K and ψ again from them."""
-    step = w.step("given")
+    step = w.step(pgettext("synthesis_steps", "Given"))
     swing = step.give(w.angle("ψ", d.swing_angle), "°")
     ratio = step.give(w.value("K", d.quick_return_ratio), "")
     if d.frame:
         step.give(w.length("d", d.frame), w.unit)
     if d.rocker:
         step.give(w.length("c", d.rocker), w.unit)
-    theta = extreme_position_angle(w, w.step("theta"), ratio, d.theta)
+    theta = extreme_position_angle(w, w.step(_("Angle between the crank's limit directions")), ratio, d.theta)
     _circle(w, d, swing, theta)
     a, b, c, frame = four_bar_lengths(w, w.found.best)
     _pivot(w, d, (a, b))
@@ -34,10 +34,10 @@ def crank_rocker(w: Writer, d: CrankRockerDerivation) -> None:
 
 def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> None:
     """Chord, radius and centre of the circle from which the limit positions are seen under θ."""
-    step = w.step("circle")
+    step = w.step(_("Auxiliary circle of the crank's pivots"))
     c = step.give(w.length("c", d.rocker_length), w.unit)
     step.say(
-        w.words(
+        w.say(
             _(
                 "The limit positions B1 and B2 of the rocker pin lie symmetrically about the y axis, "
                 "the rocker's pivot at the origin; their chord is",
@@ -50,7 +50,7 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
     )
     if d.centre is None:
         step.say(
-            w.words(
+            w.say(
                 _(
                     "With K = 1 the angle θ is zero: crank and coupler have the same direction in both "
                     "limit positions, and the crank's pivot lies on the line B1 B2.",
@@ -59,7 +59,7 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
         )
         return
     step.say(
-        w.words(
+        w.say(
             _(
                 "From every point of a circle over this chord, B1 and B2 are seen under the angle θ "
                 "(inscribed angle); its radius is",
@@ -72,24 +72,24 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
     up = c * cosine(half)
     above = d.centre.imag >= math.cos(d.swing_angle / 2)
     height = up + aside if above else up - aside
-    step.say(w.words(_("Its centre M lies on the y axis, at the height")))
+    step.say(w.say(_("Its centre M lies on the y axis, at the height")))
     step.find(w.length("y", d.centre.imag * d.rocker_length, "M"), height, w.unit)
 
 
 def _pivot(w: Writer, d: CrankRockerDerivation, lengths: tuple[Term, Term]) -> None:
     """The crank's pivot on the circle, and crank and coupler from its distances."""
-    step = w.step("pivot")
+    step = w.step(_("Choice of the crank's pivot"))
     limit = "" if math.isinf(d.link_ratio) else f"{d.link_ratio:.4g}"
     family = w.found.counts.get("family", 0)
     key = "pivot.both" if d.frame and d.rocker else "pivot.best"
-    step.say(w.words(key, count=family, limit=limit))
+    step.say(w.say(key, count=family, limit=limit))
     place = d.pivot * d.rocker_length
     x, y = (
         step.give(w.length("x", place.real, "O1"), w.unit),
         step.give(w.length("y", place.imag, "O1"), w.unit),
     )
     c, half = w.length("c", d.rocker_length), w.angle("ψ", d.swing_angle) / TWO
-    step.say(w.words(_("Its distances from B1 and B2 are the sum and the difference of coupler and crank:")))
+    step.say(w.say(_("Its distances from B1 and B2 are the sum and the difference of coupler and crank:")))
     up, aside = c * cosine(half), c * sine(half)
     found = []
     for index, across in (("1", x - aside), ("2", x + aside)):
@@ -106,9 +106,9 @@ def _pivot(w: Writer, d: CrankRockerDerivation, lengths: tuple[Term, Term]) -> N
 def _limits_again(w: Writer, sides: tuple[Term, Term, Term, Term]) -> None:
     """Swing angle and K from the lengths by the law of cosines."""
     a, b, c, d = sides
-    step = w.step("check")
+    step = w.step(_("Check with the lengths found"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "The law of cosines with b + a and b − a gives the rocker's and the crank's angle in "
                 "both limit positions; their differences are ψ and θ:",
@@ -135,12 +135,12 @@ def _limits_again(w: Writer, sides: tuple[Term, Term, Term, Term]) -> None:
 
 def drag_link(w: Writer, d: DragLinkDerivation) -> None:
     """The driver's turn on the slow half turn of the follower, the lengths from both ends, and what was searched."""
-    step = w.step("given")
+    step = w.step(pgettext("synthesis_steps", "Given"))
     ratio = step.give(w.value("K", d.quick_return_ratio), "")
     frame = step.give(w.length("d", d.frame), w.unit)
-    step = w.step("drag")
+    step = w.step(_("Both ends of the slow half turn"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "While the follower makes its slow half turn between the ends of the stroke, the "
                 "driver turns by",
@@ -149,7 +149,7 @@ def drag_link(w: Writer, d: DragLinkDerivation) -> None:
     )
     beta = step.find(w.angle("β", d.slow_turn), TWO * HALF_TURN * ratio / (ONE + ratio), "°")
     step.say(
-        w.words(
+        w.say(
             _(
                 "Three numbers remain free: the follower's length and the angles of follower and "
                 "driver at the beginning. Of all drag links of one circuit whose longest link is at "
@@ -169,7 +169,7 @@ def drag_link(w: Writer, d: DragLinkDerivation) -> None:
 def _drag_lengths(w: Writer, step: Step, given: tuple[Term, ...]) -> None:
     frame, c, psi, phi, beta = given
     a, b, _unused, _unused2 = four_bar_lengths(w, w.found.best)
-    step.say(w.words(_("The follower's pin at both ends, half a turn apart, from the driver's pivot:")))
+    step.say(w.say(_("The follower's pin at both ends, half a turn apart, from the driver's pivot:")))
     end = Pair(c * cosine(psi), c * sine(psi))
     found = []
     for index, x, y in (("1", frame + end.x, end.y), ("2", frame - end.x, -end.y)):
@@ -180,7 +180,7 @@ def _drag_lengths(w: Writer, step: Step, given: tuple[Term, ...]) -> None:
     along = first.x * cosine(phi) + first.y * sine(phi) - second.x * cosine(last) - second.y * sine(last)
     square = first.x.squared + first.y.squared - second.x.squared - second.y.squared
     step.say(
-        w.words(
+        w.say(
             _(
                 "The coupler has the same length at both ends; equating both gives the driver's "
                 "length, and each end gives the coupler:",

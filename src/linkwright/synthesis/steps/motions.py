@@ -48,8 +48,8 @@ def motion(w: Writer, d: MotionDerivation) -> None:
     elif d.points is not None:
         _points(w, d)
     else:
-        step = w.step("dyads")
-        step.say(w.words(_family(d), count=len(d.p), dyads=w.found.counts.get("dyads", 0)))
+        step = w.step(_("Dyads"))
+        step.say(w.say(_family(d), count=len(d.p), dyads=w.found.counts.get("dyads", 0)))
     _circles(w, d)
     if not w.found.best.linkage.guides:
         examine(w, w.found.best)
@@ -62,26 +62,26 @@ def _family(d: MotionDerivation) -> str:
 
 
 def _given(w: Writer, d: MotionDerivation) -> None:
-    step = w.step("given")
+    step = w.step(pgettext("synthesis_steps", "Given"))
     step.say(
-        w.words(_("{count} poses: place of the coupler point P, and angle φ of the coupler.", count=len(d.p)))
+        w.say(_("{count} poses: place of the coupler point P, and angle φ of the coupler.", count=len(d.p)))
     )
-    free = w.words(pgettext("synthesis_steps", "free"))
+    free = w.say(pgettext("synthesis_steps", "free"))
     angles = [free if math.isnan(each) else degrees([each])[0] for each in d.phi]
     columns = [
-        (w.words(_("pose")), numbers(len(d.p))),
+        (w.say(_("pose")), numbers(len(d.p))),
         (w.over("x"), w.lengths(d.p.real)),
         (w.over("y"), w.lengths(d.p.imag)),
         ("φ / °", angles),
     ]
-    w.table(step, "table.poses", columns)
+    w.table(step, _("Poses of the coupler"), columns)
 
 
 def _poles(w: Writer, d: MotionDerivation) -> None:
     """Poles of all pairs of poses: the points that have the same place in both."""
-    step = w.step("poles")
+    step = w.step(_("Poles"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "A body that goes from pose j to pose k turns about the pole P_jk, the point that "
                 "has the same place in both. Pins and pivots are seen from the poles under half "
@@ -100,20 +100,20 @@ def _poles(w: Writer, d: MotionDerivation) -> None:
             places.append(np.nan if parallel else (d.p[k] - unit * d.p[j]) / (1 - unit))
     at: Complexes = np.array(places)
     columns = [
-        (w.words(_("pole")), pairs),
+        (w.say(_("pole")), pairs),
         ("φ_k − φ_j / °", degrees(turns)),
         (w.over("x"), [text.replace("nan", "∞") for text in w.lengths(at.real)]),
         (w.over("y"), [text.replace("nan", "∞") for text in w.lengths(at.imag)]),
     ]
-    w.table(step, "table.poles", columns)
+    w.table(step, _("Poles of the poses"), columns)
 
 
 def _curves(w: Writer, d: MotionDerivation) -> None:
     """Equations of the circle- and centre-point curve of four poses, and both chosen pairs in them."""
     assert d.circle_curve is not None and d.centre_curve is not None
-    step = w.step("curves")
+    step = w.step(_("Circle-point and centre-point curve"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "Of four poses, the body points whose positions lie on a circle are the circle-point "
                 "curve (at pose 1), the centres of those circles are the centre-point curve: both "
@@ -126,11 +126,11 @@ def _curves(w: Writer, d: MotionDerivation) -> None:
     )
     powers = [_power(i, j) for i, j in POWERS]
     columns = [
-        (w.words(_("term")), powers),
-        (w.words(_("circle points")), decimals(d.circle_curve, 6)),
-        (w.words(_("centre points")), decimals(d.centre_curve, 6)),
+        (w.say(_("term")), powers),
+        (w.say(_("circle points")), decimals(d.circle_curve, 6)),
+        (w.say(_("centre points")), decimals(d.centre_curve, 6)),
     ]
-    w.table(step, "table.curves", columns)
+    w.table(step, _("Coefficients of both curves"), columns)
     best = w.found.best
     rows = []
     pins = [("A", "O1"), ("B", "O2")]
@@ -142,10 +142,10 @@ def _curves(w: Writer, d: MotionDerivation) -> None:
             u, v = place.real / d.size, place.imag / d.size
             left = sum(c * u**i * v**j for c, (i, j) in zip(curve, POWERS, strict=True))
             rows.append((name, f"{u:.6f}", f"{v:.6f}", small([left], 100.0)[0]))
-    step.say(w.words(_("The pins and the pivots that were taken, put in:")))
+    step.say(w.say(_("The pins and the pivots that were taken, put in:")))
     table = list(zip(*rows, strict=True))
-    heads = (w.words(_("point")), "u", "v", w.words(_("left side")))
-    w.table(step, "table.on_curves", list(zip(heads, table, strict=True)), "<>>>")
+    heads = (w.say(_("point")), "u", "v", w.say(_("left side")))
+    w.table(step, _("The chosen points on the curves"), list(zip(heads, table, strict=True)), "<>>>")
 
 
 def _power(i: int, j: int) -> str:
@@ -156,9 +156,9 @@ def _power(i: int, j: int) -> str:
 def _points(w: Writer, d: MotionDerivation) -> None:
     """Burmester's four points of five poses."""
     assert d.points is not None and d.centres is not None and d.real is not None and d.slides is not None
-    step = w.step("burmester")
+    step = w.step(_("Burmester's points"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "Five poses: the condition of a circle is linear in seven products of point and "
                 "centre; two quadratic relations between these leave four solutions. A is the pin in "
@@ -168,10 +168,10 @@ def _points(w: Writer, d: MotionDerivation) -> None:
     )
     at = d.points + d.p[0]
     kinds = [
-        w.words(_("complex") if not real else (_("real, a straight line") if slides else _("real, a circle")))
+        w.say(_("complex") if not real else (_("real, a straight line") if slides else _("real, a circle")))
         for real, slides in zip(d.real, d.slides, strict=True)
     ]
-    columns = [(w.words(_("solution")), numbers(len(at)))]
+    columns = [(w.say(_("solution")), numbers(len(at)))]
     for name, values in (("A", at), ("O", d.centres)):
         shown = [w.lengths([part]) if real else ["–"] for part, real in zip(values.real, d.real, strict=True)]
         other = [w.lengths([part]) if real else ["–"] for part, real in zip(values.imag, d.real, strict=True)]
@@ -179,17 +179,17 @@ def _points(w: Writer, d: MotionDerivation) -> None:
             (w.over(f"x_{name}"), [each[0] for each in shown]),
             (w.over(f"y_{name}"), [each[0] for each in other]),
         ]
-    columns.append((w.words(pgettext("synthesis_steps", "kind")), kinds))
-    w.table(step, "table.burmester", columns, ">>>>><")
+    columns.append((w.say(pgettext("synthesis_steps", "kind")), kinds))
+    w.table(step, _("Burmester's points of the five poses"), columns, ">>>>><")
 
 
 def _circles(w: Writer, d: MotionDerivation) -> None:
     """The positions of both pins, and their circle's centre from the bisectors."""
     best = w.found.best
-    step = w.step("circles")
-    step.say(w.words(_("Places of both pins in every pose:")))
-    columns = [(w.words(_("pose")), numbers(len(d.p))), *coordinates(w, best, ("A", "B"))]
-    w.table(step, "table.positions", columns)
+    step = w.step(_("Positions of the pins, and the fixed pivots"))
+    step.say(w.say(_("Places of both pins in every pose:")))
+    columns = [(w.say(_("pose")), numbers(len(d.p))), *coordinates(w, best, ("A", "B"))]
+    w.table(step, _("Positions of the moving points"), columns)
     for pin, pivot in (("A", "O1"), ("B", "O2")):
         if pivot in best.linkage.points:
             _centre(w, step, best.positions[pin], (pin, pivot))
@@ -210,7 +210,7 @@ def _centre(w: Writer, step: Step, positions: Complexes, names: tuple[str, str])
         rows = 2 * (places[1:] - places[0])
         right = np.abs(places[1:]) ** 2 - np.abs(places[0]) ** 2
         step.say(
-            w.words(
+            w.say(
                 _(
                     "The perpendicular bisectors of {pin}1 {pin}j meet in {pivot}: 2 ({pin}j − "
                     "{pin}1)·{pivot} = {pin}j² − {pin}1²",
@@ -223,7 +223,7 @@ def _centre(w: Writer, step: Step, positions: Complexes, names: tuple[str, str])
         product(step, known, entries([each] for each in unknown), "=", matrix(right, 4))
     else:
         step.say(
-            w.words(
+            w.say(
                 _(
                     "The bisectors of {pin}1 {pin}j do not meet in one point; {pivot} is the centre with "
                     "the smallest sum of squared differences of the distances:",
@@ -247,7 +247,7 @@ def _centre(w: Writer, step: Step, positions: Complexes, names: tuple[str, str])
     off = 0.0 if met else float(np.abs(far - far[0]).max())
     radii = ", ".join(w.lengths(far / w.scale))
     step.say(
-        w.words(
+        w.say(
             _(
                 "Distances {pivot} {pin} in the poses: {radii} {unit}; they differ by at most {off} {unit}.",
                 pin=pin,
@@ -265,7 +265,7 @@ def _line(w: Writer, step: Step, positions: Complexes) -> None:
     chord = positions[np.abs(positions - positions[0]).argmax()] - positions[0]
     unit = chord / abs(chord)
     off = ((positions - positions[0]) * unit.conj()).imag
-    step.say(w.words(_(
+    step.say(w.say(_(
 "B slides: its places lie on a straight line at the angle {angle}°, off by at most "
 "{off} {unit}.",
 angle=f"{math.degrees(np.angle(unit)):.4f}",

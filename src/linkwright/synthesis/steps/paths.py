@@ -10,6 +10,7 @@ from linkwright.core.quantity import number
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import Pair, symbol, total
 from linkwright.synthesis.free_curve.generate import FreeCurveDerivation
+from linkwright.synthesis.names import TYPE_NAMES
 from linkwright.synthesis.path_generation.exact import NinePointDerivation
 from linkwright.synthesis.path_generation.generate import PathDerivation
 from linkwright.synthesis.requirements.dwell import DwellDerivation
@@ -17,7 +18,7 @@ from linkwright.synthesis.requirements.straight_line import FOUR_BARS, StraightL
 from linkwright.synthesis.result import error_texts
 from linkwright.synthesis.steps.four_bars import coordinates, examine, four_bar_lengths
 from linkwright.synthesis.steps.writing import Writer, decimals, degrees, numbers, small
-from linkwright.words import _
+from linkwright.words import _, pgettext
 
 #: Points of a free curve that are shown.
 SHOWN = 12
@@ -28,21 +29,19 @@ WRITTEN = 9
 def path(w: Writer, d: PathDerivation) -> None:
     """Points, unknowns, and the coupler point at every one of them."""
     points = d.demand.points
-    step = w.step("given")
-    step.say(
-        w.words(_("{count} points that the coupler point P shall pass in this order.", count=len(points)))
-    )
+    step = w.step(pgettext("synthesis_steps", "Given"))
+    step.say(w.say(_("{count} points that the coupler point P shall pass in this order.", count=len(points))))
     columns = [
-        (w.words(_("point")), numbers(len(points))),
+        (w.say(_("point")), numbers(len(points))),
         (w.over("x"), w.lengths(points.real)),
         (w.over("y"), w.lengths(points.imag)),
     ]
     if d.demand.timed:
         columns.append(("θ / °", degrees(d.demand.angles)))
-    w.table(step, "table.points", columns)
-    step = w.step("search")
+    w.table(step, _("Points of the path"), columns)
+    step = w.step(_("What is searched, and how"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "P = O1 + a e^(iθ) + p e^(iδ) with the crank a and the vector p on the coupler. For "
                 "given ratios of the lengths and crank angles the place, size and direction of the "
@@ -52,9 +51,9 @@ def path(w: Writer, d: PathDerivation) -> None:
     )
     unknowns = 2 * len(points) - d.demand.excess
     key = "path.more" if d.demand.excess > 0 else "path.enough"
-    step.say(w.words(key, equations=2 * len(points), unknowns=unknowns, optima=d.optima))
+    step.say(w.say(key, equations=2 * len(points), unknowns=unknowns, optima=d.optima))
     if d.demand.pivot is not None:
-        step.say(w.words(_("The crank's pivot is given.")))
+        step.say(w.say(_("The crank's pivot is given.")))
     _coupler_point(w)
     _points_met(w)
     examine(w, w.found.best)
@@ -62,7 +61,7 @@ def path(w: Writer, d: PathDerivation) -> None:
 
 def _coupler_point(w: Writer) -> None:
     """Pivots, and the coupler point in the axes of the coupler."""
-    step = w.step("found")
+    step = w.step(_("The linkage found"))
     points = w.found.best.linkage.points
     for name in ("O1", "O2"):
         for axis, value in (("x", points[name].real), ("y", points[name].imag)):
@@ -71,7 +70,7 @@ def _coupler_point(w: Writer) -> None:
         step.give(term, w.unit)
     along = points["B"] - points["A"]
     local = (points["P"] - points["A"]) * along.conjugate() / abs(along)
-    step.say(w.words(_("The coupler point from A, along AB (ξ) and to the left of it (η):")))
+    step.say(w.say(_("The coupler point from A, along AB (ξ) and to the left of it (η):")))
     for axis, value in (("ξ", local.real), ("η", local.imag)):
         step.give(symbol(axis, value * w.scale), w.unit)
 
@@ -81,44 +80,46 @@ def _points_met(w: Writer) -> None:
     found, best = w.found, w.found.best
     target = found.target
     assert target is not None
-    step = w.step("error")
-    step.say(w.words(_("Pins and coupler point at every point:")))
+    step = w.step(_("Error at every position"))
+    step.say(w.say(_("Pins and coupler point at every point:")))
     w.table(
-        step, "table.positions", [(w.words(_("point")), numbers(len(target))), *coordinates(w, best, "ABP")]
+        step,
+        _("Positions of the moving points"),
+        [(w.say(_("point")), numbers(len(target))), *coordinates(w, best, "ABP")],
     )
     places = best.positions["P"]
     off = np.abs(places - target)
     columns = [
-        (w.words(_("point")), numbers(len(target))),
+        (w.say(_("point")), numbers(len(target))),
         (w.over("x"), w.lengths(target.real)),
         (w.over("y"), w.lengths(target.imag)),
         (w.over("x_P"), w.lengths(places.real)),
         (w.over("y_P"), w.lengths(places.imag)),
-        (w.over(w.words(_("distance"))), small(off * w.scale, found.extent * w.scale)),
+        (w.over(w.say(_("distance"))), small(off * w.scale, found.extent * w.scale)),
     ]
-    w.table(step, "table.error", columns)
+    w.table(step, _("Deviation at every position"), columns)
     size = found.extent * w.scale
     if off.max() * w.scale > 1e-9 * size and len(off) <= WRITTEN:
         terms = [w.length("e", float(each), str(i + 1)).squared for i, each in enumerate(off)]
         value = float((off**2).sum()) * w.scale**2
         step.find(symbol("Σe²", value), total(terms), f"{w.unit}²")
     else:
-        step.say(w.words(_("Sum of squared distances: {squares} m².", squares=error_texts(best)[0])))
+        step.say(w.say(_("Sum of squared distances: {squares} m².", squares=error_texts(best)[0])))
     w.picture("structural_error")
 
 
 def nine_points(w: Writer, d: NinePointDerivation) -> None:
     """Nine points: all classes of cognates, and the check of the lengths in every position."""
-    step = w.step("given")
+    step = w.step(pgettext("synthesis_steps", "Given"))
     columns = [
-        (w.words(_("point")), numbers(len(d.points))),
+        (w.say(_("point")), numbers(len(d.points))),
         (w.over("x"), w.lengths(d.points.real)),
         (w.over("y"), w.lengths(d.points.imag)),
     ]
-    w.table(step, "table.points", columns)
-    step = w.step("search")
+    w.table(step, _("Points of the path"), columns)
+    step = w.step(_("What is searched, and how"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "Nine points leave no number free: all {classes} of 1442 classes of cognates were "
                 "found by continuation, {real} of them real; their {examined} four-bars, with both "
@@ -131,9 +132,9 @@ def nine_points(w: Writer, d: NinePointDerivation) -> None:
         )
     )
     _coupler_point(w)
-    step = w.step("error")
+    step = w.step(_("Error at every position"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "P lies at the nine points; the lengths |O1A|, |AB| and |O2B| from these coordinates "
                 "are the same in all of them:",
@@ -142,7 +143,9 @@ def nine_points(w: Writer, d: NinePointDerivation) -> None:
     )
     best = w.found.best
     w.table(
-        step, "table.positions", [(w.words(_("point")), numbers(len(d.points))), *coordinates(w, best, "ABP")]
+        step,
+        _("Positions of the moving points"),
+        [(w.say(_("point")), numbers(len(d.points))), *coordinates(w, best, "ABP")],
     )
     examine(w, best)
 
@@ -151,14 +154,14 @@ def straight_line(w: Writer, d: StraightLineDerivation) -> None:
     """The proportions of the linkage, its scale, and the distance from the line along the stretch."""
     best = w.found.best
     kind = best.linkage.kind
-    step = w.step("given")
+    step = w.step(pgettext("synthesis_steps", "Given"))
     step.give(w.length("s", d.length), w.unit)
     step.give(w.length("δ", d.allowed), w.unit)
     key = "line.kind" if d.compared == 1 else "line.compared"
-    step.say(w.words(key, count=d.compared, good=len(w.found)))
-    step = w.step("lengths")
+    step.say(w.say(key, count=d.compared, good=len(w.found)))
+    step = w.step(_("Link lengths"))
     step.say(
-        w.words(
+        w.say(
             (
                 _(
                     "Peaucellier's linkage: arms L, rhombus s and crank r equal to the frame keep P at "
@@ -188,9 +191,9 @@ def _proportions(w: Writer, step: Step, kind: str) -> None:
 
 def _along(w: Writer, places: np.ndarray, off: np.ndarray) -> None:
     """Coordinates of the drawing point along the stretch, and its distance from the line."""
-    step = w.step("error")
+    step = w.step(_("Error at every position"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "The drawing point along the stretch, and its distance from the line through the "
                 "first of these points:",
@@ -198,26 +201,26 @@ def _along(w: Writer, places: np.ndarray, off: np.ndarray) -> None:
         )
     )
     columns = [
-        (w.words(_("position")), numbers(len(places))),
+        (w.say(_("position")), numbers(len(places))),
         (w.over("x_P"), w.lengths(places.real)),
         (w.over("y_P"), w.lengths(places.imag)),
-        (w.over(w.words(_("distance"))), small(off * w.scale, float(np.ptp(np.abs(places))) * w.scale)),
+        (w.over(w.say(_("distance"))), small(off * w.scale, float(np.ptp(np.abs(places))) * w.scale)),
     ]
-    w.table(step, "table.error", columns)
-    step.say(w.words(_("Greatest distance from the line: {error}.", error=w.length_text(w.found.best.error))))
+    w.table(step, _("Deviation at every position"), columns)
+    step.say(w.say(_("Greatest distance from the line: {error}.", error=w.length_text(w.found.best.error))))
     w.picture("structural_error")
 
 
 def dwell(w: Writer, d: DwellDerivation) -> None:
     """The arc of the coupler curve, the radius at several positions of the rest, and what the output deviates."""
     best = w.found.best
-    step = w.step("given")
+    step = w.step(pgettext("synthesis_steps", "Given"))
     step.give(w.angle("θ", d.crank_angle), "°")
     step.give(w.angle("ψ", d.swing_angle), "°")
     step.give(w.length("d", d.frame), w.unit)
-    step = w.step("search")
+    step = w.step(_("What is searched, and how"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "{tried} crank-rockers with random coupler points were tried, and of each the "
                 "stretch over this crank angle that is nearest to a circular arc; for the best "
@@ -227,9 +230,9 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
             )
         )
     )
-    step = w.step("arc")
+    step = w.step(_("The arc of the coupler curve"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "While P runs along this arc, a link of the length ρ keeps its other end Q in the "
                 "centre C, and the output rests:",
@@ -243,7 +246,7 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
     places = best.positions["P"]
     far = np.abs(places - d.centre)
     columns = [
-        (w.words(_("position")), numbers(len(places))),
+        (w.say(_("position")), numbers(len(places))),
         ("θ / °", degrees(d.crank, 3)),
         (w.over("x_P"), w.lengths(places.real)),
         (w.over("y_P"), w.lengths(places.imag)),
@@ -251,9 +254,9 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
         (w.over("|CP| − ρ"), small((far - d.radius) * w.scale, d.radius * w.scale)),
         ("Δψ / °", decimals(np.degrees(best.deviations), 5)),
     ]
-    w.table(step, "table.rest", columns)
+    w.table(step, _("Positions during the rest"), columns)
     step.say(
-        w.words(
+        w.say(
             _(
                 "During the rest the output deviates by at most ±{error}°; over the turn it swings {swing}°.",
                 error=number(best.error, "angle", 4),
@@ -267,15 +270,15 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
 def free_curve(w: Writer, d: FreeCurveDerivation) -> None:
     """The measure, the search's demands, and how far the drawn curve lies from some points of the given one."""
     best = w.found.best
-    step = w.step("given")
+    step = w.step(pgettext("synthesis_steps", "Given"))
     key = "free.closed" if d.closed else "free.open"
-    step.say(w.words(key, points=len(d.curve)))
+    step.say(w.say(key, points=len(d.curve)))
     for name, value in (("x_S", d.centroid.real), ("y_S", d.centroid.imag), ("R", d.radius)):
         letter, _unused, index = name.partition("_")
         step.give(w.length(letter, value, index), w.unit)
-    step = w.step("search")
+    step = w.step(_("What is searched, and how"))
     step.say(
-        w.words(
+        w.say(
             _(
                 "Error: mean nearest distance from the curve to the drawn curve, plus that back, "
                 "divided by R. Centroid and R of both curves are the same.",
@@ -283,7 +286,7 @@ def free_curve(w: Writer, d: FreeCurveDerivation) -> None:
         )
     )
     step.say(
-        w.words(_(
+        w.say(_(
 "Linkages are random structures, improved by descent and changed again: transmission "
 "angles of at least {angle}°, every joint within {size} R of S; in {seconds} s "
 "{attempts} were tried and {designs} different ones remained.",
@@ -295,32 +298,32 @@ designs=d.designs,
 ))
     )  # fmt: skip
     step.say(
-        w.words(
+        w.say(
             _(
                 "First candidate: {kind}, {links} links, {joints} joints.",
-                kind=w.say(f"synthesize.type.{best.grashof_type}"),
+                kind=TYPE_NAMES[best.grashof_type],
                 joints=f"{best.values['joints']:g}",
                 links=f"{best.values['links']:g}",
             )
         )
     )
-    step = w.step("error")
+    step = w.step(_("Error at every position"))
     chosen = np.unique(np.linspace(0, len(d.curve) - 1, SHOWN).round().astype(int))
     points, drawn = d.curve[chosen], best.curve
     assert drawn is not None
     nearest = drawn[np.abs(points[:, None] - drawn).argmin(1)]
     columns = [
-        (w.words(_("point")), numbers(len(points))),
+        (w.say(_("point")), numbers(len(points))),
         (w.over("x"), w.lengths(points.real)),
         (w.over("y"), w.lengths(points.imag)),
         (w.over("x_P"), w.lengths(nearest.real)),
         (w.over("y_P"), w.lengths(nearest.imag)),
-        (w.over(w.words(_("distance"))), small(np.abs(nearest - points) * w.scale, d.radius * w.scale)),
+        (w.over(w.say(_("distance"))), small(np.abs(nearest - points) * w.scale, d.radius * w.scale)),
     ]
-    step.say(w.words(_("Some corners of the curve, and the nearest point of the drawn curve:")))
-    w.table(step, "table.error", columns)
+    step.say(w.say(_("Some corners of the curve, and the nearest point of the drawn curve:")))
+    w.table(step, _("Deviation at every position"), columns)
     step.say(
-        w.words(
+        w.say(
             _(
                 "Error {error} (in lengths {mean}), greatest nearest distance {worst}.",
                 error=f"{best.error:.4g}",

@@ -6,9 +6,10 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 
 from linkwright.errors import speaker
-from linkwright.synthesis.result import Synthesis, WorkedSynthesis, refuse
+from linkwright.synthesis.result import Synthesis, SynthesisError, WorkedSynthesis
 from linkwright.synthesis.steps.choice import write_choice
 from linkwright.synthesis.steps.writing import Writer
+from linkwright.words import _
 
 #: Writers of steps by the name of the derivation's class, each in a module of this package.
 WRITERS: Mapping[str, str] = {
@@ -25,6 +26,21 @@ WRITERS: Mapping[str, str] = {
     "DwellDerivation": "paths.dwell",
     "FreeCurveDerivation": "paths.free_curve",
 }
+#: Titles, by the task.
+TITLES = {
+    "slider_crank": _("Synthesis of a slider-crank: worked solution"),
+    "crank_rocker": _("Synthesis of a crank-rocker from swing angle and quick-return ratio: worked solution"),
+    "quick_return": _("Synthesis of a crank and slotted lever from its quick-return ratio: worked solution"),
+    "drag_link": _("Synthesis of a drag link from its quick-return ratio: worked solution"),
+    "toggle": _("Synthesis of a toggle from its force ratio: worked solution"),
+    "dwell": _("Synthesis of a dwell mechanism: worked solution"),
+    "straight_line": _("Synthesis of a straight-line linkage: worked solution"),
+    "function": _("Function generation: worked solution"),
+    "motion": _("Motion generation: worked solution"),
+    "path": _("Path generation: worked solution"),
+    "exact_path": _("Path generation through precision points: worked solution"),
+    "free_curve": _("Linkage for a free curve: worked solution"),
+}
 
 
 def worked(found: Synthesis, language: str = "en") -> WorkedSynthesis:
@@ -34,7 +50,14 @@ def worked(found: Synthesis, language: str = "en") -> WorkedSynthesis:
     """
     say = speaker(language)
     if found.derivation is None or not len(found):
-        raise refuse("no_derivation", task=found.task)
+        raise SynthesisError(
+            _(
+                "the task {task} has no worked solution: its linkages follow from one that is given; "
+                "print its text instead",
+                code="synthesize.no_derivation",
+                task=found.task,
+            )
+        )
     writer = Writer(found, say)
     module, name = WRITERS[type(found.derivation).__name__].split(".")
     write: Callable[[Writer, object], None] = getattr(import_module(f"{__package__}.{module}"), name)
@@ -42,4 +65,4 @@ def worked(found: Synthesis, language: str = "en") -> WorkedSynthesis:
     write_choice(writer)
     pictures = {number: tuple(kinds) for number, kinds in writer.pictures.items()}
     steps = tuple(step for step in writer.steps if step.items)
-    return WorkedSynthesis(writer.words(f"task.{found.task}"), steps, pictures)
+    return WorkedSynthesis(say(TITLES[found.task]), steps, pictures)

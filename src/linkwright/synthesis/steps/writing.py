@@ -49,13 +49,9 @@ class Writer:
         """That unit per m."""
         return 1.0 if self.large else 1e3
 
-    def words(self, key: str, **values: object) -> str:
-        """A text of the catalogue of these steps."""
-        return self.say(key if isinstance(key, Message) else f"synthesis_steps.{key}", **values)
-
-    def step(self, key: str) -> Step:
+    def step(self, title: Message) -> Step:
         """A new step with its title."""
-        step = Step(str(len(self.steps) + 1), self.words(f"title.{key}"))
+        step = Step(str(len(self.steps) + 1), self.say(title))
         self.steps.append(step)
         return step
 
@@ -90,7 +86,7 @@ class Writer:
         return f"{text} / {self.unit}"
 
     def table(
-        self, step: Step, title: str, columns: Sequence[tuple[str, Sequence[str]]], align: str = ""
+        self, step: Step, title: Message, columns: Sequence[tuple[str, Sequence[str]]], align: str = ""
     ) -> None:
         """Adds a table by its columns, head and texts; a long one is shown by evenly spaced rows."""
         rows = list(zip(*(texts for _, texts in columns), strict=True))
@@ -98,7 +94,7 @@ class Writer:
             chosen = np.unique(np.linspace(0, len(rows) - 1, MOST_ROWS).round().astype(int))
             rows = [rows[i] for i in chosen]
         heads = tuple(head for head, _ in columns)
-        step.items.append(Tabulated(self.words(title), heads, tuple(rows), align or ">" * len(heads)))
+        step.items.append(Tabulated(self.say(title), heads, tuple(rows), align or ">" * len(heads)))
 
 
 def named(name: str, index: str = "") -> str:
