@@ -20,8 +20,6 @@ PLACES = {"Saying": 0,
 }  # fmt: skip
 #: Files whose calls ``wrong(PLACE, KEY)`` have the code in the key of their sentence.
 BY_KEY = ("report/settings.py", "course/task.py")
-#: Sentences that only say what another one is about: errors have the code of that one.
-AROUND = ("cli.about", "rank.besides")
 SHORT = re.compile(r"[a-z]+(?:-[a-z]+)*")
 
 #: What the codes of findings about files mean, in English and Chinese.
@@ -255,7 +253,7 @@ def of_errors() -> dict[str, list[str]]:
     found: dict[str, set[str]] = {area: set() for area in AREAS}
     for _, node in nodes():
         for key in _codes_within(node.args[0]) if _raises(node) and node.args else ():
-            if key.partition(".")[0] in AREAS and key not in AROUND:
+            if key.partition(".")[0] in AREAS:
                 found[key.partition(".")[0]].add(key)
     return {area: sorted(each) for area, each in sorted(found.items())}
 

@@ -19,6 +19,13 @@ _KEY = re.compile(r"[a-z_]+\.[\w.]+")
 NO_FILE = frozenset({"no-file", "not-a-file"})
 
 
+_SEVERITIES = {
+    "error": _("{body}"),
+    "warning": _("warning: {body}"),
+    "note": _("note: {body}"),
+}
+
+
 @dataclass(frozen=True)
 class Finding:
     """One remark about a model: where it is, what is the matter, and what to do about it.
@@ -52,16 +59,12 @@ class Finding:
         """Place and sentence in a language."""
         place = "".join(f"{part}: " for part in (self.where, self.key) if part)
         body = with_remedy(self.message, self.remedy)
-        return place + say(f"finding.{self.severity}", language, body=in_language(body, language))
+        return place + _SEVERITIES[self.severity].format(body=body).translate(language)
 
 
 def with_remedy(message: str, remedy: str) -> str:
     """What is the matter and what to do about it as one sentence."""
-    return (
-        _("{message}; {remedy}", code="finding.with_remedy", message=message, remedy=remedy)
-        if remedy
-        else message
-    )
+    return _("{message}; {remedy}", message=message, remedy=remedy) if remedy else message
 
 
 class LinkwrightError(Exception):
@@ -186,4 +189,4 @@ def about(
     try:
         yield
     except of as error:
-        raise kind(_("{name}: {cause}", code="cli.about", name=name, cause=error)) from None
+        raise kind(_("{name}: {cause}", name=name, cause=error)) from None

@@ -9,8 +9,7 @@ from typing import Generic, TypeVar, cast
 
 from linkwright.core.entry_points import loaded, modules_within, offered_by_packages
 from linkwright.errors import LinkwrightError, UnknownName
-from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _, pgettext
 from linkwright.words.synonyms import nearest_in_meaning
 
 T = TypeVar("T")
@@ -18,6 +17,15 @@ T = TypeVar("T")
 MOST_SHOWN, MOST_COMPARED = 60, 300
 #: Likeness of two names above which one is the other with a slip of the pen, is probably meant, may be meant.
 SLIP, PROBABLE, POSSIBLE = 0.8, 0.7, 0.5
+
+
+THERE_IS = _("there is {names}")
+#: What was probably meant and all that exist, or only these.
+LISTINGS = {
+    "there_is": (_('did you mean "{offer}"? (there is: {names})'), _("there is: {names}")),
+    "known": (_('did you mean "{offer}"? (known: {names})'), _("known: {names}")),
+    "one_of": (_('did you mean "{offer}"? (one of: {names})'), pgettext("names", "one of: {names}")),
+}
 
 
 class Registry(Mapping[str, T], Generic[T]):
@@ -28,7 +36,7 @@ class Registry(Mapping[str, T], Generic[T]):
     """
 
     def __init__(
-        self, noun: str, package: str, *, entry_points: str | None = None, attribute: str | None = None
+        self, noun: Message, package: str, *, entry_points: str | None = None, attribute: str | None = None
     ) -> None:
         """``entry_points``: the group under which installed packages name modules with further elements;
         ``attribute``: where a class finds the name under which it is filed, unless it has its own there."""
@@ -49,7 +57,7 @@ class Registry(Mapping[str, T], Generic[T]):
                     _(
                         'the {noun} "{name}" is registered twice; choose another name',
                         code="names.twice",
-                        noun=Sentence(f"nouns.{self.noun}"),
+                        noun=self.noun,
                         name=name,
                     )
                 )
@@ -117,16 +125,16 @@ def _home(element: object) -> tuple[str, str]:
     return getattr(element, "__module__", ""), getattr(element, "__qualname__", repr(element))
 
 
-def offered(name: str, known: Iterable[str], key: str = "names.there_is", most: int | None = None) -> Message:
+def offered(name: str, known: Iterable[str], among: Message = THERE_IS, most: int | None = None) -> Message:
     """What was probably meant by a name that does not exist, else all that exist, at ``most`` so many.
 
-    ``key``: the sentence that lists them as ``names``.
+    ``among``: the text that lists them as ``names``.
     """
     names = tuple(dict.fromkeys(known))
     offer = nearest(str(name)[:100], names)
     if offer is not None:
         return _('did you mean "{offer}"?', offer=offer)
-    return Sentence(key, names=_shown(names[:most])) if names else _("there is none")
+    return among.format(names=_shown(names[:most])) if names else _("there is none")
 
 
 def listed(name: str, known: Iterable[str], word: str = "there_is") -> Message:
@@ -134,8 +142,8 @@ def listed(name: str, known: Iterable[str], word: str = "there_is") -> Message:
     names = tuple(dict.fromkeys(known))
     offer = nearest(name[:100], names)
     if offer is not None:
-        return Sentence(f"names.near_{word}", offer=offer, names=_shown(names))
-    return Sentence(f"names.all_{word}", names=_shown(names)) if names else _("there is none")
+        return LISTINGS[word][0].format(offer=offer, names=_shown(names))
+    return LISTINGS[word][1].format(names=_shown(names)) if names else _("there is none")
 
 
 def _shown(names: tuple[str, ...]) -> tuple[str, ...]:
@@ -143,12 +151,12 @@ def _shown(names: tuple[str, ...]) -> tuple[str, ...]:
     return names if len(names) <= MOST_SHOWN else (*names[:MOST_SHOWN], "…")
 
 
-def no_such(noun: str, name: str, known: Iterable[str]) -> Message:
-    """The sentence for a name that does not exist, or is none; ``noun`` is a key of the catalogue's ``nouns``."""
+def no_such(noun: Message, name: str, known: Iterable[str]) -> Message:
+    """The sentence for a name that does not exist, or is none."""
     return _(
         'there is no {noun} "{name}"; {hint}',
         code="names.no_such",
-        noun=Sentence(f"nouns.{noun}"),
+        noun=noun,
         name=name,
         hint=offered(name, known),
     )

@@ -14,9 +14,41 @@ from functools import cache, lru_cache
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
 
 Dimension = tuple[float, float, float, float]
+
+#: What a value of a dimension is called.
+NOUNS = {
+    "dimensionless": _("a dimensionless number"),
+    "length": _("a length"),
+    "angle": _("an angle"),
+    "time": _("a time"),
+    "mass": _("a mass"),
+    "inertia": _("an inertia"),
+    "velocity": _("a velocity"),
+    "acceleration": _("an acceleration"),
+    "angular_velocity": _("an angular velocity"),
+    "angular_acceleration": _("an angular acceleration"),
+    "frequency": _("a frequency"),
+    "force": _("a force"),
+    "torque": _("a torque"),
+    "power": _("a power"),
+    "pressure": _("a pressure"),
+    "area": _("an area"),
+    "volume": _("a volume"),
+    "density": _("a density"),
+    "stiffness": _("a stiffness"),
+    "damping": _("a damping"),
+    "torsional_stiffness": _("a torsional stiffness"),
+    "torsional_damping": _("a torsional damping"),
+    "second_moment_of_area": _("a second moment of area"),
+    "mass_moment": _("a mass moment"),
+    "length_per_angle": _("a length per angle"),
+    "length_per_angle_squared": _("a length per angle squared"),
+    "per_angle": _("a value per angle"),
+    "line_load": _("a line load"),
+    "linear_density": _("a linear density"),
+}
 
 NONE: Dimension = (0, 0, 0, 0)
 #: Dimensions by name: their powers, the SI unit, and what no machine reaches, in SI: a value beyond it is a slip in a
@@ -379,7 +411,11 @@ def parse(text: str, dimension: str) -> float:
         )
     if re.match(r"(?!1/)[_'’]?\d", rest):
         raise QuantityError(
-            Sentence(f"units.{'space' if rest[0].isdigit() else 'separator'}", plain=plain),
+            (
+                _('"{plain}" has a space inside the number')
+                if rest[0].isdigit()
+                else _('"{plain}" has a separator inside the number')
+            ).format(plain=plain),
             _('write "{digits}{rest}"', digits=digits, rest=rest.lstrip("_'’")),
             code="quantity",
         )
@@ -456,8 +492,12 @@ def decimal_comma(text: str) -> QuantityError:
     right = re.sub(r"(?<=\d)[,，]\s?(?=\d)", ".", text)
     remedy = _('write a point: "{right}"', code="units.point", right=right)
     if re.match(r"[+-]?[1-9]\d{0,2}([,，]\d{3})+(?!\d)", text):
-        way = "no_comma" if right.count(".") > 1 else "point_or_none"
-        remedy = Sentence(f"units.{way}", right=right, whole=re.sub("[,，]", "", text))
+        way = (
+            _('write "{whole}"')
+            if right.count(".") > 1
+            else _('write a point: "{right}"; or "{whole}", if thousands are meant')
+        )
+        remedy = way.format(right=right, whole=re.sub("[,，]", "", text))
     return QuantityError(_('decimal comma in "{text}"', text=text), remedy, code="decimal-comma")
 
 
@@ -479,7 +519,7 @@ def require(kind: Dimension, dimension: str, text: str, *, bare: bool = False) -
     """Raise QuantityError unless ``kind`` is the dimension that is needed."""
     if kind == DIMENSIONS[dimension]:
         return
-    noun = Sentence(f"nouns.a_{dimension}")
+    noun = NOUNS[dimension]
     if bare:
         right = f"{text} {USUAL_UNITS[dimension]}".strip()
         raise QuantityError(
@@ -510,7 +550,7 @@ def name_of(kind: Dimension) -> Message:
     """A dimension in words: ``a length``, or by its SI units where it has no name."""
     for name, dimension in DIMENSIONS.items():
         if dimension == kind:
-            return Sentence(f"nouns.a_{name}")
+            return NOUNS[name]
     return _("a quantity in {unit}", unit=si_symbol(kind))
 
 

@@ -53,7 +53,7 @@ def forces(text: str, load: str, steps: int = 36) -> lw.Forces:
             "unknown-word",
             {"offer": "torsion_spring", "text": "torsion_sprin"},
         ),
-        ("{on: rocker}", "loads.push.kind", "missing-key", {"message": "loads.no_kind"}),
+        ("{on: rocker}", "loads.push.kind", "missing-key", {"message": "the load has no kind"}),
         (
             "{kind: force, on: roker, at: B, direction: 0 deg, magnitude: 1 N}",
             "loads.push.on",
@@ -70,32 +70,32 @@ def forces(text: str, load: str, steps: int = 36) -> lw.Forces:
             "{kind: force, on: frame, at: O, direction: 0 deg, magnitude: 1 N}",
             "loads.push.on",
             "reference",
-            {"message": "model.frame_at_rest"},
+            {"message": "the frame does not move"},
         ),
-        (f"{{{FORCE}}}", "loads.push", "choice", {"message": "loads.none_given"}),
+        (f"{{{FORCE}}}", "loads.push", "choice", {"message": "none of {words} is given"}),
         (
             f"{{{FORCE}, magnitude: 1 N, in_link: 0 deg}}",
             "loads.push",
             "choice",
-            {"message": "loads.both_given", "first": ("direction",), "last": "in_link"},
+            {"message": "{given} are both given", "first": ("direction",), "last": "in_link"},
         ),
         (
             f"{{{FORCE}, components: [1 N, 2 N]}}",
             "loads.push",
             "choice",
-            {"message": "loads.both_given", "first": ("direction",), "last": "components"},
+            {"message": "{given} are both given", "first": ("direction",), "last": "components"},
         ),
         (
             "{kind: force, on: rocker, at: B, components: [1 N, 2 N], magnitude: 3 N}",
             "loads.push",
             "choice",
-            {"message": "loads.both_given", "first": ("magnitude",), "last": "components"},
+            {"message": "{given} are both given", "first": ("magnitude",), "last": "components"},
         ),
         (
             f"{{{FORCE}, ramp: [0 N, 1 N]}}",
             "loads.push.ramp",
             "load",
-            {"message": "loads.ramp_without_phase"},
+            {"message": "a ramp runs over a phase, and none is given"},
         ),
         (f"{{{FORCE}, magnitude: 5}}", "loads.push.magnitude", "missing-unit", {"right": "5 N", "text": "5"}),
         (f"{{{FORCE}, magnitude: 5 N·m}}", "loads.push.magnitude", "wrong-dimension", {"text": "5 N·m"}),
@@ -109,13 +109,13 @@ def forces(text: str, load: str, steps: int = 36) -> lw.Forces:
             f'{{{FORCE}, magnitude: "5 N*(rocker"}}',
             "loads.push.magnitude",
             "expression",
-            {"message": "model.open_parenthesis"},
+            {"message": "a parenthesis is not closed"},
         ),
         (
             "{kind: torque, on: crank, against: crank, magnitude: 1 N·m}",
             "loads.push.against",
             "load",
-            {"message": "loads.same_links", "link": "crank"},
+            {"message": 'the torque acts on and against the same link "{link}"', "link": "crank"},
         ),
         (
             "{kind: torque, on: crank, against: krank, magnitude: 1 N·m}",
@@ -127,49 +127,49 @@ def forces(text: str, load: str, steps: int = 36) -> lw.Forces:
             "{kind: spring, between: [coupler.E, coupler.E2], stiffness: 1 N/m}",
             "loads.push.between",
             "load",
-            {"message": "loads.same_link", "link": "coupler"},
+            {"message": 'both points are on the link "{link}", so the load does nothing', "link": "coupler"},
         ),
         (
             "{kind: spring, between: [coupler.E, O], stiffness: -1 N/m}",
             "loads.push.stiffness",
             "range",
-            {"message": "model.is_faulty", "shown": "-1 N/m"},
+            {"message": "{shown} is {fault}", "shown": "-1 N/m"},
         ),
         (
             "{kind: spring, between: [coupler.E, O], stiffness: 1 N/m, free_length: -1 m}",
             "loads.push.free_length",
             "range",
-            {"message": "model.is_faulty", "shown": "-1 m"},
+            {"message": "{shown} is {fault}", "shown": "-1 m"},
         ),
         (
             "{kind: damper, between: [coupler.E, O], damping: -1 N·s/m}",
             "loads.push.damping",
             "range",
-            {"message": "model.is_faulty", "shown": "-1 N·s/m"},
+            {"message": "{shown} is {fault}", "shown": "-1 N·s/m"},
         ),
         (
             "{kind: damper, between: [coupler.E, Z], damping: 1 N·s/m}",
             "loads.push.between.1",
             "unknown-name",
-            {"what": "nouns.point", "name": "Z"},
+            {"what": "point", "name": "Z"},
         ),
         (
             "{kind: torsion_spring, links: [crank, crank], stiffness: 1 N·m/rad}",
             "loads.push.links",
             "reference",
-            {"message": "model.both_links", "first": "crank"},
+            {"message": 'both links are "{first}"', "first": "crank"},
         ),
         (
             "{kind: torsion_damper, links: [crank], damping: 1 N·m·s/rad}",
             "loads.push.links",
             "count",
-            {"message": "model.value_count", "given": 1, "count": 2},
+            {"message": "the number of values is {given}, not {count} as needed", "given": 1, "count": 2},
         ),
         (
             "{kind: pressure, joint: B, bore: 80 mm, magnitude: 2 bar}",
             "loads.push.joint",
             "reference",
-            {"message": "model.joint_is", "name": "B"},
+            {"message": 'the joint "{name}" is {kind}', "name": "B"},
         ),
     ],
 )
@@ -185,19 +185,19 @@ def test_findings_in_the_file(load: str, key: str, code: str, values: dict[str, 
             "{kind: pressure, joint: cylinder, magnitude: 2 bar}",
             "loads.push",
             "choice",
-            {"message": "loads.none_given", "words": ("area", "bore")},
+            {"message": "none of {words} is given", "words": ("area", "bore")},
         ),
         (
             "{kind: pressure, joint: cylinder, bore: 0 m, magnitude: 2 bar}",
             "loads.push.bore",
             "range",
-            {"message": "model.is_faulty", "shown": "0 m"},
+            {"message": "{shown} is {fault}", "shown": "0 m"},
         ),
         (
             "{kind: pressure, joint: cylinder, bore: 8 cm, area: 1 m², magnitude: 2 bar}",
             "loads.push",
             "choice",
-            {"message": "loads.both_given", "first": ("area",), "last": "bore"},
+            {"message": "{given} are both given", "first": ("area",), "last": "bore"},
         ),
         (
             "{kind: pressure, joint: cylinder, bore: 8 cm, magnitude: 2 bar, pushes: back}",
@@ -220,7 +220,9 @@ def test_findings_of_pistons(load: str, key: str, code: str, values: dict[str, o
 
 def test_division_by_zero_at_a_position() -> None:
     text = "5 N*rad/(input - 90 deg)"
-    with refused("loads.formula_fails", name="push", message="model.divides_by_zero", text=text, input="90°"):
+    with refused(
+        "loads.formula_fails", name="push", message='"{text}" divides by zero', text=text, input="90°"
+    ):
         forces(CRANK_ROCKER, f'{{{FORCE}, magnitude: "{text}"}}')
 
 
@@ -307,7 +309,9 @@ def test_a_jump_is_no_division_by_zero() -> None:
 
 
 def test_a_root_of_a_negative_number() -> None:
-    with refused("loads.formula_fails", name="push", message="model.no_real_value", input="100°"):
+    with refused(
+        "loads.formula_fails", name="push", message='"{text}" has no finite real value', input="100°"
+    ):
         forces(CRANK_ROCKER, f'{{{FORCE}, magnitude: "5 N*sqrt(cos(input))"}}')
 
 
@@ -329,7 +333,13 @@ def test_a_table_that_does_not_cover_the_cycle() -> None:
 def test_a_table_that_cannot_be_periodic(table: str, message: str) -> None:
     load = f"{{{FORCE}, table: {{{table}, interpolation: periodic}}}}"
     found = findings(CRANK_ROCKER.replace("LOAD", load))
-    said(found, "table", "loads.push.table", message=message, remedy="model.periodic_or_cubic")
+    said(
+        found,
+        "table",
+        "loads.push.table",
+        message=message,
+        remedy="close it (whole turns, the last value as the first), or write interpolation: cubic",
+    )
 
 
 def test_a_table_over_an_output_that_goes_further() -> None:
@@ -349,9 +359,7 @@ def test_a_swing_that_the_cycle_does_not_hold() -> None:
     text = SLIDER.replace("about: O, speed: 10 rad/s}", 'about: O, position: "(200 deg/s)*t - 10 deg"}')
     text = text.replace("loads:", "cycle: {duration: 1.5 s}\nloads:")
     phase = "phase: {of: cylinder, from: min, to: max}"
-    with refused(
-        "loads.no_such_swing", name="push", output="cylinder", start="loads.min", end="loads.max"
-    ) as caught:
+    with refused("loads.no_such_swing", name="push", output="cylinder", start="min", end="max") as caught:
         forces(text, f"{{kind: force, on: piston, at: B, direction: 0 deg, magnitude: 5 N, {phase}}}")
     assert [(each.values["kind"].key, each.values["input"]) for each in caught.value.values["places"]] == [
         ("loads.max", "0°"),
@@ -403,7 +411,14 @@ def test_table_over_a_block_in_lengths() -> None:
         "magnitude: 100 N, phase: {PHASE}", "table: {over: ram.angle, x: [0 mm, 300 mm], y: [1 N, 2 N]}"
     )
     over = "loads.work.table.over"
-    found = said(findings(text), "unit", over, message="model.over_angle", link="ram", guide="slide")
+    found = said(
+        findings(text),
+        "unit",
+        over,
+        message='"{link}" is the angle of that link, and x are lengths',
+        link="ram",
+        guide="slide",
+    )
     assert ":13:" in found.where
     for output in ("slide", "ram"):
         assert findings(text.replace("over: ram.angle", f"over: {output}")) == []
@@ -412,7 +427,7 @@ def test_table_over_a_block_in_lengths() -> None:
         "unit",
         over,
         link="rod",
-        remedy="model.over_point",
+        remedy="name a guide or a point's coordinate, such as C.x",
     )
 
 

@@ -32,9 +32,9 @@ def forces_of(name: str) -> lw.Forces:
 )
 def test_unknown_metric(wrong: str, right: str) -> None:
     motion = store.motion("crank_rocker", 36)
-    with refused("names.no_such", noun="nouns.metric", name=wrong, offer=right):
+    with refused("names.no_such", noun="metric", name=wrong, offer=right):
         metrics(motion, [wrong])
-    with refused("names.no_such", noun="nouns.metric", name=wrong, offer=right):
+    with refused("names.no_such", noun="metric", name=wrong, offer=right):
         metrics(motion)[wrong]
 
 

@@ -50,7 +50,7 @@ def test_an_element_beside_its_section_is_one_finding(line: str, section: str) -
     said(
         [found],
         "misplaced",
-        message="model.beside_section",
+        message='"{name}" stands beside the section "{section}", not in it',
         name=line.split(":", maxsplit=1)[0].strip(),
         section=section,
     )
@@ -65,7 +65,12 @@ def test_a_section_within_another_one_is_one_finding(section: str) -> None:
         f"links.{each}" for each in ("joints", "assembly", "driver", "loads")
     ]
     said(
-        told, "misplaced", f"links.{section}", message="model.section_within", section=section, within="links"
+        told,
+        "misplaced",
+        f"links.{section}",
+        message='the section "{section}" stands within "{within}"',
+        section=section,
+        within="links",
     )
 
 
@@ -129,7 +134,7 @@ def test_elements_may_have_names_of_sections() -> None:
 def test_a_list_of_links_is_one_finding(form: str) -> None:
     names = ("crank", "coupler", "rocker")
     (found,) = findings(changed(*((f"{name}: {{", form.format(name=name)) for name in names)))
-    said([found], "type", "links", message="model.list_of_elements")
+    said([found], "type", "links", message='"{section}" holds a list, where each entry stands under its name')
     assert "crank: {" in found.remedy
 
 

@@ -58,7 +58,7 @@ ONE_CHANGE = [
         "5:36",
         "links.crank.length",
         "wrong-dimension",
-        {"wrong": "nouns.a_dimensionless", "noun": "nouns.a_length", "text": "10%"},
+        {"wrong": "a dimensionless number", "noun": "a length", "text": "10%"},
     ),
     (
         "driver: {turn",
@@ -66,7 +66,7 @@ ONE_CHANGE = [
         "8:10",
         "drivers",
         "choice",
-        {"message": "model.drivers_without_names"},
+        {"message": "the driver has no name"},
     ),
     (
         "length: 1 m",
@@ -74,7 +74,7 @@ ONE_CHANGE = [
         "5:36",
         "links.crank.length",
         "wrong-dimension",
-        {"wrong": "nouns.a_mass"},
+        {"wrong": "a mass"},
     ),
     ("length: 1 m", "length: 60,5 mm", "5:36", "links.crank.length", "decimal-comma", {"right": "60.5 mm"}),
     ("length: 1 m", 'length: "60,5 mm"', "5:37", "links.crank.length", "decimal-comma", {"right": "60.5 mm"}),
@@ -93,7 +93,7 @@ ONE_CHANGE = [
         "7:11",
         "links.rocker",
         "one-point",
-        {"name": "rocker", "message": "model.lone_point"},
+        {"name": "rocker", "message": 'the link "{name}" has one point and is in no prismatic joint'},
     ),
     (
         "1 m}",
@@ -101,7 +101,7 @@ ONE_CHANGE = [
         "5:47",
         "links.crank.mass",
         "range",
-        {"fault": "model.negative", "shown": "-3 kg"},
+        {"fault": "negative", "shown": "-3 kg"},
     ),
     (
         "1 m}",
@@ -109,7 +109,7 @@ ONE_CHANGE = [
         "5:50",
         "links.crank.inertia",
         "wrong-dimension",
-        {"noun": "nouns.a_inertia"},
+        {"noun": "an inertia"},
     ),
     (
         "length: 1 m",
@@ -117,7 +117,7 @@ ONE_CHANGE = [
         "5:36",
         "links.crank.length",
         "range",
-        {"fault": "model.zero", "shown": "0 m"},
+        {"fault": "zero", "shown": "0 m"},
     ),
     (
         "length: 1 m",
@@ -125,7 +125,7 @@ ONE_CHANGE = [
         "5:36",
         "links.crank.length",
         "range",
-        {"fault": "model.zero", "shown": "0"},
+        {"fault": "zero", "shown": "0"},
     ),
     (
         "length: 1 m",
@@ -133,20 +133,20 @@ ONE_CHANGE = [
         "5:36",
         "links.crank.length",
         "range",
-        {"fault": "model.negative", "shown": "-1 m"},
+        {"fault": "negative", "shown": "-1 m"},
     ),
     ("length: 1 m", "length: .nan", "5:36", "links.crank.length", "not-finite", {"text": ".nan"}),
     ("length: 1 m", "length: .inf m", "5:36", "links.crank.length", "not-finite", {"text": ".inf m"}),
     ("length: 1 m", "length: 1e999 m", "5:36", "links.crank.length", "not-finite", {"text": "1e999 m"}),
-    ("length: 1 m", "length: [1 m]", "5:36", "links.crank.length", "type", {"node": "model.a_list"}),
-    ("length: 1 m", "length:", "5:35", "links.crank.length", "type", {"node": "model.nothing"}),
+    ("length: 1 m", "length: [1 m]", "5:36", "links.crank.length", "type", {"node": "a list"}),
+    ("length: 1 m", "length:", "5:35", "links.crank.length", "type", {"node": "nothing"}),
     (
         ", length: 1 m",
         "",
         "5:10",
         "links.crank",
         "missing-key",
-        {"message": "model.no_dimensions", "missing": ("A",)},
+        {"message": "the link has no dimensions, and the drawing no place of {missing}", "missing": ("A",)},
     ),
     (
         "[A, B]",
@@ -154,7 +154,7 @@ ONE_CHANGE = [
         "6:40",
         "links.coupler.length",
         "geometry",
-        {"message": "model.one_length", "count": 3},
+        {"message": "{count} points, but one length", "count": 3},
     ),
     (
         "[O1, A]",
@@ -162,7 +162,7 @@ ONE_CHANGE = [
         "5:24",
         "links.crank.points",
         "duplicate",
-        {"message": "model.point_twice", "name": "O1"},
+        {"message": 'the point "{name}" is listed twice', "name": "O1"},
     ),
     (
         "[O1, A]",
@@ -170,7 +170,7 @@ ONE_CHANGE = [
         "5:19",
         "links.crank.points",
         "type",
-        {"message": "model.where_list", "form": "[A, B]"},
+        {"message": "{node} stands where a list is needed", "form": "[A, B]"},
     ),
     (
         "[O1, A]",
@@ -178,30 +178,51 @@ ONE_CHANGE = [
         "5:20",
         "links.crank.points.0",
         "name",
-        {"message": "model.bad_name", "right": "O1_A"},
+        {"message": '"{text}" cannot be the name of a {what}', "right": "O1_A"},
     ),
-    ("{points: [O1, A], length: 1 m}", "", "5:9", "links.crank", "type", {"message": "model.where_mapping"}),
+    (
+        "{points: [O1, A], length: 1 m}",
+        "",
+        "5:9",
+        "links.crank",
+        "type",
+        {"message": "{node} stands where a mapping (key: value) is needed"},
+    ),
     (
         "about: O1",
         "about: B",
         "8:30",
         "driver.about",
         "reference",
-        {"message": "model.no_pin_at", "pins": ("O1", "A")},
+        {"message": 'the link "{link}" has no pin at "{pin}"', "pins": ("O1", "A")},
     ),
     ("about: O1", "about: Q", "8:30", "driver.about", "unknown-name", {"names": ("O1", "O2", "A", "B")}),
     ("turn: crank", "turn: crnk", "8:16", "driver.turn", "unknown-name", {"offer": "crank"}),
-    ("turn: crank", "turn: frame", "8:16", "driver.turn", "reference", {"message": "model.frame_at_rest"}),
+    (
+        "turn: crank",
+        "turn: frame",
+        "8:16",
+        "driver.turn",
+        "reference",
+        {"message": "the frame does not move"},
+    ),
     ("10 rpm", "460 rmp", "8:45", "driver.speed", "unknown-unit", {"offer": "rpm"}),
-    ("10 rpm", "10 Hz", "8:41", "driver.speed", "wrong-dimension", {"wrong": "nouns.a_frequency"}),
-    (", speed: 10 rpm", "", "8:9", "driver", "choice", {"message": "model.no_law", "speed": "170 rpm"}),
+    ("10 rpm", "10 Hz", "8:41", "driver.speed", "wrong-dimension", {"wrong": "a frequency"}),
+    (
+        ", speed: 10 rpm",
+        "",
+        "8:9",
+        "driver",
+        "choice",
+        {"message": "the driver has no law", "speed": "170 rpm"},
+    ),
     (
         "speed: 10 rpm",
         "speed: 10 rpm, position: 3 deg",
         "8:9",
         "driver",
         "choice",
-        {"message": "model.both_laws", "first": ("position",), "last": "speed"},
+        {"message": "{laws} are both given", "first": ("position",), "last": "speed"},
     ),
     (
         "speed: 10 rpm",
@@ -212,14 +233,21 @@ ONE_CHANGE = [
         {"name": "om"},
     ),
     ("format: 1", "format: 2", "1:9", "format", "version", {"key_": "format", "only": 1}),
-    ("format: 1\n", "", "1:1", "format", "missing-key", {"message": "model.missing_key", "key_": "format"}),
+    (
+        "format: 1\n",
+        "",
+        "1:1",
+        "format",
+        "missing-key",
+        {"message": 'the key "{key_}" is missing', "key_": "format"},
+    ),
     (
         "{points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}",
         "{points: [O1]}",
         "3:17",
         "frame.points",
         "type",
-        {"message": "model.frame_no_coordinates"},
+        {"message": "the frame's points have no coordinates"},
     ),
     (
         "name: four-bar",
@@ -235,7 +263,7 @@ ONE_CHANGE = [
         "5:36",
         "links.crank.length",
         "alias",
-        {"message": "yaml.no_anchor", "name": "x"},
+        {"message": 'the alias "*{name}" has no anchor "&{name}" before it', "name": "x"},
     ),
     (
         "links:\n",
@@ -243,7 +271,7 @@ ONE_CHANGE = [
         "5:9",
         "links.loop",
         "alias",
-        {"message": "yaml.own_alias", "name": "l"},
+        {"message": 'the alias "*{name}" stands inside its own anchor', "name": "l"},
     ),
     ("name: four-bar", "expected: " + "[" * 60 + "]" * 60, "2:51", "", "depth", {"most": 40}),
     ("  crank:", "\tcrank:", "5:1", "", "tab", {"sign": "\t", "code": "U+0009"}),
@@ -252,7 +280,14 @@ ONE_CHANGE = [
     ("four-bar", "four: bar", "2:11", "", "syntax", {"sign": ":"}),
     ("four-bar", "four\x07bar", "2:11", "", "syntax", {"sign": "\u0007"}),
     ("driver:", "---\nformat: 1\n", "8:1", "", "documents", {}),
-    ("crank:", "1:", "5:3", "links.1", "name", {"message": "model.bad_name", "right": "l1"}),
+    (
+        "crank:",
+        "1:",
+        "5:3",
+        "links.1",
+        "name",
+        {"message": '"{text}" cannot be the name of a {what}', "right": "l1"},
+    ),
     ("crank:", "[a, b]:", "5:3", "links", "key", {}),
     (
         "driver:",
@@ -277,12 +312,21 @@ def test_one_wrong_thing_is_found_at_its_place(
 
 
 ADDED = [
-    ("gravity: 9.81 m/s²", "gravity", "type", {"message": "model.where_list", "form": "[0, -9.81 m/s²]"}),
+    (
+        "gravity: 9.81 m/s²",
+        "gravity",
+        "type",
+        {"message": "{node} stands where a list is needed", "form": "[0, -9.81 m/s²]"},
+    ),
     (
         "gravity: [0 m/s²， -9.81 m/s²]",
         "gravity",
         "count",
-        {"message": "model.value_count", "form": "[0, -9.81 m/s²]", "given": 1},
+        {
+            "message": "the number of values is {given}, not {count} as needed",
+            "form": "[0, -9.81 m/s²]",
+            "given": 1,
+        },
     ),
     ("gravity: [0, -9.81]", "gravity.y", "missing-unit", {"right": "-9.81 m/s²", "text": "-9.81"}),
     (
@@ -296,22 +340,22 @@ ADDED = [
         "joints: {g: {kind: prismatic, guide: frame, through: O1, block: rocker, at: B}}",
         "joints.g.direction",
         "missing-key",
-        {"message": "model.missing_key", "key_": "direction"},
+        {"message": 'the key "{key_}" is missing', "key_": "direction"},
     ),
     ("joints: {g: {kind: prismatik}}", "joints.g.kind", "unknown-word", {"offer": "prismatic"}),
-    ("joints: {g: {guide: frame}}", "joints.g.kind", "missing-key", {"message": "model.joint_no_kind"}),
+    ("joints: {g: {guide: frame}}", "joints.g.kind", "missing-key", {"message": "the joint has no kind"}),
     ("joints: {C: {kind: revolute}}", "joints.C", "unknown-name", {"names": ("O1", "O2", "A", "B")}),
     (
         "joints: {B: {kind: revolute, friction: -0.1}}",
         "joints.B.friction",
         "range",
-        {"fault": "model.negative", "shown": "-0.1"},
+        {"fault": "negative", "shown": "-0.1"},
     ),
     (
         "joints: {crank: {kind: weld, links: [crank, coupler], at: A}}",
         "joints.crank",
         "duplicate",
-        {"message": "model.link_has_name", "name": "crank"},
+        {"message": 'a link has the name "{name}" already', "name": "crank"},
     ),
     (
         "joints: {w: {kind: weld, links: [crank, rocker], at: A}}",
@@ -336,13 +380,13 @@ ADDED = [
         "loads: {l: {kind: force, on: rocker, at: B, magnitude: 5 N}}",
         "loads.l",
         "choice",
-        {"message": "loads.none_given"},
+        {"message": "none of {words} is given"},
     ),
     (
         "loads: {l: {kind: force, on: rocker, at: B, direction: 0, ramp: [0 N, 5 N]}}",
         "loads.l.ramp",
         "load",
-        {"message": "loads.ramp_without_phase"},
+        {"message": "a ramp runs over a phase, and none is given"},
     ),
     (
         "loads: {l: {kind: force, on: rocker, at: B, in_link: 0, table: {over: rockr, x: [], y: []}}}",
@@ -354,29 +398,32 @@ ADDED = [
         "parameters: {a: b*2, b: 1 m}",
         "parameters.a",
         "unknown-name",
-        {"message": "model.defined_below", "name": "b"},
+        {"message": '"{name}" is defined below', "name": "b"},
     ),
     (
         "parameters: {e: 1/0}",
         "parameters.e",
         "not-finite",
-        {"message": "model.divides_by_zero", "text": "1/0"},
+        {"message": '"{text}" divides by zero', "text": "1/0"},
     ),
     (
         "parameters: {crank: 1 m}",
         "parameters.crank",
         "duplicate",
-        {"message": "model.name_taken", "name": "crank"},
+        {"message": 'a link or joint has the name "{name}" already', "name": "crank"},
     ),
     (
         "cycle: {from: 90 deg, to: 0 deg}",
         "cycle",
         "range",
-        {"message": "model.wrong_way", "remedy": "model.exchange_or_turn"},
+        {
+            "message": "the driver does not move from the first value to the last",
+            "remedy": "exchange from and to, or turn the sign of the speed",
+        },
     ),
-    ("cycle: {duration: -1 s}", "cycle.duration", "range", {"fault": "model.negative", "shown": "-1 s"}),
+    ("cycle: {duration: -1 s}", "cycle.duration", "range", {"fault": "negative", "shown": "-1 s"}),
     ("drawing: {Q: [1 m, 0 m]}", "drawing.Q", "unknown-name", {"names": ("O1", "O2", "A", "B"), "name": "Q"}),
-    ("drivers: {}", "drivers", "choice", {"message": "model.both_drivers"}),
+    ("drivers: {}", "drivers", "choice", {"message": "driver and drivers are both given"}),
     ("speed: 3 rpm", "speed", "unknown-key", {"key_": "speed"}),
 ]
 
@@ -567,7 +614,7 @@ def test_a_wheel_on_the_frame_needs_no_mass_beside_its_inertia() -> None:
     wheel = MODEL.replace("  crank:", "  wheel: {points: [O1], inertia: 0.01 kg·m²}\n  crank:")
     assert not [each for each in refusals.findings(wheel) if each.code == "unlikely"]
     massless = findings(changed("length: 1 m}", "length: 1 m, inertia: 0.01 kg·m²}"))
-    said(massless, "unlikely", "links.crank.inertia", message="model.inertia_without_mass")
+    said(massless, "unlikely", "links.crank.inertia", message="a link without mass has a moment of inertia")
 
 
 def test_a_crank_driven_about_the_wrong_pin_is_asked_about() -> None:
@@ -591,12 +638,24 @@ driver: {turn: crank, about: A, speed: 90 rpm}
 @pytest.mark.parametrize(
     ("length", "code", "values"),
     [
-        ("“1 m”", "expression", {"remedy": "yaml.quotes_do", "text": "“", "half": '"'}),
-        ("1_000 mm", "quantity", {"message": "units.separator", "digits": "1", "rest": "000 mm"}),
+        (
+            "“1 m”",
+            "expression",
+            {
+                "remedy": "write the quotation mark {half} in place of {wide}, or none",
+                "text": "“",
+                "half": '"',
+            },
+        ),
+        (
+            "1_000 mm",
+            "quantity",
+            {"message": '"{plain}" has a separator inside the number', "digits": "1", "rest": "000 mm"},
+        ),
         ("1,000 mm", "decimal-comma", {"right": "1.000 mm", "whole": "1000 mm"}),
-        ("1,000,000 mm", "decimal-comma", {"remedy": "units.no_comma", "whole": "1000000 mm"}),
-        ("1，5 m", "decimal-comma", {"remedy": "units.point", "right": "1.5 m"}),
-        ("25 mm ± 0.1 mm", "quantity", {"message": "units.tolerance"}),
+        ("1,000,000 mm", "decimal-comma", {"remedy": 'write "{whole}"', "whole": "1000000 mm"}),
+        ("1，5 m", "decimal-comma", {"remedy": 'write a point: "{right}"', "right": "1.5 m"}),
+        ("25 mm ± 0.1 mm", "quantity", {"message": '"{plain}" holds a tolerance'}),
         ("5 ㎜", "unknown-unit", {"offer": "mm"}),
         ("5 ｋｍ", "unknown-unit", {"offer": "km"}),
     ],
@@ -683,7 +742,13 @@ def test_a_mass_is_told_how_it_is_written_as_a_weight(weight: str, newtons: floa
 
 def test_a_parameter_without_its_unit_is_named_as_the_place_to_mend() -> None:
     (found,) = findings(changed("length: 1 m", "length: r").replace("links:", "parameters: {r: 1}\nlinks:"))
-    said([found], "wrong-dimension", "links.crank.length", remedy="model.give_unit_there", name="r")
+    said(
+        [found],
+        "wrong-dimension",
+        "links.crank.length",
+        remedy='give the parameter "{name}" its unit where it stands under parameters',
+        name="r",
+    )
 
 
 @pytest.mark.parametrize(
@@ -716,13 +781,19 @@ def test_of_a_block_without_its_guide_no_inertia_is_missed() -> None:
 def test_coordinates_for_the_name_of_a_point_are_one_finding() -> None:
     load = "loads: {push: {kind: force, on: crank, at: [1 m, 0 m], direction: 0 deg, magnitude: 3 N}}\n"
     (found,) = findings(MODEL + load)
-    said([found], "type", "loads.push.at", message="model.place_for_name", link="crank")
+    said(
+        [found],
+        "type",
+        "loads.push.at",
+        message="coordinates stand where the name of a point is needed",
+        link="crank",
+    )
 
 
 def test_a_frame_among_the_links_is_one_finding() -> None:
     frame = "frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}\n"
     (found,) = findings(MODEL.replace(frame, "").replace("links:\n", f"links:\n  {frame}"))
-    said([found], "name", "links.frame", message="model.frame_among_links")
+    said([found], "name", "links.frame", message="the frame stands among the links")
     assert found.where == "m.yaml:4:3" and "frame: {" in found.remedy
     (twice,) = findings(MODEL.replace("links:\n", "links:\n  frame: {points: [O1]}\n"))
     assert twice.key == "links.frame"
@@ -731,13 +802,13 @@ def test_a_frame_among_the_links_is_one_finding() -> None:
 @pytest.mark.parametrize("driver", ["{crank: 10 rpm}", "{link: crank, speed: 10 rpm}", "{joint: O1}"])
 def test_a_driver_told_in_other_words_is_shown_how_it_is_written(driver: str) -> None:
     found = findings(changed("{turn: crank, about: O1, speed: 10 rpm}", driver))
-    said(found, "missing-key", "driver", remedy="model.turns_link", link="crank", pin="O1")
+    said(found, "missing-key", "driver", remedy="write turn: {link} and about: {pin}", link="crank", pin="O1")
 
 
 @pytest.mark.parametrize("section", ["optimize", "report", "course", "expected", "cycle", "loads"])
 def test_a_section_with_nothing_in_it_is_told(section: str) -> None:
     (found,) = findings(f"{MODEL}{section}:\n")
-    said([found], "type", section, node="model.nothing")
+    said([found], "type", section, node="nothing")
 
 
 def test_a_calculation_of_the_gallery_is_told_to_be_one() -> None:
@@ -762,10 +833,43 @@ def test_a_mass_centre_that_is_not_the_middle_is_asked_for(points: str, warned: 
 @pytest.mark.parametrize(
     ("right", "given", "key", "values"),
     [
-        ("length: 1 m", "length 1 m", "links.crank.length", {"remedy": "model.joined_key_do", "rest": "1 m"}),
-        ("speed: 10 rpm", "speed: 10 rpm ccw", "driver.speed", {"remedy": "units.sense"}),
-        ("speed: 10 rpm", "speed: 10 rpm clockwise", "driver.speed", {"remedy": "units.sense"}),
-        ("speed: 10 rpm", "speed: 10 rpm, start: up", "driver.start", {"remedy": "model.direction_word"}),
+        (
+            "length: 1 m",
+            "length 1 m",
+            "links.crank.length",
+            {"remedy": "write a colon and a space between them: {key_}: {rest}", "rest": "1 m"},
+        ),
+        (
+            "speed: 10 rpm",
+            "speed: 10 rpm ccw",
+            "driver.speed",
+            {
+                "remedy": (
+                    "the sign says the sense: positive is counter-clockwise, negative (-120 rpm) clockwise"
+                )
+            },
+        ),
+        (
+            "speed: 10 rpm",
+            "speed: 10 rpm clockwise",
+            "driver.speed",
+            {
+                "remedy": (
+                    "the sign says the sense: positive is counter-clockwise, negative (-120 rpm) clockwise"
+                )
+            },
+        ),
+        (
+            "speed: 10 rpm",
+            "speed: 10 rpm, start: up",
+            "driver.start",
+            {
+                "remedy": (
+                    "a direction is an angle, counter-clockwise from x: right 0 deg, up 90 deg, left 180 "
+                    "deg, down -90 deg"
+                )
+            },
+        ),
     ],
 )
 def test_slips_of_students_are_one_finding_that_says_what_to_write(

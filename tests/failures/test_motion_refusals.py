@@ -83,7 +83,7 @@ def test_a_truss_that_does_not_close_is_refused_at_its_only_position() -> None:
         second="1 m",
         reach="2 m",
         missing="1 m",
-        where="motion.only_position",
+        where="its only position",
     ):
         lw.solve_motion(lw.loads(TWO_BARS))
 
@@ -168,7 +168,12 @@ cycle: {duration: 1 s}
 def test_of_several_drivers_the_range_of_the_one_that_fails_is_told() -> None:
     """K and E are 1 m apart, E and L 0.5 m: the second cylinder goes from 0.5 to 1.5 m, and 1.6 m are asked for; the
     first one's range was told."""
-    ends = {"link": "rod2", "low": "0.5 m", "high": "1.5 m", "told": "range.others_still"}
+    ends = {
+        "link": "rod2",
+        "low": "0.5 m",
+        "high": "1.5 m",
+        "told": "with the other drivers at their start {told}",
+    }
     with refused("motion.refused_told", lw.PositionError, **ends):
         lw.solve_motion(lw.loads(TWO_CYLINDERS))
 

@@ -47,18 +47,30 @@ def twice(text: str, **values: object) -> set[str]:
 
 @pytest.mark.parametrize("drivers", [TWO, ON_COUPLER])
 def test_two_drivers_on_mobility_one_name_what_they_determine_twice(drivers: str) -> None:
-    told = twice(FOURBAR + drivers, mobility=1, count=2, drivers="mobility.drivers_2")
+    told = twice(FOURBAR + drivers, mobility=1, count=2, drivers="two drivers")
     assert told == {"crank", "coupler", "rocker"}
 
 
 def test_two_drivers_of_one_coordinate_name_each_other() -> None:
     said(
-        findings(FOURBAR + SAME), "duplicate", "drivers.second", message="model.same_coordinate", name="first"
+        findings(FOURBAR + SAME),
+        "duplicate",
+        "drivers.second",
+        message='the driver "{name}" drives the same coordinate',
+        name="first",
     )
 
 
 def test_a_driven_structure_cannot_move() -> None:
-    told = twice(FOURBAR + BAR + ONE, mobility=0, count=1, why="mobility.cannot_be_driven")
+    told = twice(
+        FOURBAR + BAR + ONE,
+        mobility=0,
+        count=1,
+        why=(
+            "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, but "
+            "{drivers} is given"
+        ),
+    )
     assert told == {"crank", "coupler", "rocker", "brace"}
 
 

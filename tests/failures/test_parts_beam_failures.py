@@ -28,14 +28,17 @@ def told(supports: dict, **given: object) -> list[lw.Finding]:
         (
             {},
             {},
-            [("can_move", {"how": "beam.turns", "place": "0 mm"}), ("can_move", {"how": "beam.shifts"})],
+            [
+                ("can_move", {"how": "turn about x = {place}", "place": "0 mm"}),
+                ("can_move", {"how": "move up and down"}),
+            ],
         ),
-        ({"A": ("pinned", 0.5)}, {}, [("can_move", {"how": "beam.turns", "place": "500 mm"})]),
-        ({"A": ("guided", 0.0)}, {}, [("can_move", {"how": "beam.shifts"})]),
+        ({"A": ("pinned", 0.5)}, {}, [("can_move", {"how": "turn about x = {place}", "place": "500 mm"})]),
+        ({"A": ("guided", 0.0)}, {}, [("can_move", {"how": "move up and down"})]),
         (
             {"A": ("pinned", 0.0), "B": ("roller", 2.0)},
             {"hinges": (1.0,)},
-            [("can_move", {"how": "beam.folds", "places": ("1000 mm",)})],
+            [("can_move", {"how": "fold at the hinge at {places}", "places": ("1000 mm",)})],
         ),
         (
             {"A": ("pinned", 2.5), "B": ("roller", 0.0)},
@@ -72,7 +75,7 @@ loads: {P: {force: 2 kN, at: 1,5 m}}
     found = parts.check(file)
     assert [each.where.split(":")[1] for each in found] == ["4", "5", "6", "7"]
     said(found, "unknown-name", "material", name="S236", offer="S235")
-    said(found, "choice", "section", message="beam.one_shape", count=2)
+    said(found, "choice", "section", message="{count} shapes of the section are given", count=2)
     said(found, "unknown-word", "supports.A.kind", offer="fixed")
     said(found, "decimal-comma", "loads.P.at", right="1.5 m")
 
@@ -134,5 +137,5 @@ def test_a_section_without_height_is_a_finding(tmp_path: Path, shape: str) -> No
     file = tmp_path / "bending.yaml"
     file.write_text(re.sub("(?m)^section: .*", f"section: {{{shape}}}", text))
     (found,) = parts.check(file)
-    said([found], "range", "section", message="beam.no_section")
+    said([found], "range", "section", message="these dimensions make no section")
     assert found.where == "bending.yaml:9:10"

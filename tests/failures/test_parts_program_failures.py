@@ -69,7 +69,7 @@ def test_products_of_whole_numbers_that_do_not_fit() -> None:
             "minimize: x\nsubject_to: {a: x <= 3 mm}",
             "subject_to.a",
             "quantity",
-            {"left": "nouns.a_dimensionless", "right": "nouns.a_length"},
+            {"left": "a dimensionless number", "right": "a length"},
         ),
     ],
 )

@@ -15,12 +15,12 @@ def body(*supports: parts.Support) -> parts.RigidBody:
 
 
 def test_a_body_that_slides_says_which_way() -> None:
-    with faulty("can_move", "supports", how="statics.slides", way="(1, 0)"):
+    with faulty("can_move", "supports", how="slide along {way}", way="(1, 0)"):
         body(parts.Support((0.0, 0.0), ("y",)), parts.Support((3.0, 0.0), ("y",))).solve()
 
 
 def test_a_body_that_turns_says_about_which_point() -> None:
-    with faulty("can_move", "supports", how="statics.turns_plane", place="(1, 0.5)"):
+    with faulty("can_move", "supports", how="turn about the point {place} m", place="(1, 0.5)"):
         body(parts.Support((1.0, 0.5), ("x", "y"))).solve()
 
 
@@ -29,7 +29,7 @@ def test_a_motion_that_the_loads_do_not_start_is_told_apart() -> None:
         {"A": parts.Support((0.0, 0.0), ("y",)), "B": parts.Support((3.0, 0.0), ("y",))},
         {"load": parts.Force(force=(0, -600), at=(1.5, 0.0))},
     )
-    with faulty("loose", "supports", how="statics.slides", way="(1, 0)"):
+    with faulty("loose", "supports", how="slide along {way}", way="(1, 0)"):
         level.solve()
 
 
@@ -62,14 +62,19 @@ def test_files_say_where() -> None:
 @pytest.mark.parametrize(
     ("text", "key", "code", "values"),
     [
-        ("format: 1\nforces: {F: [1 N, 2 N]}\n", "kind", "kind", {"message": "part.no_kind"}),
+        (
+            "format: 1\nforces: {F: [1 N, 2 N]}\n",
+            "kind",
+            "kind",
+            {"message": "the file does not say what is calculated"},
+        ),
         ("format: 1\nkind: belts\n", "kind", "unknown-word", {"offer": "belt"}),
         ("format: 1\nkind: belt\nfriction: 0.3\nwrap: 180 deg\n", "", "belt_choice", {"count": 0}),
         (
             "format: 1\nkind: belt\nfriction: 0.3\nwrap: 3 m\ntight: 1 N\n",
             "wrap",
             "wrong-dimension",
-            {"wrong": "nouns.a_length", "noun": "nouns.a_angle"},
+            {"wrong": "a length", "noun": "an angle"},
         ),
         (
             "format: 1\nkind: belt\nfriction: 0.5\nwrap: 800 rev\nslack: 1 N\n",

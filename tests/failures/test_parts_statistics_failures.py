@@ -59,6 +59,10 @@ def test_too_small_or_unfit_samples(text: str, key: str, code: str, values: dict
 
 def test_values_of_two_kinds() -> None:
     with faulty(
-        "unit", "samples.a", message="part.kinds_differ", first="nouns.a_length", second="nouns.a_force"
+        "unit",
+        "samples.a",
+        message="the values differ in kind: {first} and {second}",
+        first="a length",
+        second="a force",
     ):
         parts.loads("format: 1\nkind: statistics\nsamples: {a: [1 mm, 2 N]}\n")

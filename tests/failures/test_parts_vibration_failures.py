@@ -79,7 +79,7 @@ HEAD += "springs: {k: {between: [ground, body], stiffness: 10 kN/m}}\n"
             HEAD + "excitation: {on: body, table: {time: [0 s, 0 s], force: [1 N, 1 N]}}\n",
             "excitation.table",
             "table",
-            {"message": "vibration.table"},
+            {"message": "the measured force is no table of increasing times"},
         ),
     ],
 )

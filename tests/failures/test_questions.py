@@ -89,7 +89,7 @@ def test_components_of_forces_in_a_sweep_are_those_of_a_solution() -> None:
             "names.no_such",
             {"offer": "jaw", "name": "jwa"},
         ),
-        (lambda: forces().reaction("O9"), "names.no_such", {"noun": "nouns.joint", "name": "O9"}),
+        (lambda: forces().reaction("O9"), "names.no_such", {"noun": "joint", "name": "O9"}),
         (lambda: forces().reaction("B"), "forces.say_link", {"joint": "B", "first": "pitman"}),
         (
             lambda: forces().reaction("O5", on="crank"),
@@ -99,7 +99,7 @@ def test_components_of_forces_in_a_sweep_are_those_of_a_solution() -> None:
         (
             lambda: forces().driver_effort("motor"),
             "names.no_such",
-            {"offer": "driver", "noun": "nouns.driver", "name": "motor"},
+            {"offer": "driver", "noun": "driver", "name": "motor"},
         ),
         (lambda: forces().load("crushign"), "names.no_such", {"offer": "crushing", "name": "crushign"}),
         (
@@ -115,7 +115,7 @@ def test_components_of_forces_in_a_sweep_are_those_of_a_solution() -> None:
         (
             lambda: lw.solve_motion(six(), at={"motor": [0.0]}),
             "names.no_such",
-            {"offer": "driver", "noun": "nouns.driver", "name": "motor"},
+            {"offer": "driver", "noun": "driver", "name": "motor"},
         ),
         (lambda: lw.solve_motion(six(), at={}), "motion.no_inputs", {"driver": "driver"}),
         (lambda: lw.solve_motion(six(), at=[np.nan]), "motion.bad_input", {"name": "driver"}),

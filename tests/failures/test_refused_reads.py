@@ -39,12 +39,12 @@ def model(name: str = "crank_rocker") -> lw.Mechanism:
         (
             lambda: rocker().motion.link("rockre"),
             "names.no_such",
-            {"offer": "rocker", "noun": "nouns.link", "name": "rockre"},
+            {"offer": "rocker", "noun": "link", "name": "rockre"},
         ),
         (
             lambda: rocker().motion.point("rockr.B"),
             "names.no_such",
-            {"offer": "rocker", "noun": "nouns.link", "name": "rockr"},
+            {"offer": "rocker", "noun": "link", "name": "rockr"},
         ),
         (
             lambda: rocker().motion.point("rocker.C"),
@@ -54,12 +54,12 @@ def model(name: str = "crank_rocker") -> lw.Mechanism:
         (
             lambda: rocker().motion.point("Z"),
             "names.no_such",
-            {"names": ("O1", "O2", "A", "B", "P"), "noun": "nouns.point", "name": "Z"},
+            {"names": ("O1", "O2", "A", "B", "P"), "noun": "point", "name": "Z"},
         ),
         (
             lambda: rocker().driver_effort("drver"),
             "names.no_such",
-            {"offer": "driver", "noun": "nouns.driver", "name": "drver"},
+            {"offer": "driver", "noun": "driver", "name": "drver"},
         ),
         (
             lambda: rocker().reaction("B"),
@@ -74,12 +74,12 @@ def model(name: str = "crank_rocker") -> lw.Mechanism:
         (
             lambda: rocker().couple("Bb", on="crank"),
             "names.no_such",
-            {"offer": "B", "noun": "nouns.joint", "name": "Bb"},
+            {"offer": "B", "noun": "joint", "name": "Bb"},
         ),
         (
             lambda: rocker().reaction("B", on="rocker", axes="rockr"),
             "names.no_such",
-            {"offer": "rocker", "noun": "nouns.link", "name": "rockr"},
+            {"offer": "rocker", "noun": "link", "name": "rockr"},
         ),
         (lambda: store.forces("excavator", 4).input_torque_from_power, "forces.one_sum", {}),
         (lambda: balance(model(), radius=0.1, share=1.5), "forces.share", {"share": 1.5}),
@@ -105,7 +105,7 @@ def model(name: str = "crank_rocker") -> lw.Mechanism:
         (
             lambda: lw.solve_motion(model(), at={"x": [0.0]}),
             "names.no_such",
-            {"names": ("driver",), "noun": "nouns.driver", "name": "x"},
+            {"names": ("driver",), "noun": "driver", "name": "x"},
         ),
         (lambda: lw.solve_motion(model(), at=[np.nan]), "motion.bad_input", {"name": "driver"}),
     ],

@@ -29,7 +29,7 @@ OF_YAML = [
         "8:5",
         "",
         "syntax",
-        {"message": "yaml.no_space", "key_": "length", "rest": "1 m"},
+        {"message": 'there is no space after the colon of "{key_}"', "key_": "length", "rest": "1 m"},
     ),
     (
         "about: O1",
@@ -37,7 +37,11 @@ OF_YAML = [
         "12:23",
         "driver.about",
         "syntax",
-        {"message": "model.joined_key", "key_": "about", "rest": "O1"},
+        {
+            "message": 'the key "{key_}" and its value stand together as one key',
+            "key_": "about",
+            "rest": "O1",
+        },
     ),
     (
         "points: [O1, A]",
@@ -45,7 +49,7 @@ OF_YAML = [
         "7:5",
         "",
         "syntax",
-        {"message": "yaml.no_space", "key_": "points", "rest": "[O1, A]"},
+        {"message": 'there is no space after the colon of "{key_}"', "key_": "points", "rest": "[O1, A]"},
     ),
     (
         "assembly: {",
@@ -53,26 +57,57 @@ OF_YAML = [
         "11:1",
         "assembly",
         "syntax",
-        {"message": "model.joined_key", "key_": "assembly", "rest": "{B: left}"},
+        {
+            "message": 'the key "{key_}" and its value stand together as one key',
+            "key_": "assembly",
+            "rest": "{B: left}",
+        },
     ),
-    ("[O1, A]", "[O1, A", "8:11", "", "syntax", {"message": "yaml.open_bracket", "line": 7}),
+    (
+        "[O1, A]",
+        "[O1, A",
+        "8:11",
+        "",
+        "syntax",
+        {"message": "a list in brackets is not closed or a comma is missing", "line": 7},
+    ),
     (
         "speed: 10 rad/s}",
         "speed: 10 rad/s",
         "12:9",
         "",
         "syntax",
-        {"message": "yaml.open_brace", "sign": "{"},
+        {"message": "a mapping in braces is not closed or a comma is missing", "sign": "{"},
     ),
-    ("length: 1 m", 'length: "1 m', "8:13", "", "syntax", {"message": "yaml.open_quote", "sign": '"'}),
-    ("name: Crank", "name: 'Crank", "2:7", "", "syntax", {"message": "yaml.open_quote", "sign": "'"}),
+    (
+        "length: 1 m",
+        'length: "1 m',
+        "8:13",
+        "",
+        "syntax",
+        {"message": "a quoted text is not closed", "sign": '"'},
+    ),
+    (
+        "name: Crank",
+        "name: 'Crank",
+        "2:7",
+        "",
+        "syntax",
+        {"message": "a quoted text is not closed", "sign": "'"},
+    ),
     (
         "    length: 1 m",
         "   length: 1 m",
         "8:4",
         "",
         "syntax",
-        {"message": "yaml.indentation_or_bracket", "line": 6, "sign": "l"},
+        {
+            "message": (
+                "the indentation does not fit the lines above, or a bracket is closed that was not opened"
+            ),
+            "line": 6,
+            "sign": "l",
+        },
     ),
     (
         "    length: 1 m",
@@ -80,7 +115,7 @@ OF_YAML = [
         "8:3",
         "links.length",
         "misplaced",
-        {"message": "model.beside_element", "name": "crank"},
+        {"message": '"{key_}" stands beside "{name}", not in it', "name": "crank"},
     ),
     ("  rocker:", "  coupler:", "10:3", "links.coupler", "duplicate-key", {"line": 9}),
     (
@@ -97,7 +132,11 @@ OF_YAML = [
         "8:11",
         "",
         "syntax",
-        {"message": "yaml.wide", "half": ": ", "wide": "："},
+        {
+            "message": 'the full-width character "{wide}" is no punctuation of YAML',
+            "half": ": ",
+            "wide": "：",
+        },
     ),
     (
         "[O1, A]",
@@ -105,7 +144,7 @@ OF_YAML = [
         "7:14",
         "links.crank.points.0",
         "name",
-        {"message": "model.bad_name", "half": ",", "wide": "，"},
+        {"message": '"{text}" cannot be the name of a {what}', "half": ",", "wide": "，"},
     ),
     ("    length: 1 m", f"{WIDE}{WIDE}length: 1 m", "8:1", "", "blank", {"code": "U+3000"}),
     (
@@ -114,7 +153,7 @@ OF_YAML = [
         "8:5",
         "",
         "syntax",
-        {"message": "yaml.blank_after", "code": "U+3000"},
+        {"message": 'the blank after the colon of "{key_}" is no space ({character})', "code": "U+3000"},
     ),
     (
         "length: 1 m",
@@ -122,7 +161,7 @@ OF_YAML = [
         "8:13",
         "links.crank.length",
         "expression",
-        {"message": "model.no_part", "half": "(", "wide": "（", "text": "（"},
+        {"message": '"{text}" is not part of an expression', "half": "(", "wide": "（", "text": "（"},
     ),
     (
         "length: 1 m",
@@ -130,28 +169,63 @@ OF_YAML = [
         "8:13",
         "",
         "syntax",
-        {"message": "yaml.beginning", "sign": "%"},
+        {"message": 'the character "{sign}" cannot begin a value', "sign": "%"},
     ),
-    ("format: 1", "%format: 1", "1:1", "", "syntax", {"message": "yaml.comment", "sign": "%"}),
-    ("    length: 1 m", "    @length: 1 m", "8:5", "", "syntax", {"message": "yaml.beginning", "sign": "@"}),
-    ("name: Crank-", "name: *Crank* ", "2:7", "", "syntax", {"message": "yaml.beginning", "sign": "*"}),
+    (
+        "format: 1",
+        "%format: 1",
+        "1:1",
+        "",
+        "syntax",
+        {"message": 'a line cannot begin with "{sign}"', "sign": "%"},
+    ),
+    (
+        "    length: 1 m",
+        "    @length: 1 m",
+        "8:5",
+        "",
+        "syntax",
+        {"message": 'the character "{sign}" cannot begin a value', "sign": "@"},
+    ),
+    (
+        "name: Crank-",
+        "name: *Crank* ",
+        "2:7",
+        "",
+        "syntax",
+        {"message": 'the character "{sign}" cannot begin a value', "sign": "*"},
+    ),
     (
         "[O1, A]",
         "\n      - O1\n      -A",
         "9:7",
         "",
         "syntax",
-        {"message": "yaml.no_space_item", "rest": "A"},
+        {"message": "there is no space after the dash of a list's item", "rest": "A"},
     ),
-    ("length: 1 m", "length: - 1 m", "8:13", "", "syntax", {"message": "yaml.item", "sign": "-"}),
-    ("  crank:", "  - crank:", "9:3", "", "syntax", {"message": "yaml.no_item", "line": 6}),
+    (
+        "length: 1 m",
+        "length: - 1 m",
+        "8:13",
+        "",
+        "syntax",
+        {"message": "an item of a list cannot begin in the middle of a line", "sign": "-"},
+    ),
+    (
+        "  crank:",
+        "  - crank:",
+        "9:3",
+        "",
+        "syntax",
+        {"message": "an entry without a dash stands in a list", "line": 6},
+    ),
     (
         "length: 1 m",
         "length: “1 m”",
         "8:13",
         "links.crank.length",
         "expression",
-        {"message": "model.no_part", "wide": "“", "half": '"', "text": "“"},
+        {"message": '"{text}" is not part of an expression', "wide": "“", "half": '"', "text": "“"},
     ),
     (
         "name: Crank-rocker",
@@ -159,7 +233,7 @@ OF_YAML = [
         "2:1",
         "",
         "syntax",
-        {"message": "yaml.odd_quote", "sign": "“"},
+        {"message": "the quotation mark {sign} is none of YAML", "sign": "“"},
     ),
     (
         "    length: 1 m",
@@ -167,16 +241,23 @@ OF_YAML = [
         "8:5",
         "",
         "syntax",
-        {"message": "yaml.equals_sign", "key_": "length", "rest": "1 m"},
+        {"message": 'an equals sign stands after the key "{key_}"', "key_": "length", "rest": "1 m"},
     ),
-    ("    length: 1 m", "    length 1 m", "8:5", "", "syntax", {"message": "yaml.no_colon", "sign": "l"}),
+    (
+        "    length: 1 m",
+        "    length 1 m",
+        "8:5",
+        "",
+        "syntax",
+        {"message": "a key without a colon", "sign": "l"},
+    ),
     (
         "    length: 1 m",
         "    // long\n    length: 1 m",
         "8:5",
         "",
         "syntax",
-        {"message": "yaml.comment", "code": "U+002F", "sign": "//"},
+        {"message": 'a line cannot begin with "{sign}"', "code": "U+002F", "sign": "//"},
     ),
 ]
 
@@ -224,7 +305,14 @@ def test_values_that_stand_beside_their_element_are_read_in_it() -> None:
     load = "loads:\n  braking:\n    kind: torque\n  on: rocker\n  magnitude: 3 kg\n"
     told = findings(MODEL + load)
     assert len(told) == 3
-    said(told, "misplaced", "loads.on", message="model.beside_element", name="braking", key_="on")
+    said(
+        told,
+        "misplaced",
+        "loads.on",
+        message='"{key_}" stands beside "{name}", not in it',
+        name="braking",
+        key_="on",
+    )
     said(told, "wrong-dimension", "loads.braking.magnitude", text="3 kg")
 
 
@@ -233,16 +321,16 @@ def test_values_that_stand_beside_their_element_are_read_in_it() -> None:
     [
         (
             "O1: {kind: revolute, links: [frame, crank]}",
-            {"remedy": "model.pin_joins_do", "pin": "O1", "keys": ("links",)},
+            {"remedy": 'remove it: they have the point "{pin}" already', "pin": "O1", "keys": ("links",)},
         ),
         (
             "O1: {kind: revolute, parent: frame, child: crank}",
-            {"remedy": "model.pin_joins_do", "keys": ("parent", "child")},
+            {"remedy": 'remove it: they have the point "{pin}" already', "keys": ("parent", "child")},
         ),
         (
             "P: {kind: revolute, between: [frame, crank], at: O1}",
             {
-                "remedy": "model.pin_name_points",
+                "remedy": 'remove it, and name a point of {links} "{pin}": points: [{pin}, …]',
                 "pin": "P",
                 "keys": ("between", "at"),
                 "links": "frame and crank",
@@ -250,13 +338,22 @@ def test_values_that_stand_beside_their_element_are_read_in_it() -> None:
         ),
         (
             "O1: {kind: revolute, links: [frame, rocker]}",
-            {"remedy": "model.pin_name_points", "links": "rocker"},
+            {
+                "remedy": 'remove it, and name a point of {links} "{pin}": points: [{pin}, …]',
+                "links": "rocker",
+            },
         ),
     ],
 )
 def test_a_pin_is_said_to_join_the_links_that_have_its_point(table: str, values: dict[str, object]) -> None:
     (found,) = findings(f"{MODEL}joints:\n  {table}\n")
-    said([found], "unknown-key", found.key, message="model.pin_joins", **values)
+    said(
+        [found],
+        "unknown-key",
+        found.key,
+        message="a pin joins the links that have a point of its name, and takes no key {keys}",
+        **values,
+    )
 
 
 @pytest.mark.parametrize(
@@ -265,9 +362,12 @@ def test_a_pin_is_said_to_join_the_links_that_have_its_point(table: str, values:
         ("turn: crank, joint: O1, ", {"key_": "joint", "offer": "about"}),
         ("turn: crank, pivot: O, ", {"key_": "pivot", "offer": "about"}),
         ("turn: crank, at: O1, ", {"key_": "at", "offer": "about"}),
-        ("joint: O1, ", {"remedy": "model.turns_link", "link": "crank", "pin": "O1"}),
-        ("joint: O, ", {"remedy": "model.nothing_driven_do"}),
-        ("link: crank, joint: O1, ", {"remedy": "model.turns_link", "link": "crank", "pin": "O1"}),
+        ("joint: O1, ", {"remedy": "write turn: {link} and about: {pin}", "link": "crank", "pin": "O1"}),
+        ("joint: O, ", {"remedy": "add turn: LINK and about: PIN, or slide: JOINT"}),
+        (
+            "link: crank, joint: O1, ",
+            {"remedy": "write turn: {link} and about: {pin}", "link": "crank", "pin": "O1"},
+        ),
     ],
 )
 def test_a_driver_in_other_words_is_one_finding(driver: str, values: dict[str, object]) -> None:

@@ -69,12 +69,12 @@ OF_FILES: dict[str, Callable[..., object]] = {
 
 #: Codes of refusals of those that take no machine, or a text or the name of a file as well.
 OTHERWISE = {
-    "load": "given_instead.no_file_name",
-    "check": "given_instead.no_file_name",
-    "read_document": "given_instead.no_file_name",
-    "loads": "given_instead.no_text",
-    "synthesize": "synthesize.task",
-    "grade": "course.no_key",
+    "load": 'the name of a model file is needed, not {told}; write lw.load("machine.yaml")',
+    "check": 'the name of a model file is needed, not {told}; write lw.load("machine.yaml")',
+    "read_document": 'the name of a model file is needed, not {told}; write lw.load("machine.yaml")',
+    "loads": "the text of a model is needed, not {told}; files are read by lw.load",
+    "synthesize": 'there is no task "{task}"; known: {known}',
+    "grade": "{path}: this is no answer key; give the key.json that the command variants wrote",
 }
 
 
@@ -128,7 +128,12 @@ def test_a_text_and_the_name_of_a_file_are_told_apart() -> None:
             lw.loads(name)
     with pytest.raises(lw.ModelError) as caught:
         lw.load(TEXT)
-    said(caught.value.findings, "no-file", message="model.text_for_name", remedy="model.write_loads")
+    said(
+        caught.value.findings,
+        "no-file",
+        message="this is a text of several lines, where the name of a file is needed",
+        remedy="for the text of a model write lw.loads(text)",
+    )
 
 
 def test_changes_are_a_mapping() -> None:

@@ -41,7 +41,13 @@ def test_two_drivers_on_one_freedom_are_refused() -> None:
 def test_the_same_joint_driven_twice_is_refused() -> None:
     drivers = f"drivers:\n  {ONE}\n  again: {{turn: crank, about: O1, speed: 2 rad/s}}"
     found = findings(FOUR_BAR.replace("DRIVERS", drivers).replace("ASSEMBLY", ""))
-    said(found, "duplicate", "drivers.again", message="model.same_coordinate", name="first")
+    said(
+        found,
+        "duplicate",
+        "drivers.again",
+        message='the driver "{name}" drives the same coordinate',
+        name="first",
+    )
 
 
 def test_only_the_links_that_are_over_driven_are_named() -> None:

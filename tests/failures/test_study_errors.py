@@ -30,11 +30,11 @@ def machine() -> lw.Mechanism:
             "study.no_dimension",
             {"offer": "coupler.length", "address": "coupler.lenght"},
         ),
-        ({"coupler.length": "2..3"}, "study.wrong_unit", {"need": "nouns.a_length", "example": "m"}),
+        ({"coupler.length": "2..3"}, "study.wrong_unit", {"need": "a length", "example": "m"}),
         (
             {"coupler.length": "2..3 kg"},
             "study.wrong_unit",
-            {"need": "nouns.a_length", "example": "m", "unit": "kg"},
+            {"need": "a length", "example": "m", "unit": "kg"},
         ),
         ({"coupler.length": "2..x m"}, "study.no_quantity", {"part": "x m"}),
         (
@@ -84,13 +84,13 @@ def test_every_number_needs_its_unit(address: str, given: str, unit: str) -> Non
 @pytest.mark.parametrize(
     ("model", "address", "given", "kind", "unit"),
     [
-        ("external_gear_pair", "mesh.module", "2..4", "nouns.a_length", "m"),
-        ("external_gear_pair", "mesh.pressure_angle", "20..25 kg", "nouns.a_angle", "rad"),
-        ("external_gear_pair", "mesh.teeth.0", "20..30 mm", "nouns.a_dimensionless", ""),
-        ("shaper_quick_return", "slot.offset", "1..2", "nouns.a_length", "m"),
-        ("shaper_quick_return", "guide.direction", "1..2", "nouns.a_angle", "rad"),
-        ("swing_conveyor", "loads.resistance.phase.input.0", "30..60", "nouns.a_angle", "rad"),
-        ("wedge", "cycle.duration", "1..2", "nouns.a_time", "s"),
+        ("external_gear_pair", "mesh.module", "2..4", "a length", "m"),
+        ("external_gear_pair", "mesh.pressure_angle", "20..25 kg", "an angle", "rad"),
+        ("external_gear_pair", "mesh.teeth.0", "20..30 mm", "a dimensionless number", ""),
+        ("shaper_quick_return", "slot.offset", "1..2", "a length", "m"),
+        ("shaper_quick_return", "guide.direction", "1..2", "an angle", "rad"),
+        ("swing_conveyor", "loads.resistance.phase.input.0", "30..60", "an angle", "rad"),
+        ("wedge", "cycle.duration", "1..2", "a time", "s"),
     ],
 )
 def test_numbers_of_joints_loads_and_cycles_need_their_units(
@@ -225,7 +225,10 @@ def test_bounds_that_make_no_design_movable() -> None:
         "study.none_passes",
         links=("coupler", "rocker"),
         group=("coupler", "rocker"),
-        reason="outcome.rrr_near",
+        reason=(
+            "the outer pins are {distance} apart, links of {first} and {second} need at least "
+            "{reach}: {missing} too close"
+        ),
         count=5,
     ):
         study(machine(), {"coupler.length": "20..30 m:5"}, metrics=["travel"])

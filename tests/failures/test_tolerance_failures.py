@@ -23,7 +23,7 @@ HEAD = "format: 1\nkind: tolerance\nmechanism: gallery:crank_rocker\n"
             "dimensions: {crank.length: 1 kg}\nof: [rocker.angle range]",
             "dimensions.crank.length",
             "wrong_kind",
-            {"given": "nouns.a_mass", "needed": "nouns.a_length"},
+            {"given": "a mass", "needed": "a length"},
         ),
         (
             "clearances: {B: {clearance: 9 m, on: coupler}}\nof: [rocker.angle range]",
@@ -78,7 +78,7 @@ HEAD = "format: 1\nkind: tolerance\nmechanism: gallery:crank_rocker\n"
             "dimensions: {crank.length: 1 mm}\nof: [rocker.angle range]\nsamples: 3",
             "samples",
             "range",
-            {"message": "part.no_whole", "least": 64},
+            {"message": '"{text}" is not a whole number from {least} to {most}', "least": 64},
         ),
         (
             "dimensions: {crank.length: 3 m}\nof: [rocker.angle range]\nlimits: {B.x max: {lower: 1 m}}",
@@ -90,7 +90,7 @@ HEAD = "format: 1\nkind: tolerance\nmechanism: gallery:crank_rocker\n"
             "dimensions: {crank.length: 3 m}\nof: [rocker.angle range]",
             "mechanism",
             "unsolved",
-            {"limit": "model.above", "address": "crank.length"},
+            {"limit": "{noun} above {limit}", "address": "crank.length"},
         ),
         (
             "clearances: {B: {clearance: 1 mm, on: rocker, kind: pressed}}\ncurves: [rocker.angle]",
@@ -127,7 +127,7 @@ FIVE_BAR = HEAD.replace("crank_rocker", "geared_fivebar") + "of: [crank_2.angula
     ],
 )
 def test_wheels_of_given_radii_leave_their_centre_distance_no_tolerance(text: str, key: str) -> None:
-    with faulty("wheels", key, mesh="joints.external", wanted="0.2 m"):
+    with faulty("wheels", key, mesh="external", wanted="0.2 m"):
         parts.loads(f"{FIVE_BAR}{text}\n", "t.yaml").solve()
 
 
@@ -137,5 +137,5 @@ def test_teeth_of_a_module_take_a_tolerance_within_their_clearance() -> None:
     found = parts.loads(f"{head}dimensions: {{carrier.A.x: 0.05 mm}}\n", "t.yaml").solve()
     (name,) = found.summaries
     assert found.derivatives.gradient(name) == pytest.approx([0.0], abs=1e-12)
-    with faulty("wheels", "dimensions.carrier.A.x", mesh="joints.external", wanted="0.06 m"):
+    with faulty("wheels", "dimensions.carrier.A.x", mesh="external", wanted="0.06 m"):
         parts.loads(f"{head}dimensions: {{carrier.A.x: 0.6 mm}}\n", "t.yaml").solve()

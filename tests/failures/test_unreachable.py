@@ -31,7 +31,15 @@ LACKING = {"value": "120°", "signature": "RRR", "links": ("coupler", "rocker")}
 def test_missing_distance_is_said() -> None:
     """At 120° the pins are hypot(5.5, 2.598) = 6.0828 m apart, the links reach 4.5 m."""
     missing = hypot(4 + 1.5, 3 * 3**0.5 / 2) - 4.5
-    with refused("motion.refused_told", lw.PositionError, reason="outcome.rrr_far", **LACKING) as caught:
+    with refused(
+        "motion.refused_told",
+        lw.PositionError,
+        reason=(
+            "the outer pins are {distance} apart, links of {first} and {second} reach {reach}: "
+            "{missing} missing"
+        ),
+        **LACKING,
+    ) as caught:
         lw.solve_motion(fourbar(3, 2, 2.5, 4), at=radians(120))
     assert float(str(caught.value.values["missing"]).removesuffix(" m")) == pytest.approx(missing, rel=1e-6)
 

@@ -74,7 +74,11 @@ def refuse_unknown_marks(mechanism: Mechanism, options: argparse.Namespace) -> N
     for name in names(options.forces):
         if (joint := name.rpartition(".")[2]) not in joints:
             raise UsageError(
-                _("{name}: {cause}", code="cli.about", name="--forces", cause=no_such("joint", joint, joints))
+                _(
+                    "{name}: {cause}",
+                    name="--forces",
+                    cause=no_such(_("joint"), joint, joints),
+                )
             )
 
 

@@ -32,7 +32,6 @@ def inputs(text: str, mechanism: Mechanism) -> dict[str, list[float]]:
         raise UsageError(
             _(
                 "{name}: {cause}",
-                code="cli.about",
                 name="--at",
                 cause=_("the model has no driver, so there is no input to set", code="solve.no_input"),
             )
@@ -47,7 +46,7 @@ def inputs(text: str, mechanism: Mechanism) -> dict[str, list[float]]:
             cause = did_you_mean(
                 _('there is no driver "{name}"', code="solve.no_driver", name=name), name, drivers
             )
-            raise UsageError(_("{name}: {cause}", code="cli.about", name="--at", cause=cause))
+            raise UsageError(_("{name}: {cause}", name="--at", cause=cause))
         found[name] = quantities(values, "angle" if drivers[name] else "length", "--at")
     counts = {len(values) for values in found.values()} - {1}
     if len(counts) > 1:
@@ -71,7 +70,6 @@ def places(text: str, mechanism: Mechanism, dimension: str, option: str) -> list
         raise UsageError(
             _(
                 "{name}: {cause}",
-                code="cli.about",
                 name=option,
                 cause=_("the model has no driver, so there is no input to set", code="solve.no_input"),
             )

@@ -11,8 +11,7 @@ from linkwright import units
 from linkwright.core.expression_tree import ARITY, Binary, Call, Negative, Node, Number, Variable
 from linkwright.errors import QuantityError
 from linkwright.registry import nearest, offered
-from linkwright.words import _
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 MAX_DEPTH = 40
 CONSTANTS: Mapping[str, float] = {"pi": math.pi}
@@ -61,18 +60,22 @@ class Parser:
             found = _TOKEN.match(self.text, position)
             if found is None or found.lastgroup is None:
                 column = position + len(self.text[position:]) - len(self.text[position:].lstrip())
-                raise self._fault("no_part", column, text=self.text[column])
+                raise self._fault(
+                    _('"{text}" is not part of an expression'),
+                    column,
+                    _("use numbers with units, names, + - * / ^ and parentheses"),
+                    text=self.text[column],
+                )
             token = found.group(found.lastgroup)
             tokens.append((found.lastgroup, _SAME.get(token, token), found.start(found.lastgroup)))
             position = found.end()
         return [*tokens, ("end", "", len(self.text))]
 
     def _fault(
-        self, key: str, column: int, code: str = "expression", remedy: str = "", **values: object
+        self, message: Message, column: int, remedy: Message, code: str = "expression", **values: object
     ) -> ExpressionError:
-        """The error ``model.KEY`` of the catalogue with its remedy, ``model.KEY_do`` where no other is given."""
-        told = remedy or Sentence(f"model.{key}_do", **values)
-        return ExpressionError(Sentence(f"model.{key}", **values), told, self.text, column, code)
+        """The error with the values of its texts at a column."""
+        return ExpressionError(message.format(**values), remedy.format(**values), self.text, column, code)
 
     def whole(self) -> Node:
         tree = self._binary(0)
@@ -85,13 +88,13 @@ class Parser:
                     "the sign says the sense: positive is counter-clockwise, negative (-120 rpm) clockwise",
                     code="units.sense",
                 )
-            raise self._fault("unexpected", column, remedy=remedy, token=token)
+            raise self._fault(_('"{token}" is not expected here'), column, remedy, token=token)
         return tree
 
     def _binary(self, binding: int) -> Node:
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            raise self._fault("too_deep", 0)
+            raise self._fault(_("the expression is nested too deep"), 0, _("split it with named parameters"))
         left = self._powers(self._prefix())
         while True:
             kind, token, column = self.tokens[self.at]
@@ -126,15 +129,12 @@ class Parser:
             return self._in_units(inner)
         if token in ("-", "+"):
             _unused, token, column = self.tokens[self.at]
-        what, needed = (
-            "ends_early" if kind == "end" else "unexpected",
-            _("a number, a name or a parenthesis is needed"),
-        )
-        raise self._fault(what, column, remedy=needed, token=token)
+        what = _("the expression ends too early") if kind == "end" else _('"{token}" is not expected here')
+        raise self._fault(what, column, _("a number, a name or a parenthesis is needed"), token=token)
 
     def _close(self, opened: int) -> None:
         if self.tokens[self.at][1] != ")":
-            raise self._fault("open_parenthesis", opened)
+            raise self._fault(_("a parenthesis is not closed"), opened, _('add ")"'))
         self.at += 1
 
     def _number(self, token: str, column: int) -> Node:
@@ -154,7 +154,13 @@ class Parser:
         )
         if name not in units.UNITS and not turning:
             if name in self.variables:
-                raise self._fault("no_sign", place, token=token, name=name)
+                raise self._fault(
+                    _('a factor "{token} {name}" without a sign'),
+                    place,
+                    _('write "{token}*{name}"'),
+                    token=token,
+                    name=name,
+                )
             error = units.unknown_unit(name)
             raise ExpressionError(error.message, error.remedy, self.text, place, "unknown-unit")
         factor, dimension = self._units("rev" if turning else name)
@@ -211,7 +217,13 @@ class Parser:
             return False
         if self.text[column] == "*":
             if name in self.variables and name != "t":
-                raise self._fault("unit_and_parameter", place, "ambiguous", name=name)
+                raise self._fault(
+                    _('"{name}" is a unit and a parameter'),
+                    place,
+                    _('write "(1 {name})" for the unit, "({name})" for the parameter'),
+                    "ambiguous",
+                    name=name,
+                )
             return False
         tight = place == column + 1 and self.text[column - 1] != " "
         return tight or name not in self.variables
@@ -242,11 +254,13 @@ class Parser:
                 "deg, down -90 deg",
                 code="model.direction_word",
             )
-        raise self._fault("unknown_name", column, "unknown-name", remedy, name=name)
+        raise self._fault(_('unknown name "{name}"'), column, remedy, "unknown-name", name=name)
 
     def _call(self, name: str, column: int) -> Node:
         if name not in ARITY:
-            raise self._fault("unknown_function", column, "unknown-name", offered(name, ARITY), name=name)
+            raise self._fault(
+                _('unknown function "{name}"'), column, offered(name, ARITY), "unknown-name", name=name
+            )
         self.at += 1
         arguments = [self._binary(0)]
         while self.tokens[self.at][1] == ",":
@@ -255,5 +269,12 @@ class Parser:
         self._close(column)
         if len(arguments) != ARITY[name]:
             needed, given = ARITY[name], len(arguments)
-            raise self._fault("argument_count", column, name=name, needed=needed, given=given)
+            raise self._fault(
+                _("{name} takes {needed} argument(s), {given} are given"),
+                column,
+                _("separate arguments by commas, decimals by points"),
+                name=name,
+                needed=needed,
+                given=given,
+            )
         return self._in_units(Call(name, tuple(arguments), column))

@@ -10,8 +10,7 @@ from typing import Any
 from linkwright import units
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
-from linkwright.words import _
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 _OF_TWO = ("atan2", "min", "max")
 _OF_ONE = ("sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "abs", "exp", "log", "sign", "step")
@@ -184,6 +183,14 @@ def derived(node: Node, kinds: Mapping[str, units.Dimension]) -> bool:
     return False
 
 
+_CANNOT_BE = {
+    "added": _("{right} cannot be added to {left}"),
+    "subtracted": _("{right} cannot be subtracted from {left}"),
+    "compared": _("{right} cannot be compared with {left}"),
+    "opposed": _("{right} cannot be set against {left}"),
+}
+
+
 def _common_dimension(
     nodes: tuple[Node, ...], kinds: Mapping[str, units.Dimension], column: int, word: str
 ) -> units.Dimension:
@@ -201,26 +208,27 @@ def _common_dimension(
     if {left, right} == {units.NONE, _ANGLE} and not bare:
         return _ANGLE
     values = {"right": units.name_of(right), "left": units.name_of(left)}
-    raise _wrong(f"cannot_be_{word}", column, _("give both the same dimension"), **values)
+    raise _wrong(_CANNOT_BE[word], column, _("give both the same dimension"), **values)
 
 
-def _wrong(key: str, column: int, remedy: str = "", **values: object) -> QuantityError:
-    """The error ``model.KEY`` of the catalogue about a dimension, with its remedy, else ``model.KEY_do``."""
-    told = remedy or Sentence(f"model.{key}_do")
-    return QuantityError(Sentence(f"model.{key}", **values), told, column=column, code="wrong-dimension")
+def _wrong(message: Message, column: int, remedy: Message, **values: object) -> QuantityError:
+    """The error about a dimension, with the values of its text."""
+    return QuantityError(message.format(**values), remedy, column=column, code="wrong-dimension")
 
 
 def _power_dimension(
     base: Node, exponent: Node, kinds: Mapping[str, units.Dimension], column: int
 ) -> units.Dimension:
     if dimension_of(exponent, kinds) != units.NONE:
-        raise _wrong("exponent_unit", column)
+        raise _wrong(_("an exponent has a unit"), column, _("use a plain number"))
     kind = dimension_of(base, kinds)
     if kind == units.NONE:
         return units.NONE
     power = exponent.operand if isinstance(exponent, Negative) else exponent
     if not isinstance(power, Number):
-        raise _wrong("exponent_no_number", column)
+        raise _wrong(
+            _("a quantity with a unit has an exponent that is not a number"), column, _("write the number")
+        )
     return units.times(units.NONE, kind, power.value if power is exponent else -power.value)
 
 
@@ -240,6 +248,13 @@ def _call_dimension(
         return units.NONE
     allowed = (units.NONE, _ANGLE) if function in _FROM_ANGLE else (units.NONE,)
     if kind not in allowed:
-        needed = Sentence(f"nouns.a_{'angle' if function in _FROM_ANGLE else 'dimensionless'}")
-        raise _wrong("taken_of", column, function=function, kind=units.name_of(kind), needed=needed)
+        needed = units.NOUNS["angle" if function in _FROM_ANGLE else "dimensionless"]
+        raise _wrong(
+            _("{function} is taken of {kind}, where {needed} is needed"),
+            column,
+            _("divide by a quantity of the same dimension"),
+            function=function,
+            kind=units.name_of(kind),
+            needed=needed,
+        )
     return _ANGLE if function in _TO_ANGLE else units.NONE

@@ -33,7 +33,6 @@ from linkwright.formula import trace
 from linkwright.formula.late_import import numpy as np
 from linkwright.formula.recently_made import Recent
 from linkwright.words import _
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.formula.numpy_backend import NumpyProgram
@@ -73,17 +72,17 @@ class Expression:
 
         Raises QuantityError where the result does not exist (a division by zero, the root of a negative number).
         """
-        value, problem = math.nan, "model.no_real_value"
+        value, problem = math.nan, _('"{text}" has no finite real value')
         try:
             value = float(evaluate(self.tree, values, scalar_functions()))
         except ZeroDivisionError:
-            problem = "model.divides_by_zero"
+            problem = _('"{text}" divides by zero')
         except (ValueError, OverflowError, TypeError):
             pass
         if math.isfinite(value):
             return value
         remedy = _("change the values")
-        raise QuantityError(Sentence(problem, text=self.text), remedy, code="not-finite")
+        raise QuantityError(problem.format(text=self.text), remedy, code="not-finite")
 
     def derivatives(self, values: Mapping[str, Any], name: str, order: int = 1) -> list[Any]:
         """Exact derivatives of the orders 1 to ``order`` with respect to a free name, over arrays of the free names.
@@ -260,10 +259,11 @@ def _meant_parameter(
 
 
 def _ambiguous(name: str) -> QuantityError:
-    told, remedy = (
-        Sentence(f"model.{key}", name=name) for key in ("unit_and_parameter", "unit_and_parameter_do")
+    return QuantityError(
+        _('"{name}" is a unit and a parameter', name=name),
+        _('write "(1 {name})" for the unit, "({name})" for the parameter', name=name),
+        code="ambiguous",
     )
-    return QuantityError(told, remedy, code="ambiguous")
 
 
 def _quotient(plain: str, dimension: str, kinds: Mapping[str, units.Dimension]) -> str:
@@ -323,10 +323,14 @@ def fitted(expression: Expression, dimension: str, kinds: Mapping[str, units.Dim
     if (product and dimension != "frequency") or (kind == needed and not product):
         return expression
     if near and kind[:2] == (0, 0):
-        told, remedy = (
-            Sentence(f"units.{key}", text=expression.text) for key in ("cycles_or_radians", "rev_or_rad")
+        raise QuantityError(
+            _('"{text}" counts turns, cycles or radians: it has to say which', text=expression.text),
+            _(
+                'write "({text})*rev" if it counts turns or cycles, "({text})*rad" if it counts radians',
+                text=expression.text,
+            ),
+            code="ambiguous",
         )
-        raise QuantityError(told, remedy, code="ambiguous")
     if kind == units.NONE and isinstance(expression.tree, Number) and expression.tree.value == 0:
         return expression
     if kind == units.NONE and dimension == "angle":

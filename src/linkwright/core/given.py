@@ -10,7 +10,6 @@ from typing import Any, SupportsInt, TypeVar, overload
 from linkwright.errors import RequestError
 from linkwright.registry import listed
 from linkwright.words import _
-from linkwright.words.sentence import Sentence
 
 T = TypeVar("T")
 #: Positions over a cycle where nobody says how many: of results, of curves that are drawn, of drawings; points of a
@@ -20,6 +19,18 @@ STEPS, CURVE_STEPS, DRAWING_STEPS, PROFILE_POINTS = 360, 720, 120, 720
 LONGEST = 80
 #: Calls that make results of a mechanism, and what is given as an example of other kinds.
 _SOLVING = {"Motion": "solve_motion", "Forces": "solve_forces"}
+_KINDS = {
+    "Mechanism": _("a mechanism"),
+    "Motion": _("a motion"),
+    "Forces": _("the forces of a machine"),
+    "SteadyRunning": _("steady running"),
+    "Document": _("a document"),
+    "str": _("the name of a file"),
+    "PathLike": _("its path"),
+    "Problem": _("a calculation of machine parts"),
+    "Mapping": _("a mapping from names to values"),
+    "Linkage": _("a linkage of a synthesis"),
+}
 _EXAMPLES = {
     "Mechanism": 'lw.load("machine.yaml")',
     "Motion": "lw.solve_motion(mechanism)",
@@ -32,12 +43,12 @@ _EXAMPLES = {
 def require(given: object, *kinds: type) -> None:
     """Raises RequestError, with what to write instead, where something is of none of the kinds.
 
-    The kinds are those that have words under ``given_instead.kind_…``.
+    The kinds are those of ``_KINDS``.
     """
     if isinstance(given, kinds):
         return
     names = [kind.__name__ for kind in kinds]
-    *others, last = [Sentence(f"given_instead.kind_{name}") for name in names]
+    *others, last = [_KINDS[name] for name in names]
     needed = _("{others} or {last}", others=tuple(others), last=last) if others else last
     raise RequestError(
         _(
@@ -67,8 +78,15 @@ def whole(option: str, given: object, least: int | None = None, most: int | None
     except (ValueError, OverflowError):
         found = None
     if found is None or found != given or (least is not None and found < least):
-        key = "no_whole" if least is None else "no_whole_from"
-        raise RequestError(f"given_instead.{key}", option=option, given=repr(given)[:LONGEST], least=least)
+        problem = (
+            _("{option} is {given}; give a whole number", code="given_instead.no_whole")
+            if least is None
+            else _(
+                "{option} is {given}; give a whole number, {least} or more",
+                code="given_instead.no_whole_from",
+            )
+        )
+        raise RequestError(problem.format(option=option, given=repr(given)[:LONGEST], least=least))
     if most is not None and found > most:
         raise RequestError(
             _(

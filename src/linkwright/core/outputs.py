@@ -11,8 +11,7 @@ from functools import lru_cache
 
 from linkwright.core.dataclass import dataclass
 from linkwright.units import si_unit
-from linkwright.words import Message
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 
 @dataclass(frozen=True)
@@ -168,6 +167,29 @@ class RelativeAngle:
         return f"{self.b}|{self.a}"
 
 
+_QUANTITIES = {
+    "angle": _("angle of {name}"),
+    "angular_velocity": _("angular velocity of {name}"),
+    "angular_acceleration": _("angular acceleration of {name}"),
+    "displacement": _("displacement at {name}"),
+    "slide_velocity": _("velocity at {name}"),
+    "slide_acceleration": _("acceleration at {name}"),
+    "position": _("position of {name}"),
+    "velocity": _("velocity of {name}"),
+    "acceleration": _("acceleration of {name}"),
+    "effort": _("effort of driver {name}"),
+    "input_torque": _("input torque"),
+    "input_force": _("input force"),
+    "input": _("input {name}"),
+    "reaction": _("reaction at {name} on {on}"),
+    "reaction_direction": _("direction of the reaction at {name} on {on}"),
+    "couple": _("couple in {name} on {on}"),
+    "shaking_force": _("shaking force"),
+    "transmission_angle": _("transmission angle of {name}"),
+}
+_COMPONENTS = {"x": _("{quantity}, x component"), "y": _("{quantity}, y component")}
+
+
 @dataclass(frozen=True)
 class Output:
     """One output of a machine.
@@ -261,8 +283,8 @@ class Output:
         key = self.kind
         if key == "effort" and alone:
             key = "input_force" if self.slides else "input_torque"
-        said = Sentence(f"quantity.{key}", name=self.owner, on=self.on)
-        return Sentence(f"quantity.in_{self.component}", quantity=said) if self.component else said
+        said = _QUANTITIES[key].format(name=self.owner, on=self.on)
+        return _COMPONENTS[self.component].format(quantity=said) if self.component else said
 
     @property
     def quantity(self) -> str:

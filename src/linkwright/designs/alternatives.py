@@ -80,7 +80,7 @@ class Alternative:
         try:
             require_steady(self.forces)
         except LinkwrightError as error:
-            self.notes.append(_("{name}: {cause}", code="cli.about", name=self.label, cause=error))
+            self.notes.append(_("{name}: {cause}", name=self.label, cause=error))
             return False
         return True
 

@@ -29,7 +29,7 @@ def unlike(alternatives: Sequence[Alternative]) -> tuple[str, ...]:
 
 def _told(each: Alternative, facts: tuple[str, ...]) -> Message:
     cause = facts or _("none")
-    return _("{name}: {cause}", code="cli.about", name=each.label, cause=cause)
+    return _("{name}: {cause}", name=each.label, cause=cause)
 
 
 def _rounded(facts: tuple[str, ...]) -> Hashable:

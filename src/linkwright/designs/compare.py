@@ -305,7 +305,7 @@ def _weights(weights: Mapping[str, float], asked: Sequence[Criterion]) -> Mappin
     known = {each.name: each for each in asked}
     for name, weight in weights.items():
         if name not in known:
-            hint = offered(name, known, "study.compared_are")
+            hint = offered(name, known, _("compared are {names}"))
             raise RequestError(
                 _(
                     "the weight of {name!r} belongs to no compared metric; {hint}",

@@ -59,7 +59,7 @@ class Criterion:
             return None
         if not found[0].applies(each.analysis):
             if (why := found[0].obstacle(each.analysis)) is not None:
-                each.notes.append(_("{name}: {cause}", code="cli.about", name=each.label, cause=why))
+                each.notes.append(_("{name}: {cause}", name=each.label, cause=why))
             return None
         try:
             return measured(self.name, each.analysis, each.asked)

@@ -428,9 +428,7 @@ class _Work:
                     mechanism=self.mechanism.name,
                 )
                 if self.notes:
-                    raise RequestError(
-                        _("{name}: {cause}", code="cli.about", name=told, cause=list(self.notes))
-                    )
+                    raise RequestError(_("{name}: {cause}", name=told, cause=list(self.notes)))
                 raise RequestError(with_remedy(told, _("leave it out", code="study.leave_out")))
 
     def _troubles(self) -> list[Failure]:

@@ -30,7 +30,7 @@ def checked_addresses(mechanism: Mechanism, addresses: Iterable[str]) -> tuple[s
     wanted = tuple(dict.fromkeys(one_or_more(addresses)))
     for address in wanted:
         if address not in known:
-            hint = offered(address, known, "study.such_as", most=6)
+            hint = offered(address, known, _("such as {names}"), most=6)
             raise RequestError(
                 _(
                     "there is no dimension or parameter {address!r} in {name!r}; {hint}",

@@ -125,7 +125,7 @@ class Driver:
 
 
 LAWS: Registry[type[Law]] = Registry(
-    "driver_law", "linkwright.drivers", entry_points="linkwright.drivers", attribute="key"
+    _("driver law"), "linkwright.drivers", entry_points="linkwright.drivers", attribute="key"
 )
 
 #: Kinds of laws in words.

@@ -13,7 +13,16 @@ from linkwright.dyads.listed_forces import CROSS, ForceLines
 from linkwright.dyads.listed_numbers import WIDE, ZERO, angle, call, column, number, pair, quoted, series
 from linkwright.dyads.plan import Pin, Step
 from linkwright.dyads.script import Script
+from linkwright.words import _
 from linkwright.words.sentence import in_language
+
+_TITLES = {
+    "bar": _("driven link {links}"),
+    "slider": _("driven block {links}"),
+    "weld": _("{links}, fixed to a link solved before"),
+    "other": _("{signature} group: {links}; solved by the library, since {reason}"),
+}
+_DYAD = _("{signature} dyad: {links}")
 
 
 class Listing(Script):
@@ -76,10 +85,9 @@ class Listing(Script):
 
     def _step(self, step: Step) -> None:
         said = " ".join(", ".join(step.group.links).split())
-        word = step.kind.lower() or "other"
-        key = f"dyads.listing_{word}" if word in ("bar", "slider", "weld", "other") else "dyads.listing_dyad"
+        form = _TITLES.get(step.kind.lower() or "other", _DYAD)
         reason = in_language(step.reason, self.language)
-        title = self.say(key, links=said, signature=step.group.signature, reason=reason)
+        title = self.say(form.format(links=said, signature=step.group.signature, reason=reason))
         self.write("", f"# {step.number}  {title}")
         {"bar": self._bar, "slider": self._slider, "weld": self._weld, "": self._other}.get(
             step.kind, self._dyad

@@ -16,7 +16,6 @@ from linkwright.dyads.values import Line, Slide, State, line_inputs, numbers, po
 from linkwright.errors import RequestError
 from linkwright.kinematics.outcome import Outcome, PositionError
 from linkwright.words import _
-from linkwright.words.sentence import Sentence
 
 #: What becomes of positions in which a dyad cannot be assembled.
 UNREACHABLE = ("refuse", "mark")
@@ -349,10 +348,16 @@ def _refused(own: Cell, found: Mapping[str, Floats], ok: Flags) -> PositionError
         )
     else:
         reason = own.dyad.explain(facts)
-    key = "dyads.apart" if ok.ndim else "dyads.apart_alone"
-    index = at if ok.ndim < 2 else tuple(int(i) for i in np.unravel_index(at, ok.shape))
-    sentence = Sentence(
-        key, signature=own.name, index=str(index), reason=reason, count=len(failed), of=ok.size
+    told = (
+        _(
+            "the {signature} dyad cannot be assembled in position {index} ({count} of {of} "
+            "positions): {reason}",
+            code="dyads.apart",
+        )
+        if ok.ndim
+        else _("the {signature} dyad cannot be assembled: {reason}", code="dyads.apart_alone")
     )
+    index = at if ok.ndim < 2 else tuple(int(i) for i in np.unravel_index(at, ok.shape))
+    sentence = told.format(signature=own.name, index=str(index), reason=reason, count=len(failed), of=ok.size)
     outcome = Outcome(False, sentence, own.name, "singular" if reached else "apart")
     return PositionError(sentence, tuple(int(i) for i in failed), outcome)

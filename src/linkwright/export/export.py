@@ -33,7 +33,7 @@ class Format:
     content: Callable[..., bytes]
 
 
-FORMATS: Registry[Format] = Registry("export_format", "linkwright.export.formats")
+FORMATS: Registry[Format] = Registry(_("export format"), "linkwright.export.formats")
 
 
 def package(name: str, purpose: str, install: str | None = None) -> Any:
@@ -137,7 +137,7 @@ def check_options(name: str, form: Format, options: dict[str, Any]) -> None:
     known = [p.name for p in inspect.signature(form.content).parameters.values() if p.kind is p.KEYWORD_ONLY]
     for option in options:
         if option not in known:
-            hint = offered(option, known, "names.it_has")
+            hint = offered(option, known, _("it has {names}"))
             raise RequestError(
                 _(
                     "the format {name} has no option {option}; {hint}",

@@ -23,7 +23,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
 from linkwright.words import LANGUAGES, Message, _, pgettext
-from linkwright.words.sentence import Sentence, Worded
+from linkwright.words.sentence import Worded
 
 Schema = dict[str, Any]
 
@@ -141,7 +141,16 @@ class Quantity(Field):
         if value is None or limit is None:
             return value
         shown = node.text if isinstance(node, Scalar) else f"{value:g}"
-        reader.finding(node, place, "is_faulty", "range", shown=shown, fault=self._fault(value), limit=limit)
+        reader.finding(
+            node,
+            place,
+            _("{shown} is {fault}"),
+            "range",
+            _("give {limit}"),
+            shown=shown,
+            fault=self._fault(value),
+            limit=limit,
+        )
         return None
 
     def _fault(self, value: float) -> str:
@@ -161,7 +170,7 @@ class Quantity(Field):
         if within and (self.below is None or value < self.below) and not (self.nonzero and value == 0):
             return None
         noun, least = (
-            Sentence(f"nouns.a_{self.dimension}"),
+            units.NOUNS[self.dimension],
             self.minimum if self.above is None else self.above,
         )
         if self.below is not None and self.above is None:
@@ -323,7 +332,16 @@ class Count(Field):
         text = reader.text(node, place)
         if text is None or text.strip() == str(self.only):
             return self.only
-        reader.finding(node, place, "unknown_version", "version", text=text, key_=place.key, only=self.only)
+        reader.finding(
+            node,
+            place,
+            _('version "{text}" is not known'),
+            "version",
+            _("write {key_}: {only}"),
+            text=text,
+            key_=place.key,
+            only=self.only,
+        )
         return None
 
     def shape(self) -> Schema:
@@ -386,8 +404,12 @@ class TimeTable(Field):
             else drift / (abs(max(positions, key=abs)) or 1.0)
         )
         if way == "periodic" and abs(turns - (round(turns) if self.dimension == "angle" else 0)) > 1e-6:
-            key = "periodic_turns" if self.dimension == "angle" else "periodic_ends"
-            reader.finding(node, place, key, "table", _("make the last position equal to the first"))
+            problem = (
+                _("a periodic table must end where it begins (or whole turns further)")
+                if self.dimension == "angle"
+                else _("a periodic table must end where it begins")
+            )
+            reader.finding(node, place, problem, "table", _("make the last position equal to the first"))
             return None
         return TimeTableValues(times, positions, way)
 

@@ -7,13 +7,22 @@ from typing import Any
 
 from linkwright import units
 from linkwright.words import Message, _
-from linkwright.words.sentence import Gloss, Sentence
+from linkwright.words.sentence import Gloss
 
 
 def missing_remedy(key: str, doc: str, shape: Mapping[str, Any]) -> Message:
     """What to write for a missing key: its description, or in other languages its name and its form."""
     own = form(shape)
     return _("add {key_}: {form}", key_=key, form=Gloss(doc, own) if doc else own)
+
+
+_NAMES = {
+    "link": _("a link's name"),
+    "joint": _("a joint's name"),
+    "point": _("a point's name"),
+    "link.point": _("a point as link.point"),
+    "output": _("an output"),
+}
 
 
 def form(shape: Mapping[str, Any]) -> Message:
@@ -24,18 +33,18 @@ def form(shape: Mapping[str, Any]) -> Message:
         case {"enum": names}:
             return _("one of {names}", names=tuple(names))
         case {"x-dimension": dimension, "examples": [example, *_]}:
-            return _("{noun}, such as {example}", noun=Sentence(f"nouns.a_{dimension}"), example=example)
+            return _("{noun}, such as {example}", noun=units.NOUNS[dimension], example=example)
         case {"x-dimension": dimension, "anyOf": [*_, {"type": "array"} as listed]}:
             one = {"x-dimension": dimension, "examples": [units.example(dimension)]}
             return _("one of these forms: {several}", several=[form(one), form(listed)])
         case {"x-dimension": dimension, "x-variables": variables}:
             return _(
                 "{noun}, an expression of {variables}",
-                noun=Sentence(f"nouns.a_{dimension}"),
+                noun=units.NOUNS[dimension],
                 variables=tuple(variables),
             )
         case {"x-reference": what}:
-            return Sentence(f"form.name_of_{what.replace('.', '_')}")
+            return _NAMES[what]
         case {"anyOf": several}:
             return _("one of these forms: {several}", several=[form(each) for each in several])
         case {"items": item, "minItems": least, "maxItems": most} if least == most:

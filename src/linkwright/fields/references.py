@@ -13,7 +13,7 @@ from linkwright.fields.base import Field, Quantities, Schema, pair_schema, quant
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.fields.reading import Place, Reader
-from linkwright.words.sentence import Sentence
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -35,10 +35,10 @@ class LinkName(Field):
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
         name = reader.text(node, place)
-        if name is None or not reader.known(node, place, "link", name, list(reader.names.links)):
+        if name is None or not reader.known(node, place, _("link"), name, list(reader.names.links)):
             return None
         if self.moving and name == "frame":
-            reader.finding(node, place, "frame_at_rest", "reference")
+            reader.finding(node, place, _("the frame does not move"), "reference", _("name a moving link"))
             return None
         return name
 
@@ -55,7 +55,14 @@ class PointName(Field):
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
         link = given.get(self.of)
         if isinstance(node, Sequence) and link is not None:
-            reader.finding(node, place, "place_for_name", "type", link=link)
+            reader.finding(
+                node,
+                place,
+                _("coordinates stand where the name of a point is needed"),
+                "type",
+                _('give the point a name among the points of "{link}", and write that name here'),
+                link=link,
+            )
             return None
         name = reader.text(node, place)
         if name is None:
@@ -116,8 +123,12 @@ class Two(Field):
         a, b = (self.one.read(reader, item, place.child(str(k)), given) for k, item in enumerate(items))
         if a is None or b is None or a != b:
             return None if a is None or b is None else (a, b)
-        remedy = Sentence(f"model.two_{self.what}s")
-        reader.finding(node, place, f"both_{self.what}s", "reference", remedy, first=a)
+        problem, remedy = (
+            (_('both links are "{first}"'), _("name two different links"))
+            if self.what == "link"
+            else (_("both points are {first}"), _("name two different points"))
+        )
+        reader.finding(node, place, problem, "reference", remedy, first=a)
         return None
 
     def shape(self) -> Schema:
@@ -193,7 +204,7 @@ class Coordinates(Field):
         owner = place.outside()
         found: dict[str, tuple[float, float] | None] = {}
         for entry in mapping.entries:
-            name = reader.name(entry.key, owner.child(entry.key.text), "point")
+            name = reader.name(entry.key, owner.child(entry.key.text), _("point"))
             if name is not None:
                 found[name] = PLACE.read(reader, entry.value, owner.child(name), {})  # type: ignore[assignment]
         return found
@@ -214,9 +225,16 @@ class LinkPoints(Field):
             return None
         names: dict[str, None] = {}
         for index, item in enumerate(node.items):
-            name = reader.name(item, place.child(str(index)), "point")
+            name = reader.name(item, place.child(str(index)), _("point"))
             if name in names:
-                reader.finding(item, place, "point_twice", "duplicate", name=name)
+                reader.finding(
+                    item,
+                    place,
+                    _('the point "{name}" is listed twice'),
+                    "duplicate",
+                    _("remove one or rename it"),
+                    name=name,
+                )
             elif name is not None:
                 names[name] = None
         return list(names)
@@ -259,7 +277,7 @@ def resolve_output(
 ) -> Output | None:
     """The place over the cycle that a text means, given each link's points and what means a displacement; None where
     it means none. ``jaw`` or ``jaw.angle``, ``guide`` or ``guide.displacement``, ``C.x`` or ``C.position.x``."""
-    owner, _, part = text.rpartition(".")
+    owner, _unused, part = text.rpartition(".")
     name = owner if part == "displacement" else text
     if name in slides or (part == "displacement" and owner in slides.values()):
         joint = slides.get(name, name)
@@ -270,7 +288,7 @@ def resolve_output(
     if part not in ("x", "y"):
         return None
     owner = owner.removesuffix(".position")
-    link, _, point = owner.rpartition(".")
+    link, _unused2, point = owner.rpartition(".")
     if link:
         return Output("position", owner, part) if point in links.get(link, ()) else None
     having = [name for name, points in links.items() if point in points]

@@ -12,7 +12,7 @@ from linkwright.fields.base import Field, Schema, given_by_file, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
-from linkwright.words import _
+from linkwright.words import Message, _
 
 Make = Callable[..., Any]
 
@@ -57,7 +57,7 @@ class Named(Field):
     """A mapping of names that the user chose, each with a value of one field."""
 
     item: Field
-    what: str
+    what: Message
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         mapping = reader.mapping(node, place)
@@ -78,7 +78,7 @@ class Named(Field):
 class ByAddress(Named):
     """A mapping of any texts (addresses of dimensions, outputs), each with a value of one field."""
 
-    what: str = "output"
+    what: Message = _("output")
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         mapping = reader.mapping(node, place)

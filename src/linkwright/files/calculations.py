@@ -5,6 +5,7 @@ from __future__ import annotations
 from linkwright.fields.nodes import Scalar
 from linkwright.files.node_reader import PlainReader
 from linkwright.registry import listed
+from linkwright.words import _
 
 #: The kinds of files that each command takes, and the command of each kind.
 TAKES = {
@@ -24,6 +25,22 @@ def refuse_kind(reader: PlainReader, node: Scalar) -> None:
     """The finding about a file of a kind where another one is needed, with the command that takes it."""
     kind = node.text
     if kind in COMMANDS:
-        reader.finding(node, "kind", "calculation", "kind", kind=kind, command=COMMANDS[kind])
+        reader.finding(
+            node,
+            "kind",
+            _("this is a calculation of the kind {kind}, and no machine"),
+            "kind",
+            _("linkwright {command} calculates it"),
+            kind=kind,
+            command=COMMANDS[kind],
+        )
     else:
-        reader.finding(node, "kind", "unknown_kind", "kind", kind=kind, hint=listed(kind, COMMANDS, "one_of"))
+        reader.finding(
+            node,
+            "kind",
+            _('the kind "{kind}" is not known'),
+            "kind",
+            _("{hint}; the model of a machine has no kind"),
+            kind=kind,
+            hint=listed(kind, COMMANDS, "one_of"),
+        )

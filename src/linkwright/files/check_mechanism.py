@@ -52,8 +52,9 @@ def _unused_parameters(reader: Reader, root: MappingNode, mechanism: Mechanism) 
             reader.finding(
                 below(root, "parameters", name),
                 f"parameters.{name}",
-                "parameter_unused",
+                _('the parameter "{name}" is used nowhere'),
                 "unused",
+                _("use or remove it"),
                 severity="warning",
                 name=name,
             )
@@ -69,9 +70,24 @@ def _lonely_links(reader: Reader, root: MappingNode, mechanism: Mechanism) -> No
         key, node = f"links.{name}", below(root, "links", name)
         if not joints:
             points = ", ".join(link.points)
-            reader.finding(node, key, "link_unused", "unused", name=name, points=points)
+            reader.finding(
+                node,
+                key,
+                _('the link "{name}" is used nowhere: no other link has one of its points ({points})'),
+                "unused",
+                _("name a shared point alike on both links, or remove the link"),
+                name=name,
+                points=points,
+            )
         elif len(link.points) == 1 and all(joint.coordinate == "turn" for joint in joints):
-            reader.finding(node, key, "lone_point", "one-point", name=name)
+            reader.finding(
+                node,
+                key,
+                _('the link "{name}" has one point and is in no prismatic joint'),
+                "one-point",
+                _("add a second point with a length, or a prismatic joint with it as block"),
+                name=name,
+            )
 
 
 def _islands(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
@@ -91,8 +107,9 @@ def _islands(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
         reader.finding(
             below(root, "links", joined[0]),
             f"links.{joined[0]}",
-            "unconnected",
+            _("{links} are not connected to the frame"),
             "not-connected",
+            _("share a point with the frame or with a link that is connected"),
             links=tuple(joined),
         )
 
@@ -110,8 +127,9 @@ def _near_points(reader: Reader, root: MappingNode, mechanism: Mechanism) -> Non
                 reader.finding(
                     below(root, "links", name),
                     f"links.{name}.points",
-                    "lone_spelling",
+                    _('"{point}" is on this link only, and there is a point "{alike}"'),
                     "near-name",
+                    _("write both alike if one point is meant"),
                     severity="warning",
                     point=point,
                     alike=alike[0],
@@ -134,8 +152,12 @@ def _guides_at_odds(reader: Reader, root: MappingNode, mechanism: Mechanism) -> 
         reader.finding(
             node,
             key,
-            "guides_at_odds",
+            _(
+                'the guide "{name}" holds "{link}" at an angle that is {off}° off the one at which '
+                "other guides hold it, so that they do not fit together",
+            ),
             "at-odds",
+            _("write block_angle: {fitting} deg"),
             name=name,
             link=block,
             off=number(math.degrees(abs(off)), 6),

@@ -20,9 +20,8 @@ from yaml.events import (
 from linkwright.fields.nodes import MAX_DEPTH, MAX_NODES, Entry, Mapping, Node, Remark, Scalar, Sequence
 from linkwright.files.events import Source, event_reader
 from linkwright.files.syntax import accident_remarks, explain, tab_remarks, wide_remarks
-from linkwright.words import _
+from linkwright.words import Message, _
 from linkwright.words.characters import UNFIT
-from linkwright.words.sentence import Sentence
 
 _KINDS = ("str", "int", "float", "map", "seq", "null")
 _HARMLESS_TAGS = frozenset(("!", *(f"tag:yaml.org,2002:{kind}" for kind in _KINDS)))
@@ -83,10 +82,10 @@ class _Composer:
         self.total = 0
         self.path: list[str] = []
 
-    def remark(self, mark: Any, key: str, code: str, **values: object) -> None:
-        """Note a remark of the catalogue: the problem ``yaml.KEY`` and its remedy ``yaml.KEY_do``."""
-        message, remedy = (Sentence(f"yaml.{each}", **values) for each in (key, f"{key}_do"))
-        self.remarks.append(Remark(mark.line, mark.column, message, remedy, code, ".".join(self.path)))
+    def remark(self, mark: Any, message: Message, remedy: Message, code: str, **values: object) -> None:
+        """Note a remark with the values of its texts."""
+        told, what_to_do = message.format(**values), remedy.format(**values)
+        self.remarks.append(Remark(mark.line, mark.column, told, what_to_do, code, ".".join(self.path)))
 
     def documents(self, next_event: Callable[[], Any]) -> None:
         self.next, count = next_event, 0
@@ -94,7 +93,12 @@ class _Composer:
             if isinstance(event, DocumentStartEvent):
                 count += 1
                 if count > 1:
-                    self.remark(event.start_mark, "second", "documents")
+                    self.remark(
+                        event.start_mark,
+                        _("a second document begins here"),
+                        _("one file holds one model: remove the --- and what follows"),
+                        "documents",
+                    )
                     raise _Stop
                 self.root = self.node(self.next(), 0)
 
@@ -105,7 +109,13 @@ class _Composer:
         if kind is AliasEvent:
             return self.alias(event)
         if depth > MAX_DEPTH:
-            self.remark(event.start_mark, "deep", "depth", most=MAX_DEPTH)
+            self.remark(
+                event.start_mark,
+                _("nested deeper than {most} levels"),
+                _("a model needs at most ten"),
+                "depth",
+                most=MAX_DEPTH,
+            )
             raise _Stop
         if event.tag is not None:
             self.tag(event)
@@ -128,7 +138,13 @@ class _Composer:
     def tag(self, event: Any) -> None:
         if event.tag not in _HARMLESS_TAGS and event.implicit is not True:
             shown = event.tag.replace("tag:yaml.org,2002:", "!!")
-            self.remark(event.start_mark, "tag", "tag", shown=shown)
+            self.remark(
+                event.start_mark,
+                _('the tag "{shown}" is not supported'),
+                _("remove the tag"),
+                "tag",
+                shown=shown,
+            )
 
     def alias(self, event: Any) -> Node:
         name, start, end = event.anchor, event.start_mark, event.end_mark
@@ -136,13 +152,23 @@ class _Composer:
             node, size = self.anchors[name]
             self.grow(start, size)
             return node
-        self.remark(start, "own_alias" if name in self.open else "no_anchor", "alias", name=name)
+        problem = (
+            _('the alias "*{name}" stands inside its own anchor')
+            if name in self.open
+            else _('the alias "*{name}" has no anchor "&{name}" before it')
+        )
+        self.remark(start, problem, _("write the value itself"), "alias", name=name)
         return Scalar(start.line, start.column, start.index, end.index, "")
 
     def grow(self, mark: Any, size: int) -> None:
         self.total += size
         if self.total > MAX_NODES:
-            self.remark(mark, "many", "size")
+            self.remark(
+                mark,
+                _("the file holds too many values"),
+                _("a model needs far fewer; remove aliases"),
+                "size",
+            )
             raise _Stop
 
     def scalar(self, event: Any) -> Scalar:
@@ -152,7 +178,13 @@ class _Composer:
             self.grow(start, 0)
         if unfit := UNFIT.search(text):
             shown = f"U+{ord(unfit[0]):04X}"
-            self.remark(start, "control", "control-character", shown=shown)
+            self.remark(
+                start,
+                _("the text holds the control character {shown}"),
+                _("remove it: a model is plain text"),
+                "control-character",
+                shown=shown,
+            )
             text = UNFIT.sub("\ufffd", text)
         return Scalar(start.line, start.column, start.index, event.end_mark.index, text, not event.style)
 
@@ -188,9 +220,16 @@ class _Composer:
         if isinstance(key, Scalar) and key.plain and key.text.endswith(":") and nothing:
             key.text = key.text.rstrip(":")
         if not isinstance(key, Scalar):
-            self.remark(key, "key", "key")
+            self.remark(key, _("a key must be a single word"), _("write key: value"), "key")
         elif first := seen.get(key.text):
-            self.remark(key, "twice", "duplicate-key", text=key.text, line=first.key.line + 1)
+            self.remark(
+                key,
+                _('the key "{text}" is given twice'),
+                _("it stands in line {line} already; remove or rename one"),
+                "duplicate-key",
+                text=key.text,
+                line=first.key.line + 1,
+            )
             if isinstance(first.value, Scalar) and first.value.empty:
                 first.value = value
             else:
@@ -204,7 +243,12 @@ class _Composer:
         sources = value.items if isinstance(value, Sequence) else [value]
         for source in sources:
             if not isinstance(source, Mapping):
-                self.remark(source, "merge", "merge")
+                self.remark(
+                    source,
+                    _("a merge key (<<) needs a mapping"),
+                    _("refer to an anchor of a mapping"),
+                    "merge",
+                )
                 continue
             found.entries += [entry for entry in source.entries if entry.key.text not in have]
             have.update(entry.key.text for entry in source.entries)

@@ -15,6 +15,7 @@ from linkwright.joints.base import JOINTS
 from linkwright.loads.base import LOADS
 from linkwright.mechanism.link import LINK_FIELDS
 from linkwright.registry import PROBABLE, nearest
+from linkwright.words import _
 
 #: Keys under which a list of elements gives their names.
 NAMED = ("name", "id")
@@ -30,12 +31,12 @@ def _elements(node: Node) -> bool:
 
 def _modes(node: Node) -> bool:
     return isinstance(node, MappingNode) and all(
-        isinstance(value, Scalar) and value.text in MODES for _, value in node
+        isinstance(value, Scalar) and value.text in MODES for _unused, value in node
     )
 
 
 def _driver(node: Node) -> bool:
-    return isinstance(node, MappingNode) and bool({"turn", "slide"} & {key for key, _ in node})
+    return isinstance(node, MappingNode) and bool({"turn", "slide"} & {key for key, _unused in node})
 
 
 def _places(node: Node) -> bool:
@@ -70,7 +71,7 @@ def in_place(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> 
 def _raised(reader: PlainReader, root: MappingNode) -> MappingNode:
     """With the sections that stand within other sections."""
     entries, raised = list[Entry](), list[Entry]()
-    present = {key for key, _ in root}
+    present = {key for key, _unused in root}
     for entry in root.entries:
         inner = entry.value
         if entry.key.text not in OUTER or not isinstance(inner, MappingNode):
@@ -84,7 +85,15 @@ def _raised(reader: PlainReader, root: MappingNode) -> MappingNode:
         for each in deep:
             key = f"{entry.key.text}.{each.key.text}"
             where = entry.key.text
-            reader.finding(each.key, key, "section_within", "misplaced", section=each.key.text, within=where)
+            reader.finding(
+                each.key,
+                key,
+                _('the section "{section}" stands within "{within}"'),
+                "misplaced",
+                _('begin the line "{section}:" where "{within}:" begins'),
+                section=each.key.text,
+                within=where,
+            )
         kept = [each for each in inner.entries if each not in deep]
         entries.append(Entry(entry.key, replace(inner, entries=kept)) if deep else entry)
         raised += deep
@@ -105,7 +114,15 @@ def _named(reader: PlainReader, root: MappingNode) -> MappingNode:
             whole = [each for each in named if each is not None]
             if whole and len(whole) == len(named):
                 section, first = entry.key.text, whole[0].key.text
-                reader.finding(value, section, "list_of_elements", "type", section=section, first=first)
+                reader.finding(
+                    value,
+                    section,
+                    _('"{section}" holds a list, where each entry stands under its name'),
+                    "type",
+                    _("write {first}: {{…}} in place of - {{name: {first}, …}}"),
+                    section=section,
+                    first=first,
+                )
                 table = MappingNode(value.line, value.column, value.start, value.end, whole)
                 entry = Entry(entry.key, table)
         entries.append(entry)
@@ -114,7 +131,7 @@ def _named(reader: PlainReader, root: MappingNode) -> MappingNode:
 
 def _sorted(reader: PlainReader, root: MappingNode) -> MappingNode:
     """With the elements that stand in the section before their own, the line of which is missing or indented."""
-    entries, moved, present = list[Entry](), dict[str, list[Entry]](), {key for key, _ in root}
+    entries, moved, present = list[Entry](), dict[str, list[Entry]](), {key for key, _unused in root}
     for entry in root.entries:
         table = entry.value
         if entry.key.text in ("frame", *ELEMENTS) and isinstance(table, MappingNode):
@@ -156,11 +173,26 @@ def _told(reader: PlainReader, found: list[Entry], section: str, within: str) ->
     first, elements = found[0].key, [each for each in found if isinstance(each.value, MappingNode)]
     key = f"{within}.{first.text}"
     if len(elements) < len(found):
-        reader.finding(first, key, "section_within", "misplaced", section=section, within=within)
+        reader.finding(
+            first,
+            key,
+            _('the section "{section}" stands within "{within}"'),
+            "misplaced",
+            _('begin the line "{section}:" where "{within}:" begins'),
+            section=section,
+            within=within,
+        )
     else:
         names = tuple(each.key.text for each in elements)
         reader.finding(
-            first, key, "of_another_section", "misplaced", names=names, section=section, within=within
+            first,
+            key,
+            _('in "{within}" stands what belongs in "{section}": {names}'),
+            "misplaced",
+            _('write the line "{section}:" above the first of them, or move them there'),
+            names=names,
+            section=section,
+            within=within,
         )
     return elements
 
@@ -188,7 +220,15 @@ def _deepened(reader: PlainReader, entries: list[Entry], section: str) -> list[E
             continue
         name = above.key.text
         at = f"{section}.{entry.key.text}"
-        reader.finding(entry.key, at, "beside_element", "misplaced", name=name, key_=entry.key.text)
+        reader.finding(
+            entry.key,
+            at,
+            _('"{key_}" stands beside "{name}", not in it'),
+            "misplaced",
+            _('indent it further than "{name}:"'),
+            name=name,
+            key_=entry.key.text,
+        )
         own = table.entries if isinstance(table, MappingNode) else []
         more = MappingNode(table.line, table.column, table.start, table.end, [*own, entry])
         found[-1] = Entry(above.key, more)
@@ -229,7 +269,15 @@ def _lowered(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> 
             entries.append(entry)
             continue
         name = entry.key.text
-        reader.finding(entry.key, name, "beside_section", "misplaced", name=name, section=section)
+        reader.finding(
+            entry.key,
+            name,
+            _('"{name}" stands beside the section "{section}", not in it'),
+            "misplaced",
+            _('indent it below "{section}:"'),
+            name=name,
+            section=section,
+        )
         lowered.setdefault(section, []).append(entry)
     for section, more in lowered.items():
         entries = _within(entries, section, more)

@@ -15,10 +15,9 @@ from linkwright.fields.nodes import Entry, Node, Scalar, Sequence, noun
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.reading import K, Place, Reader, Sayings
 from linkwright.files.syntax import wide_remedy
-from linkwright.registry import PROBABLE, listed, nearest
+from linkwright.registry import LISTINGS, PROBABLE, listed, nearest
 from linkwright.units import decimal_comma
-from linkwright.words import _
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _WHOLE = re.compile(r"[+-]?\d{1,18}")
@@ -114,23 +113,24 @@ class PlainReader:
         self,
         node: Node | None,
         place: Place | str,
-        key: str,
+        message: Message,
         code: str,
-        remedy: str = "",
+        remedy: str,
         /,
         *,
         severity: Severity = "error",
+        general: str = "",
         **values: object,
     ) -> None:
-        """Note a finding of the catalogue at a node: the problem ``model.KEY`` and its remedy, ``model.KEY_do`` with
-        the same ``values`` where no other is given; or what the section says of its own."""
-        if key in self._own:
-            own = self._own[key]
+        """Note a finding with the values of its texts at a node; or what the section says of its own instead of a
+        ``general`` one."""
+        if general in self._own:
+            own = self._own[general]
             name = (place if isinstance(place, str) else place.key).rpartition(".")[2]
             self.error(node, place, own.said(**{"key_": name, **values}), "", own.code, severity=severity)
             return
-        told = remedy or Sentence(f"model.{key}_do", **values)
-        self.error(node, place, Sentence(f"model.{key}", **values), told, code, severity=severity)
+        told = remedy.format(**values) if isinstance(remedy, Message) else remedy
+        self.error(node, place, message.format(**values), told, code, severity=severity)
 
     def where(self, node: Node | None, column: int = 0) -> str:
         """The place of a node as ``file:line:column``."""
@@ -144,14 +144,28 @@ class PlainReader:
         """The node if it is a mapping."""
         if isinstance(node, MappingNode):
             return node
-        self.finding(node, place, "where_mapping", "type", node=noun(node))
+        self.finding(
+            node,
+            place,
+            _("{node} stands where a mapping (key: value) is needed"),
+            "type",
+            _("write {{key: value, …}} or indented lines key: value"),
+            general="where_mapping",
+            node=noun(node),
+        )
         return None
 
     def items(self, node: Node, place: Place | str, count: int | None, form: str) -> list[Node] | None:
         """The items of a list, of a given count where there is one; ``form`` is an example."""
         if not isinstance(node, Sequence):
             self.finding(
-                node, place, "where_list", "type", _("write it as {form}", form=form), node=noun(node)
+                node,
+                place,
+                _("{node} stands where a list is needed"),
+                "type",
+                _("write it as {form}", form=form),
+                general="where_list",
+                node=noun(node),
             )
             return None
         if count is None or len(node.items) == count:
@@ -159,27 +173,55 @@ class PlainReader:
         texts = [item.text if isinstance(item, Scalar) else "" for item in node.items]
         comma = len(texts) > count and _split_by_commas(texts)
         wide = any(isinstance(item, Scalar) and item.plain and "，" in item.text for item in node.items)
-        way = "wide_comma" if wide else "decimal_points" if comma else "write_as"
-        remedy = Sentence(f"model.{way}", form=form)
+        remedy = _("write it as {form}", form=form)
+        if comma:
+            remedy = _("write it as {form}, with decimal points, not commas", form=form)
+        if wide:
+            remedy = _('write a plain "," in place of the full-width "，": {form}', form=form)
         code = "decimal-comma" if comma else "count"
-        self.finding(node, place, "value_count", code, remedy, given=len(node.items), count=count)
+        self.finding(
+            node,
+            place,
+            _("the number of values is {given}, not {count} as needed"),
+            code,
+            remedy,
+            given=len(node.items),
+            count=count,
+        )
         return None
 
     def text(self, node: Node, place: Place | str) -> str | None:
         """The text of a single value."""
         if isinstance(node, Scalar) and not node.empty:
             return node.text
-        self.finding(node, place, "where_text", "type", node=noun(node))
+        self.finding(
+            node,
+            place,
+            _("{node} stands where a text is needed"),
+            "type",
+            _("write a name or a text"),
+            general="where_text",
+            node=noun(node),
+        )
         return None
 
-    def name(self, node: Node, place: Place | str, what: str) -> str | None:
+    def name(self, node: Node, place: Place | str, what: Message) -> str | None:
         """A name that the user chose for something new."""
         text = self.text(node, place)
         if text is None or NAME.fullmatch(text):
             return text
         right = re.sub(r"[^\w'-]", "_", text).strip("_") or "a"
         right = right if NAME.fullmatch(right) else f"{what[0]}{right}"
-        self.finding(node, place, "bad_name", "name", text=text, what=Sentence(f"nouns.{what}"), right=right)
+        self.finding(
+            node,
+            place,
+            _('"{text}" cannot be the name of a {what}'),
+            "name",
+            _('names begin with a letter and hold letters, digits, _ and -: "{right}"'),
+            text=text,
+            what=what,
+            right=right,
+        )
         return None
 
     def word(self, node: Node, place: Place | str, choices: Collection[str]) -> str | None:
@@ -188,11 +230,11 @@ class PlainReader:
         if text is None or text in choices:
             return text
         remedy = listed(text, choices, "one_of")
-        self.finding(node, place, "unknown_word", "unknown-word", remedy, text=text)
+        self.finding(node, place, _('"{text}" is not known here'), "unknown-word", remedy, text=text)
         return None
 
     def of_kind(
-        self, node: Node, place: Place, kinds: Mapping[str, type[K]], missing: str, remedy: str
+        self, node: Node, place: Place, kinds: Mapping[str, type[K]], missing: Message, remedy: Message
     ) -> tuple[MappingNode, type[K], dict[str, Any]] | None:
         """A table, what its key ``kind`` names or probably means, and its values by the fields of that kind, as far
         as they are given; ``missing``, ``remedy``: the sentences where there is no kind."""
@@ -202,8 +244,8 @@ class PlainReader:
         table = self._with_kind(table, place)
         said = table.get("kind")
         if said is None:
-            told = Sentence(remedy, kinds=tuple(kinds))
-            self.error(table, place.child("kind"), Sentence(missing), told, "missing-key")
+            told = remedy.format(kinds=tuple(kinds))
+            self.error(table, place.child("kind"), missing, told, "missing-key")
             return None
         self.word(said, place.child("kind"), kinds)
         kind = meant_kind(said, kinds)
@@ -243,7 +285,15 @@ class PlainReader:
             each = fields[name]
             if value is None and each.required and key not in split:
                 remedy = missing_remedy(key, each.doc, each.shape())
-                self.finding(mapping, place.child(key), "missing_key", "missing-key", remedy, key_=key)
+                self.finding(
+                    mapping,
+                    place.child(key),
+                    _('the key "{key_}" is missing'),
+                    "missing-key",
+                    remedy,
+                    general="missing_key",
+                    key_=key,
+                )
             elif value is not None:
                 reader = cast(Reader, self)
                 if each.replaced:
@@ -266,7 +316,16 @@ class PlainReader:
 
     def old_key(self, node: Node, place: Place, key: str, new: str) -> None:
         """A warning for a key that files of this format had before, with the one that took its place."""
-        self.finding(node, place, "old_key", "old-key", severity="warning", key_=key, new=new)
+        self.finding(
+            node,
+            place,
+            _('the key "{key_}" has a new name: {new}'),
+            "old-key",
+            _("write {new}: instead; files of this format with the old name go on being read"),
+            severity="warning",
+            key_=key,
+            new=new,
+        )
 
     def _in_place_of(
         self, mapping: MappingNode, place: Place, fields: Mapping[str, Field]
@@ -314,9 +373,17 @@ class PlainReader:
             offer = likely or meant.get(key) or nearest(key[:100], absent)
             if offer in absent and not likely:
                 split.add(offer)
-            remedy = Sentence(f"names.{'near' if offer else 'all'}_known", offer=offer, names=tuple(known))
-            self.finding(entry.key, place.child(key), "unknown_key", "unknown-key", remedy, key_=key[:100],
-                         names=tuple(known))  # fmt: skip
+            remedy = LISTINGS["known"][not offer].format(offer=offer, names=tuple(known))
+            self.finding(
+                entry.key,
+                place.child(key),
+                _('unknown key "{key_}"'),
+                "unknown-key",
+                remedy,
+                general="unknown_key",
+                key_=key[:100],
+                names=tuple(known),
+            )
         return as_meant(replace(mapping, entries=kept), known), split
 
     def _joined(self, entry: Entry, place: Place, known: list[str]) -> str | None:
@@ -329,7 +396,15 @@ class PlainReader:
             if rest[0] not in "{[":
                 return None
             rest = f"{rest}: {entry.value.text}"[:60]
-        self.finding(entry.key, place.child(key), "joined_key", "syntax", key_=key, rest=rest)
+        self.finding(
+            entry.key,
+            place.child(key),
+            _('the key "{key_}" and its value stand together as one key'),
+            "syntax",
+            _("write a colon and a space between them: {key_}: {rest}"),
+            key_=key,
+            rest=rest,
+        )
         return key
 
     def _comma(self, before: Entry, entry: Entry, place: Place) -> bool:

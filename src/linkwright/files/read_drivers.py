@@ -20,7 +20,7 @@ from linkwright.joints.base import Joint, JointName
 from linkwright.mechanism.mechanism import Cycle
 from linkwright.registry import nearest
 from linkwright.words import _
-from linkwright.words.sentence import Sentence, together
+from linkwright.words.sentence import together
 
 TURN_FIELDS: Mapping[str, Field] = {
     "turn": LinkName(required=True, moving=True, doc="the link that is turned"),
@@ -47,19 +47,34 @@ def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint])
     """The drivers by name; a single one is named ``driver``."""
     one, several = root.get("driver"), root.get("drivers")
     if one is not None and several is not None:
-        reader.finding(several, "drivers", "both_drivers", "choice")
+        reader.finding(
+            several, "drivers", _("driver and drivers are both given"), "choice", _("keep one of them")
+        )
     found: dict[str, Driver] = {}
     if one is not None:
         _add(reader, found, joints, one, "driver", Place("driver", "driver"))
     mapping = None if several is None else reader.mapping(several, "drivers")
     if mapping and any(isinstance(mapping.get(key), Scalar) for key in ("turn", "slide")):
-        reader.finding(mapping, "drivers", "drivers_without_names", "choice")
+        reader.finding(
+            mapping,
+            "drivers",
+            _("the driver has no name"),
+            "choice",
+            _("write driver: {{…}} for a single one, drivers: {{name: {{…}}, …}} for several"),
+        )
         return found
     for entry in mapping.entries if mapping else []:
-        name = reader.name(entry.key, f"drivers.{entry.key.text}", "driver")
+        name = reader.name(entry.key, f"drivers.{entry.key.text}", _("driver"))
         if name in reader.names.links or name in reader.names.joints:
             remedy = _("rename the driver")
-            reader.finding(entry.key, f"drivers.{name}", "name_taken", "duplicate", remedy, name=name)
+            reader.finding(
+                entry.key,
+                f"drivers.{name}",
+                _('a link or joint has the name "{name}" already'),
+                "duplicate",
+                remedy,
+                name=name,
+            )
         elif name is not None:
             _add(reader, found, joints, entry.value, name, Place(f"drivers.{name}", name))
     return found
@@ -76,7 +91,14 @@ def _add(
             driver.link,
             driver.relative_to,
         }:
-            reader.finding(node, place, "same_coordinate", "duplicate", name=other.name)
+            reader.finding(
+                node,
+                place,
+                _('the driver "{name}" drives the same coordinate'),
+                "duplicate",
+                _("remove one"),
+                name=other.name,
+            )
     found[name] = driver
 
 
@@ -90,7 +112,7 @@ def _read_driver(
     meant = as_meant(mapping, _every_key())
     turns, slides = (meant.get(key) is not None for key in ("turn", "slide"))
     if turns and slides:
-        reader.finding(node, place, "turn_and_slide", "choice")
+        reader.finding(node, place, _("turn and slide are both given"), "choice", _("keep one of them"))
         return None
     rotary = not slides
     way = TURN_FIELDS if rotary else SLIDE_FIELDS
@@ -126,7 +148,8 @@ def _refuse_nothing_driven(reader: Reader, mapping: MappingNode, place: Place) -
     others = [entry for entry in mapping.entries if entry not in told]
     reader.unknown_keys(replace(mapping, entries=others), place, known)
     at = told[0].key if told else mapping
-    reader.finding(at, place, "nothing_driven", "missing-key", _meant(reader, mapping))
+    remedy = _meant(reader, mapping) or _("add turn: LINK and about: PIN, or slide: JOINT")
+    reader.finding(at, place, _("what the driver drives is missing"), "missing-key", remedy)
 
 
 def _meant(reader: Reader, mapping: MappingNode) -> str:
@@ -179,7 +202,15 @@ def _read_law(
     key = chosen[0]
     foreign = [name for each in laws.values() for name in each if name in given and name not in laws[key]]
     for name in foreign:
-        reader.finding(node.get(name), place.child(name), "does_not_go", "choice", name=name, key_=key)
+        reader.finding(
+            node.get(name),
+            place.child(name),
+            _('"{name}" does not go with {key_}'),
+            "choice",
+            _("remove it"),
+            name=name,
+            key_=key,
+        )
     if foreign or given.get(key) is None:
         return None
     return LAWS[key].from_values(given, rotary, reader.values)
@@ -196,14 +227,22 @@ def _revolute(
         mine = [name for name, links in reader.names.pins.items() if link in links]
         remedy = _("its pins: {pins}", pins=tuple(mine)) if mine else _("it has no pins")
         at, key = node.get("about"), place.child("about")
-        reader.finding(at, key, "no_pin_at", "reference", remedy, link=link, pin=pin)
+        reader.finding(
+            at, key, _('the link "{link}" has no pin at "{pin}"'), "reference", remedy, link=link, pin=pin
+        )
         return None
     rest = [owner for owner in owners if owner != link]
     if other is None:
         other = "frame" if "frame" in rest else rest[0]
         if other != "frame" and len(rest) > 1:
             reader.finding(
-                node, place.child("relative_to"), "several_on_pin", "ambiguous", pin=pin, rest=tuple(rest)
+                node,
+                place.child("relative_to"),
+                _('several links are on the pin "{pin}"'),
+                "ambiguous",
+                _("add relative_to: one of {rest}"),
+                pin=pin,
+                rest=tuple(rest),
             )
             return None
         if other != "frame":
@@ -211,7 +250,9 @@ def _revolute(
     elif other not in rest:
         remedy = _("one of: {names}", names=tuple(rest))
         at, key = node.get("relative_to"), place.child("relative_to")
-        reader.finding(at, key, "not_on_pin", "reference", remedy, other=other, pin=pin)
+        reader.finding(
+            at, key, _('"{other}" is not another link on "{pin}"'), "reference", remedy, other=other, pin=pin
+        )
         return None
     return pin, link, other
 
@@ -222,12 +263,23 @@ def _tell_against(reader: Reader, node: MappingNode, place: Place, link: str, pi
     remedy = (
         _("write relative_to: {other} if that is meant, else about: {held}", other=other, held=held[0])
         if held
-        else ""
+        else _("write relative_to: {other} to say so")
     )
     severity: Severity = "warning" if held else "note"
     values = {"link": link, "pin": pin, "other": other}
     at, key = node.get("about"), place.child("about")
-    reader.finding(at, key, "driven_against", "doubtful", remedy, severity=severity, **values)
+    reader.finding(
+        at,
+        key,
+        _(
+            'the pin "{pin}" joins "{link}" to "{other}", not to the frame, so its angle against '
+            '"{other}" is driven',
+        ),
+        "doubtful",
+        remedy,
+        severity=severity,
+        **values,
+    )
 
 
 #: The keys of which one set says what a cycle is.
@@ -262,18 +314,18 @@ def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver])
 
 def _check_range(reader: Reader, node: Node, given: Mapping[str, float], law: Law) -> None:
     word = "turns" if "turns" in given else _("from and to")
-    problem, remedy, code = None, "give_duration", "choice"
+    problem, remedy, code = None, _("give duration"), "choice"
     if law.constant_speed is None:
         problem = _("{word} needs a first driver of constant speed", word=word)
     elif law.constant_speed == 0:
         problem = _("{word} needs a speed other than zero", word=word)
     elif "turns" in given and not law.rotary:
-        problem, remedy = _("the first driver does not turn"), "give_duration_or"
+        problem, remedy = _("the first driver does not turn"), _("give duration, or from and to")
     elif "from" in given and (given["to"] - given["from"]) * law.constant_speed <= 0:
         problem, remedy, code = (
             _("the driver does not move from the first value to the last", code="model.wrong_way"),
-            "exchange_or_turn",
+            _("exchange from and to, or turn the sign of the speed"),
             "range",
         )
     if problem is not None:
-        reader.error(node, "cycle", problem, Sentence(f"model.{remedy}"), code)
+        reader.error(node, "cycle", problem, remedy, code)

@@ -73,14 +73,28 @@ def read_joints(reader: Reader, node: Node | None, links: Mapping[str, Link]) ->
     joints = {pin: implied_joint(pin, owners) for pin, owners in reader.names.pins.items()}
     mapping = None if node is None else reader.mapping(node, "joints")
     for entry in mapping.entries if mapping else []:
-        name = reader.name(entry.key, f"joints.{entry.key.text}", "joint")
+        name = reader.name(entry.key, f"joints.{entry.key.text}", _("joint"))
         joint = None if name is None else _read_joint(reader, entry.value, name, links)
         if joint is None or name is None:
             continue
         if name in joints and joint.kind != IMPLIED:
-            reader.finding(entry.key, f"joints.{name}", "pin_has_name", "duplicate", name=name)
+            reader.finding(
+                entry.key,
+                f"joints.{name}",
+                _('the pin at the point "{name}" has this name already'),
+                "duplicate",
+                _("rename the joint"),
+                name=name,
+            )
         elif name in links:
-            reader.finding(entry.key, f"joints.{name}", "link_has_name", "duplicate", name=name)
+            reader.finding(
+                entry.key,
+                f"joints.{name}",
+                _('a link has the name "{name}" already'),
+                "duplicate",
+                _("rename one of them"),
+                name=name,
+            )
         joints[name] = joint
     return joints
 
@@ -107,11 +121,19 @@ def _of_points(reader: Reader, table: MappingNode, place: Place) -> MappingNode:
                 links=together(lacking),
             )
             if lacking
-            else ""
+            else _('remove it: they have the point "{pin}" already')
         )
         keys = tuple(each.key.text for each in told)
         at = place.child(told[0].key.text)
-        reader.finding(told[0].key, at, "pin_joins", "unknown-key", remedy, pin=pin, keys=keys)
+        reader.finding(
+            told[0].key,
+            at,
+            _("a pin joins the links that have a point of its name, and takes no key {keys}"),
+            "unknown-key",
+            remedy,
+            pin=pin,
+            keys=keys,
+        )
     return replace(table, entries=[each for each in table.entries if each not in told])
 
 
@@ -127,7 +149,7 @@ def _read_joint(reader: Reader, node: Node, name: str, links: Mapping[str, Link]
     before = reader.error_count
     if isinstance(node, MappingNode) and meant_kind(as_meant(node, ["kind"]).get("kind"), JOINTS) == IMPLIED:
         node = _of_points(reader, node, place)
-    found = reader.of_kind(node, place, JOINTS, "model.joint_no_kind", "model.add_kind")
+    found = reader.of_kind(node, place, JOINTS, _("the joint has no kind"), _("add kind: one of {kinds}"))
     if found is None or reader.error_count > before:
         return None
     mapping, cls, values = found

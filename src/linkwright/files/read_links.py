@@ -47,11 +47,23 @@ def scan_points(node: Node | None) -> tuple[str, ...]:
 def read_frame(reader: Reader, node: Node | None) -> Link:
     """The frame with its points."""
     if node is None:
-        reader.finding(None, "frame", "no_frame", "missing-key")
+        reader.finding(
+            None,
+            "frame",
+            _("the model has no frame"),
+            "missing-key",
+            _("add frame: {{points: {{O1: [0 m, 0 m]}}}}"),
+        )
         return Link("frame", "coordinates", {})
     points = below(node, "points")
     if isinstance(points, Sequence):
-        reader.finding(points, "frame.points", "frame_no_coordinates", "type")
+        reader.finding(
+            points,
+            "frame.points",
+            _("the frame's points have no coordinates"),
+            "type",
+            _("write points: {{O1: [0 m, 0 m], …}}"),
+        )
         return Link("frame", "coordinates", {})
     found = reader.table(node, Place("frame", "frame"), FRAME_FIELDS) or {}
     placed = {name: place for name, place in (found.get("points") or {}).items() if place is not None}
@@ -69,14 +81,30 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
     for name, place in found.items():
         value = below(node, name)
         if name not in everywhere and reader.names.listed:
-            near = offered(name, everywhere, "model.in_no_link_do")
-            reader.finding(value or node, f"drawing.{name}", "in_no_link", "unknown-name", near, name=name)
+            near = offered(
+                name, everywhere, _("add it to the points of a link, or remove it from the drawing")
+            )
+            reader.finding(
+                value or node,
+                f"drawing.{name}",
+                _('no link has the drawn point "{name}"'),
+                "unknown-name",
+                near,
+                name=name,
+            )
             continue
-        if not reader.known(value or node, f"drawing.{name}", "point", name, everywhere) or place is None:
+        if not reader.known(value or node, f"drawing.{name}", _("point"), name, everywhere) or place is None:
             continue
         fixed = frame.points.get(name)
         if fixed is not None and reader.names.owners(name) == ["frame"] and math.dist(fixed, place) > 1e-9:
-            reader.finding(value, f"drawing.{name}", "frame_elsewhere", "conflict", name=name)
+            reader.finding(
+                value,
+                f"drawing.{name}",
+                _('"{name}" is a point of the frame and stands elsewhere there'),
+                "conflict",
+                _("leave it out of the drawing"),
+                name=name,
+            )
         drawing[name] = place
     return drawing
 
@@ -84,13 +112,25 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
 def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[str, Vec]) -> dict[str, Link]:
     """All moving links, in the file's order."""
     if node is None:
-        reader.finding(None, "links", "no_links", "missing-key")
+        reader.finding(
+            None,
+            "links",
+            _("the model has no links"),
+            "missing-key",
+            _("add links: {{crank: {{points: [O1, A], length: 0.1 m}}}}"),
+        )
         return {}
     mapping = reader.mapping(node, "links")
     if mapping is None:
         return {}
     if not mapping.entries:
-        reader.finding(node, "links", "no_link", "missing-key")
+        reader.finding(
+            node,
+            "links",
+            _("there is no link"),
+            "missing-key",
+            _("add one, such as crank: {{points: [O1, A], length: 0.1 m}}"),
+        )
     if len(mapping.entries) > MOST_LINKS:
         said = _(
             "a model of {count} links; at most {most} are read", count=len(mapping.entries), most=MOST_LINKS
@@ -100,11 +140,24 @@ def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[
     links: dict[str, Link] = {}
     seen = {**frame.points, **drawing}
     for entry in mapping.entries:
-        name = reader.name(entry.key, f"links.{entry.key.text}", "link")
+        name = reader.name(entry.key, f"links.{entry.key.text}", _("link"))
         if name == "frame":
-            reader.finding(entry.key, "links.frame", "frame_among_links", "name")
+            reader.finding(
+                entry.key,
+                "links.frame",
+                _("the frame stands among the links"),
+                "name",
+                _("move it out of links, to a section of its own: frame: {{points: {{O1: [0 m, 0 m]}}}}"),
+            )
         elif name in ("gravity", "loads", "parameters", "cycle"):
-            reader.finding(entry.key, f"links.{name}", "link_name", "name", name=name)
+            reader.finding(
+                entry.key,
+                f"links.{name}",
+                _('"{name}" cannot be the name of a link'),
+                "name",
+                _("choose another name"),
+                name=name,
+            )
         elif name is not None:
             link = _read_link(reader, entry.value, name, seen)
             if link is not None:
@@ -121,7 +174,13 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
     points = given["points"]
     if not points:
         if reader.error_count == before:
-            reader.finding(node, place.child("points"), "no_points", "missing-key")
+            reader.finding(
+                node,
+                place.child("points"),
+                _("the link has no points"),
+                "missing-key",
+                _("list them: [A, B]"),
+            )
         return None
     assert isinstance(node, MappingNode)
     placed = _place_points(reader, node, place, given, drawing) if reader.error_count == before else None
@@ -131,7 +190,12 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
     for point, position in (given.get("also") or {}).items():
         if point in coordinates:
             reader.finding(
-                node.get("also"), place.child("also"), "point_given_twice", "duplicate", point=point
+                node.get("also"),
+                place.child("also"),
+                _('the point "{point}" is given twice'),
+                "duplicate",
+                _("remove one"),
+                point=point,
             )
         coordinates[point] = position
     _coincident(reader, node, place, coordinates)
@@ -214,10 +278,26 @@ def _from_drawing(
     missing = [point for point in points if point not in drawing]
     if missing:
         form = _("length: 0.5 m") if len(points) == 2 else _("lengths: [0.3 m, 0.4 m] and angle: 30 deg")
-        reader.finding(node, place, "no_dimensions", "missing-key", missing=tuple(missing), form=form)
+        reader.finding(
+            node,
+            place,
+            _("the link has no dimensions, and the drawing no place of {missing}"),
+            "missing-key",
+            _("give {form}, coordinates of its points, or add {missing} to drawing"),
+            missing=tuple(missing),
+            form=form,
+        )
         return None
     if drawing[points[0]] == drawing[points[1]]:
-        reader.finding(node, place, "same_in_drawing", "range", first=points[0], second=points[1])
+        reader.finding(
+            node,
+            place,
+            _("{first} and {second} are at the same place in the drawing"),
+            "range",
+            _("move one"),
+            first=points[0],
+            second=points[1],
+        )
         return None
     return "drawing", from_drawing(points, drawing), ()
 
@@ -227,7 +307,14 @@ def _coincident(reader: Reader, node: Node, place: Place, points: Mapping[str, V
     for name, position in points.items():
         if position is not None and position in seen:
             reader.finding(
-                node, place, "points_same", "coincident", severity="warning", seen=seen[position], name=name
+                node,
+                place,
+                _("the points {seen} and {name} are at the same place"),
+                "coincident",
+                _("give them different coordinates unless that is meant"),
+                severity="warning",
+                seen=seen[position],
+                name=name,
             )
         elif position is not None:
             seen[position] = name

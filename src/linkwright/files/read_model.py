@@ -75,7 +75,11 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
     task = mapping.get("synthesis")
     if task is not None and mapping.get("frame") is None and mapping.get("links") is None:
         reader.finding(
-            task, "synthesis", "task_alone", "kind", _("linkwright synthesize finds machines for it")
+            task,
+            "synthesis",
+            _("the file holds a task of synthesis and no machine"),
+            "kind",
+            _("linkwright synthesize finds machines for it"),
         )
         return None, reader.findings
     try:
@@ -202,10 +206,25 @@ def _parameter(
                 _("a function or a reserved word"),
                 _('rename it, such as "{first}_1"', first=name[:1]),
             )
-        reader.finding(key, place, "bad_parameter", "name", remedy, name=name, what=what)
+        reader.finding(
+            key,
+            place,
+            _('"{name}" cannot name a parameter: it is {what}'),
+            "name",
+            remedy,
+            name=name,
+            what=what,
+        )
         return None
     if name in {*reader.names.links, *reader.names.joints} - set(reader.names.pins):
-        reader.finding(key, place, "name_taken", "duplicate", _("rename one of them"), name=name)
+        reader.finding(
+            key,
+            place,
+            _('a link or joint has the name "{name}" already'),
+            "duplicate",
+            _("rename one of them"),
+            name=name,
+        )
         return None
     text = reader.quantity_text(node, place, "1.25 m")
     if text is None:
@@ -221,10 +240,20 @@ def _parameter(
         if not later or error.code != "unknown-name" or not reader.broken.isdisjoint(later):
             reader.quantity_error(error, node, place, text)
         elif ring := _ring(name, told):
-            reader.finding(node, place, "in_circle", "circle", name=name, ring=" → ".join(ring))
+            reader.finding(
+                node,
+                place,
+                _('"{name}" depends on itself: {ring}'),
+                "circle",
+                _("give one of them a value that does not need the others"),
+                name=name,
+                ring=" → ".join(ring),
+            )
             reader.broken.update(ring)
         else:
-            reader.finding(node, place, "defined_below", "unknown-name", name=later[0])
+            reader.finding(
+                node, place, _('"{name}" is defined below'), "unknown-name", _("move it above"), name=later[0]
+            )
         return None
     reader.kinds[name] = Derived(kind) if derived(expression.tree, reader.kinds) else kind
     reader.values[name] = value
@@ -258,7 +287,7 @@ def _assembly(reader: Reader, node: Node | None) -> dict[str, str]:
     found: dict[str, str] = {}
     for entry in mapping.entries if mapping else []:
         name, place = entry.key.text, f"assembly.{entry.key.text}"
-        known = reader.known(entry.key, place, "joint", name, list(reader.names.joints))
+        known = reader.known(entry.key, place, _("joint"), name, list(reader.names.joints))
         word = reader.word(entry.value, place, MODES)
         if known and word is not None:
             found[name] = word
@@ -269,7 +298,7 @@ def _loads(reader: Reader, node: Node | None) -> dict[str, Load]:
     mapping = None if node is None else reader.mapping(node, "loads")
     found: dict[str, Load] = {}
     for entry in mapping.entries if mapping else []:
-        name = reader.name(entry.key, f"loads.{entry.key.text}", "load")
+        name = reader.name(entry.key, f"loads.{entry.key.text}", _("load"))
         if name is not None:
             load = read_load(reader, entry.value, Place(f"loads.{name}", f"loads.{name}"), name)
             if load is not None:

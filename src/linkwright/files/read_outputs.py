@@ -54,11 +54,26 @@ def _free(reader: Reader, key: Node, place: Place, name: str) -> bool:
             if name in reserved
             else _('rename it, such as "l_1"')
         )
-        reader.finding(key, place, "bad_output_name", "name", remedy, name=name, what=what)
+        reader.finding(
+            key,
+            place,
+            _('"{name}" cannot name an output: it is {what}'),
+            "name",
+            remedy,
+            name=name,
+            what=what,
+        )
         return False
     points = {point for link in reader.names.links.values() for point in link}
     if name in {*reader.names.links, *reader.names.joints, *reader.kinds, *points}:
-        reader.finding(key, place, "name_taken", "duplicate", _("rename one of them"), name=name)
+        reader.finding(
+            key,
+            place,
+            _('a link or joint has the name "{name}" already'),
+            "duplicate",
+            _("rename one of them"),
+            name=name,
+        )
         return False
     return True
 
@@ -86,11 +101,26 @@ def _named(
         return None
     moving = [known[each][1] for each in expression.names if each in known]
     if not moving:
-        reader.finding(node, place, "output_still", "expression", text=text)
+        reader.finding(
+            node,
+            place,
+            _('nothing in "{text}" moves'),
+            "expression",
+            _("use a place or a rate of the machine, such as a guide, a link's angle or POINT.x"),
+            text=text,
+        )
         return None
     if not dimension:
         unit = units.si_symbol(expression.dimension(kinds))
-        reader.finding(node, place, "output_dimension", "wrong-dimension", text=text, unit=unit)
+        reader.finding(
+            node,
+            place,
+            _('the result of "{text}" is in {unit}, which is the unit of no quantity here'),
+            "wrong-dimension",
+            _("write a formula of a length, an angle, a velocity or another quantity with a name"),
+            text=text,
+            unit=unit,
+        )
         return None
     return NamedOutput(name, expression, dimension, min(_rates(each) for each in moving))
 

@@ -22,7 +22,6 @@ from linkwright.fields.references import LinkPoint, resolve_output
 from linkwright.files.node_reader import NUMBER, PlainReader
 from linkwright.registry import listed, nearest
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
 
 #: A name with dots in a text; superscripts belong to units.
 _WORD = re.compile(r"(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d](?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[\w'-])*(?:\.[^\W\d][\w'-]*)*")
@@ -74,7 +73,15 @@ class Reader(PlainReader):
             return value
         limit = f"{units.number(largest)} {unit}".rstrip()
         shown = node.text if isinstance(node, Scalar) else f"{value:g}"
-        self.finding(node, place, "beyond", "range", shown=shown, limit=limit)
+        self.finding(
+            node,
+            place,
+            _("{shown} is more than any machine has"),
+            "range",
+            _("check the number and its unit; at most {limit}"),
+            shown=shown,
+            limit=limit,
+        )
         return None
 
     def _evaluated(self, value: Expression, node: Node, place: Place) -> float | None:
@@ -83,11 +90,28 @@ class Reader(PlainReader):
             self.unread += 1
             return None
         if isinstance(node, Scalar) and value.text != units.tidy(node.text):
-            self.finding(node, place, "read_as", "read-as", severity="note", text=node.text, read=value.text)
+            self.finding(
+                node,
+                place,
+                _('"{text}" is read as {read}'),
+                "read-as",
+                _("write it this way if it may be misread"),
+                severity="note",
+                text=node.text,
+                read=value.text,
+            )
         if not value.names:
             return value.evaluate({})
         if self._plain:
-            self.finding(node, place, "no_parameter", "expression", text=value.text, what=self._plain)
+            self.finding(
+                node,
+                place,
+                _('"{text}" uses a parameter, which {what} cannot follow'),
+                "expression",
+                _("write the number with its unit"),
+                text=value.text,
+                what=self._plain,
+            )
             return None
         result = value.evaluate(self.values)
         self.expressions[place.address] = value
@@ -203,20 +227,34 @@ class Reader(PlainReader):
         """Whether a table is one: equal counts, two rows or more, x increasing."""
         if len(xs) != len(ys):
             self.finding(
-                node, place, "counts_differ", "table", xs=len(xs), x_name=x_name, ys=len(ys), y_name=y_name
+                node,
+                place,
+                _("{xs} values of {x_name}, but {ys} of {y_name}"),
+                "table",
+                _("give as many"),
+                xs=len(xs),
+                x_name=x_name,
+                ys=len(ys),
+                y_name=y_name,
             )
         elif len(xs) < 2:
-            self.finding(node, place, "two_rows", "table")
+            self.finding(node, place, _("a table needs two rows or more"), "table", _("add rows"))
         else:
             falling = [index for index in range(1, len(xs)) if xs[index] <= xs[index - 1]]
             if not falling:
                 return True
             self.finding(
-                node, place.child(x_name), "not_larger", "table", place=falling[0] + 1, x_name=x_name
+                node,
+                place.child(x_name),
+                _("value {place} is not larger than the one before it"),
+                "table",
+                _("give {x_name} in increasing order"),
+                place=falling[0] + 1,
+                x_name=x_name,
             )
         return False
 
-    def known(self, node: Node, place: Place | str, what: str, name: str, candidates: list[str]) -> bool:
+    def known(self, node: Node, place: Place | str, what: Message, name: str, candidates: list[str]) -> bool:
         """Whether a name exists; a finding with the nearest if not."""
         if name in candidates:
             return True
@@ -226,11 +264,24 @@ class Reader(PlainReader):
         owners = self.names.owners(name) if what in ("joint", "pin") else []
         if owners:
             if not self.names.incomplete:
-                self.finding(node, place, "lone_pin", "unknown-name", name=name, owner=owners[0])
+                self.finding(
+                    node,
+                    place,
+                    _('there is no pin "{name}": only {owner} has a point of this name'),
+                    "unknown-name",
+                    _("name the point alike on a second link"),
+                    name=name,
+                    owner=owners[0],
+                )
             return False
-        noun_of = what if isinstance(what, Message) else Sentence(f"nouns.{what}")
         self.finding(
-            node, place, "no_such", "unknown-name", listed(name, candidates), what=noun_of, name=name
+            node,
+            place,
+            _('there is no {what} "{name}"'),
+            "unknown-name",
+            listed(name, candidates),
+            what=what,
+            name=name,
         )
         return False
 
@@ -247,8 +298,9 @@ class Reader(PlainReader):
             self.finding(
                 node,
                 place,
-                "no_point_on",
+                _('the link "{link}" has no point "{name}"'),
                 "unknown-name",
+                _("it is on {others}; points of {link}: {points}"),
                 link=link,
                 name=name,
                 others=tuple(others),
@@ -261,20 +313,21 @@ class Reader(PlainReader):
         """A point of the mechanism: ``link.point``, or ``point`` where it is one place."""
         link, dot, point = text.partition(".")
         if dot:
-            if not self.known(node, place, "link", link, list(self.names.links)):
+            if not self.known(node, place, _("link"), link, list(self.names.links)):
                 return None
             return LinkPoint(link, point) if self.point_of(node, place, point, link) else None
         owners = self.names.owners(text)
         if not owners:
             everywhere = list(dict.fromkeys(each for points in self.names.links.values() for each in points))
-            self.known(node, place, "point", text, everywhere)
+            self.known(node, place, _("point"), text, everywhere)
             return None
         if len(owners) > 1 and set(owners) - set(self.names.pins.get(text, ())):
             self.finding(
                 node,
                 place,
+                _('the point "{text}" is on several links that are not joined there'),
                 "ambiguous",
-                "ambiguous",
+                _("write one of {names}"),
                 text=text,
                 names=tuple(f"{owner}.{text}" for owner in owners),
             )
@@ -298,7 +351,7 @@ class Reader(PlainReader):
                 "{hint} (a link's name for its angle, POINT.x, POINT.y, or a prismatic joint's name)",
                 hint=_('did you mean "{offer}"?', offer=offer),
             )
-        self.finding(node, place, "no_output", "unknown-name", remedy, text=text)
+        self.finding(node, place, _('there is no output "{text}"'), "unknown-name", remedy, text=text)
         return None
 
     def over(self, node: MappingNode, place: Place) -> tuple[Literal["input", "time"] | Output | None, str]:

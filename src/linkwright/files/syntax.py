@@ -8,8 +8,7 @@ from itertools import islice
 from typing import Any
 
 from linkwright.fields.nodes import Remark
-from linkwright.words import _
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _, pgettext
 
 #: What the reader's complaints mean: keys of the catalogue ``yaml``, the remedy under KEY_do.
 _MEANINGS: tuple[tuple[str, str], ...] = (
@@ -42,6 +41,75 @@ _MEANINGS: tuple[tuple[str, str], ...] = (
 )
 
 
+#: What these complaints and slips are, and what to do about them.
+_PROBLEMS = {
+    "colon": (
+        _("a colon is not expected here"),
+        _('check the indentation, brackets and quotes above, or put a text with ": " in quotes'),
+    ),
+    "no_colon": (_("a key without a colon"), _('write "key: value", with a space after the colon')),
+    "open_brace": (
+        _("a mapping in braces is not closed or a comma is missing"),
+        _("separate entries by commas and close with }}"),
+    ),
+    "open_bracket": (
+        _("a list in brackets is not closed or a comma is missing"),
+        _("separate entries by commas and close with ]"),
+    ),
+    "beginning": (_('the character "{sign}" cannot begin a value'), _("put the value in quotes")),
+    "open_quote": (_("a quoted text is not closed"), _("add the closing quote")),
+    "indentation": (
+        _("the indentation does not fit the lines above"),
+        _("indent entries of one level by the same number of spaces"),
+    ),
+    "indentation_or_bracket": (
+        _(
+            "the indentation does not fit the lines above, or a bracket is closed that was not opened",
+        ),
+        _("indent entries of one level by the same number of spaces, and check the brackets"),
+    ),
+    "no_item": (
+        _("an entry without a dash stands in a list"),
+        _('begin every item of the list with "- ", or none, and check the indentation'),
+    ),
+    "item": (
+        _("an item of a list cannot begin in the middle of a line"),
+        _(
+            "write the list as [A, B] or each item on a line of its own, and a minus without a "
+            "space behind it",
+        ),
+    ),
+    "apart": (
+        _(
+            "this does not belong to what is above: a bracket too many, or an indentation that does not fit",
+        ),
+        _("check brackets and indentation"),
+    ),
+    "no_value": (_("a value is missing here"), _("write the value")),
+    "block": (
+        _("a value that begins with > or | is the text of the lines below it"),
+        _(
+            "put a text that begins so in quotes; a bound is written at least 30 deg or at most 60 kN",
+        ),
+    ),
+    "half_character": (_("half of an escaped character"), _("write the character itself")),
+    "some_control": (_("a control character"), _("remove it: a model is plain text")),
+    "escape": (_("an unknown escape in a quoted text"), _("write \\\\ for a backslash")),
+    "unknown_tag": (_("an unknown tag"), _("remove the tag (the word with !)")),
+    "given_twice": (_("given twice"), _("remove one")),
+    "blank_after": (
+        _('the blank after the colon of "{key_}" is no space ({character})'),
+        _("write a space there"),
+    ),
+    "no_space": (_('there is no space after the colon of "{key_}"'), _("write {key_}: {rest}")),
+    "no_space_item": (_("there is no space after the dash of a list's item"), _("write - {rest}")),
+    "equals_sign": (_('an equals sign stands after the key "{key_}"'), _("write {key_}: {rest}")),
+    "odd_quote": (_("the quotation mark {sign} is none of YAML"), _('write "…" in its place, or none')),
+    "comment": (
+        _('a line cannot begin with "{sign}"'),
+        _("begin a comment with #, or put the value in quotes"),
+    ),
+}
 #: Complaints whose cause stands where that began which cannot be read.
 _AT_THE_BEGINNING = ("no_colon", "open_quote", "beginning")
 #: Slips by which a line is no key with its value, and what the line looks like; groups are what is to be written.
@@ -74,11 +142,9 @@ def explain(error: Any, text: str) -> Remark:
         _(" (it began in line {line})", line=began[0] + 1) if began is not None and began[0] != line else ""
     )
     if key is not None:
-        sign = text.split("\n")[line][column : column + 1]
-        told = _(
-            "not readable as YAML: {message}{since}", message=Sentence(f"yaml.{key}", sign=sign), since=since
-        )
-        return Remark(line, column, told, Sentence(f"yaml.{key}_do"), "syntax")
+        sign, (message, remedy) = text.split("\n")[line][column : column + 1], _PROBLEMS[key]
+        told = _("not readable as YAML: {message}{since}", message=message.format(sign=sign), since=since)
+        return Remark(line, column, told, remedy.format(), "syntax")
     context = str(getattr(error, "context", None) or "")
     where = f" {context}" if context else ""
     told = _("not readable as YAML{where}: {said}{since}", where=where, said=said, since=since)
@@ -96,8 +162,7 @@ def _slip(text: str, began: int, line: int) -> Remark | None:
             if found := re.match(pattern, shown):
                 values = found.groupdict()
                 character = f"U+{ord(values.get('sign', ' ')[0]):04X}"
-                keys = (key, f"{key}_do")
-                told, remedy = (Sentence(f"yaml.{each}", character=character, **values) for each in keys)
+                told, remedy = (each.format(character=character, **values) for each in _PROBLEMS[key])
                 return Remark(number, len(shown) - len(shown.lstrip()), told, remedy, "syntax")
     return None
 
@@ -126,14 +191,15 @@ _BLANK = re.compile(r"^ *([\xa0\u2000-\u200b\u202f\u205f\u3000\ufeff])(?=\s*(?:-
 _TAB = re.compile(r"^ *(\t)(?=[ \t]*\S)", re.M)
 
 
-def _remarks(found: Iterable[re.Match[str]], text: str, key: str, code: str) -> list[Remark]:
-    """The remark ``yaml.KEY`` for the first places of a text."""
+def _remarks(
+    found: Iterable[re.Match[str]], text: str, message: Message, remedy: Message, code: str
+) -> list[Remark]:
+    """The remark for the first places of a text."""
     remarks = []
     for each in islice(found, _MOST):
         start = text.rfind("\n", 0, each.start(1)) + 1
         line, values = text.count("\n", 0, start), {"sign": each[1], "character": f"U+{ord(each[1][0]):04X}"}
-        told, remedy = Sentence(f"yaml.{key}", **values), Sentence(f"yaml.{key}_do")
-        remarks.append(Remark(line, each.start(1) - start, told, remedy, code))
+        remarks.append(Remark(line, each.start(1) - start, message.format(**values), remedy, code))
     return remarks
 
 
@@ -141,15 +207,39 @@ def accident_remarks(text: str) -> list[Remark]:
     """Remarks about what no text should hold, whether it can be read or not: marks of an unfinished merge, blanks in
     the indentation that are no spaces."""
     if "<<<<<<<" in text or ">>>>>>>" in text:
-        conflicts = _remarks(_CONFLICT.finditer(text), text, "conflict", "conflict")
+        conflicts = _remarks(
+            _CONFLICT.finditer(text),
+            text,
+            _('the mark "{sign}" of an unfinished merge of two versions'),
+            _(
+                "keep one of the two versions, and remove the other and the lines <<<<<<<, =======, >>>>>>>",
+            ),
+            "conflict",
+        )
         if conflicts:
             return conflicts
-    return [] if text.isascii() else _remarks(_BLANK.finditer(text), text, "blank", "blank")
+    return (
+        []
+        if text.isascii()
+        else _remarks(
+            _BLANK.finditer(text),
+            text,
+            _("a blank in the indentation that is no space ({character})"),
+            _("indent with spaces"),
+            "blank",
+        )
+    )
 
 
 def tab_remarks(text: str) -> list[Remark]:
     """A remark for each line that is indented with a tab, at most ten."""
-    return _remarks(_TAB.finditer(text), text, "tab", "tab")
+    return _remarks(
+        _TAB.finditer(text),
+        text,
+        _("a tab in the indentation"),
+        pgettext("yaml", "indent with spaces"),
+        "tab",
+    )
 
 
 #: Full-width punctuation with what YAML writes for it, in a key, and anywhere in braces and brackets.

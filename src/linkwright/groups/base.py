@@ -18,6 +18,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import Vec
 from linkwright.joints.pose import Pose, Rotor
 from linkwright.registry import Registry
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.elements.model import Sizes
@@ -104,4 +105,6 @@ class WholeGroup(Protocol):
         ...
 
 
-DYADS: Registry[type[Dyad]] = Registry("assur_group", "linkwright.groups", entry_points="linkwright.groups")
+DYADS: Registry[type[Dyad]] = Registry(
+    _("Assur group"), "linkwright.groups", entry_points="linkwright.groups"
+)

@@ -20,8 +20,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import Vec
 from linkwright.joints.ends import Ends, Hung
 from linkwright.registry import Registry
-from linkwright.words import Message, _, has
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
@@ -36,6 +35,20 @@ if TYPE_CHECKING:
 
 #: The size of a joint's force, from that force.
 Size = Callable[[Scalar], Scalar]
+
+
+#: Kinds of joints as they are read.
+PAIRS = {
+    "revolute": _("revolute"),
+    "prismatic": _("prismatic"),
+    "weld": _("weld"),
+    "gear": _("gear"),
+    "belt": _("belt"),
+    "chain": _("chain"),
+    "rack": _("rack and pinion"),
+    "rolling": _("rolling"),
+    "cam": pgettext("nouns", "cam"),
+}
 
 
 @dataclass(frozen=True)
@@ -288,8 +301,7 @@ class Joint(ABC):
     @classmethod
     def word(cls) -> Message | str:
         """The kind as it is read; one of another package by its own word."""
-        key = f"nouns.pair_{cls.kind}"
-        return Sentence(key) if has(key) else cls.kind
+        return PAIRS.get(cls.kind, cls.kind)
 
     @classmethod
     def lacks(cls, what: str) -> LackingError:
@@ -317,7 +329,7 @@ class LackingError(LinkwrightError):
 
 
 JOINTS: Registry[type[Joint]] = Registry(
-    "joint_kind", "linkwright.joints", entry_points="linkwright.joints", attribute="kind"
+    _("joint kind"), "linkwright.joints", entry_points="linkwright.joints", attribute="kind"
 )
 
 
@@ -345,15 +357,16 @@ class JointName(Field):
 
     def read(self, reader: Reader, node: Node, place: Where, given: Mapping[str, Any]) -> str | None:
         name = reader.text(node, place)
-        if name is None or not reader.known(node, place, "joint", name, list(reader.names.joints)):
+        if name is None or not reader.known(node, place, _("joint"), name, list(reader.names.joints)):
             return None
         kind = reader.names.joints[name]
         if JOINTS[kind].coordinate not in self.coordinates:
             reader.finding(
                 node,
                 place,
-                "joint_is",
+                _('the joint "{name}" is {kind}'),
                 "reference",
+                _("name a joint that is {kinds}"),
                 name=name,
                 kind=JOINTS[kind].word(),
                 kinds=tuple(JOINTS[each].word() for each in self.kinds),

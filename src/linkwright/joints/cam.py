@@ -30,7 +30,6 @@ from linkwright.joints.cam_geometry import Geometry
 from linkwright.joints.ends import Ends
 from linkwright.laws.program_fields import ProgramField
 from linkwright.words import _
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
@@ -147,19 +146,34 @@ class CamJoint(HigherPair):
     def read(cls, entry: Entry) -> Joint | None:
         from linkwright.laws.traced import LiftCurve
 
-        def say(key: str, word: str, code: str = "reference") -> None:
-            entry.say(key, Sentence(f"joints.{word}"), Sentence(f"joints.{word}_remedy"), code)
-
         values, name = entry.values, entry.name
         program, angles, lifts = values.get("program"), values.get("angles"), values.get("lifts")
         if values["cam"] == values["follower"]:
-            say("follower", "cam_alone")
+            entry.say("follower", _("a cam cannot be its own follower"), _("give two links"), "reference")
         elif (program is None) == (angles is None):
-            say("program", "cam_program", "missing-key")
+            entry.say(
+                "program",
+                _("the lift of the cam is not given, or given twice"),
+                _("give program: or angles: with lifts:, one of them"),
+                "missing-key",
+            )
         elif program is None and not _is_table(angles, lifts):
-            say("angles", "cam_table", "range")
+            entry.say(
+                "angles",
+                _("the table of the lift is none"),
+                _(
+                    "give as many lifts as angles, eight or more, the angles increasing from 0 to below "
+                    "360 deg",
+                ),
+                "range",
+            )
         elif (values["touch"] == "roller") != (values.get("roller_radius") is not None):
-            say("roller_radius", "cam_roller", "missing-key")
+            entry.say(
+                "roller_radius",
+                _("a roller and its radius go together"),
+                _("write touch: roller and roller_radius: 10 mm, or neither"),
+                "missing-key",
+            )
         else:
             given: dict[str, Any] = {
                 key: values[key] for key in ("cam", "follower", "at", "touch", "base_radius")
@@ -182,9 +196,25 @@ class CamJoint(HigherPair):
                     found = replace(self, carrier=carrier, centre=name, holder=holder)
                     held = found._check(mechanism, report)
                     return replace(found, half_turns=round((held.own - held.along) / math.pi))
-        word = "cam_pivot" if self.side else "cam_guide"
+        problem, remedy = (
+            (
+                _(
+                    "the oscillating follower {follower!r} has no pin on a link on which the cam {cam!r} "
+                    "turns",
+                ),
+                _("give that link a point that {follower!r} has as well: its pivot"),
+            )
+            if self.side
+            else (
+                _("the follower {follower!r} has no guide on a link on which the cam {cam!r} turns"),
+                _(
+                    "add a prismatic joint between them; for an oscillating follower say on which side "
+                    "its arm lies: side: left",
+                ),
+            )
+        )
         values = {"follower": self.follower, "cam": self.cam}
-        report("follower", Sentence(f"joints.{word}", **values), Sentence(f"joints.{word}_remedy", **values))
+        report("follower", problem.format(**values), remedy.format(**values))
         return self
 
     def _held(self, mechanism: Model, carrier: str) -> str:
@@ -199,12 +229,19 @@ class CamJoint(HigherPair):
     def _check(self, mechanism: Model, report: Report) -> Geometry:
         found = Geometry.of(self, mechanism)
         if not found.reach > 0:
-            word = "cam_reach_remedy" if found.most < math.inf else "cam_reach_above"
+            remedy = (
+                _(
+                    "take a base_radius above {least} and below {most}, or change the distance of "
+                    "follower and cam",
+                )
+                if found.most < math.inf
+                else _("take a base_radius above {least}, or bring follower and cam nearer")
+            )
             least, most = (shown(each, "length", 5) for each in (found.least, found.most))
             report(
                 "base_radius",
                 _("the follower does not reach the base circle"),
-                Sentence(f"joints.{word}", least=least, most=most),
+                remedy.format(least=least, most=most),
             )
         return found
 

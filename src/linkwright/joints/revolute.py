@@ -12,6 +12,7 @@ from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower import TurningJoint
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import TreeJoint
@@ -39,7 +40,7 @@ class RevoluteJoint(TurningJoint):
     def read(cls, entry: Entry) -> Joint | None:
         pins = entry.reader.names.pins
         if entry.name not in pins:
-            entry.reader.known(entry.node, entry.place, "pin", entry.name, list(pins))
+            entry.reader.known(entry.node, entry.place, _("pin"), entry.name, list(pins))
             return None
         return cls(entry.name, pins[entry.name], **entry.values)
 

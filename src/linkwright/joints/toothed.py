@@ -26,7 +26,6 @@ from linkwright.joints.base import Entry, HigherPair, Joint
 from linkwright.joints.ends import Ends
 from linkwright.units import number
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.fields.reading import Place as Where
@@ -279,7 +278,7 @@ class _Centres:
                     else None
                 )
                 self._say(
-                    Sentence(f"joints.{self._without(kind)}", wheel=wheel),
+                    self._without(kind).format(wheel=wheel),
                     way
                     or _(
                         'give "{wheel}" a point that a carrier (the frame, an arm) has as well: its centre',
@@ -333,8 +332,12 @@ class _Centres:
         return ways[0]
 
     @staticmethod
-    def _without(kind: str) -> str:
-        return "does_not_turn" if kind in ("belt", "chain") else "without_pin"
+    def _without(kind: str) -> Message:
+        return (
+            _('the link "{wheel}" does not turn about a pin, so no belt or chain can run around it')
+            if kind in ("belt", "chain")
+            else _('the wheel "{wheel}" has no pin about which it turns')
+        )
 
     def _say(self, problem: Message, remedy: Message) -> None:
         self.entry.say("links", problem, remedy)

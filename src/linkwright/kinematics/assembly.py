@@ -143,7 +143,7 @@ def _no_such_joint(
                 drawn=drawn,
             )
     inner = [c.joint for group, _unused in groups.values() for c in group.inner_joints]
-    hint = offered(joint, inner, "motion.inner_joints")
+    hint = offered(joint, inner, _("inner joints are: {names}"))
     return _(
         "assembly.{joint}: this is not the inner joint of a group with two assembly modes; {hint}",
         code="motion.not_inner",

@@ -28,8 +28,7 @@ from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
-from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _, pgettext
 
 #: Step of the search: of a turning driver in rad, of a sliding one as share of the mechanism's size; how far a
 #: sliding one is followed, in sizes.
@@ -46,6 +45,13 @@ CONTINUED = 1e-9
 CHANGED, TOUCHED = 1e-8, 10.0
 #: How far before an end Newton's method for it begins, rad or share of the size.
 AHEAD = 1e-5
+
+
+_WAYS = {
+    "low": _("from {low}"),
+    "high": _("to {high}"),
+    "low_high": pgettext("range", "from {low} to {high}"),
+}
 
 
 @dataclass(frozen=True)
@@ -92,16 +98,23 @@ class InputRange:
 
     def explain(self) -> str:
         """The range in a sentence."""
-        kind = "turn" if self.rotary else "slide"
         if self.full:
-            return Sentence(f"range.full_{kind}", link=self.link)
+            full = (
+                _("the {link} can turn fully")
+                if self.rotary
+                else _("the {link} can slide without finding an end")
+            )
+            return full.format(link=self.link)
         ends = {
             side: reported(end.value, "angle" if self.rotary else "length", 7)
             for side, end in (("low", self.low), ("high", self.high))
             if end is not None
         }
-        way = Sentence(f"range.{'_'.join(ends)}", **ends)
-        return Sentence(f"range.{kind}", link=self.link, way=way, ends=self._ends())
+        way = _WAYS["_".join(ends)].format(**ends)
+        moves = (
+            _("the {link} can turn {way}; {ends}") if self.rotary else _("the {link} can slide {way}; {ends}")
+        )
+        return moves.format(link=self.link, way=way, ends=self._ends())
 
     def _ends(self) -> str | tuple[str, ...]:
         low, high = self.low, self.high
@@ -136,7 +149,7 @@ def input_range(mechanism: Mechanism, driver: str | None = None) -> InputRange:
     if name is None or name not in mechanism.drivers:
         if not driver:
             raise RequestError(_("{name!r} has no driver", code="range.no_driver", name=mechanism.name))
-        raise RequestError(no_such("driver", driver, mechanism.drivers))
+        raise RequestError(no_such(_("driver"), driver, mechanism.drivers))
     search = _Search(mechanism, name)
     high = search.end(1.0)
     low = search.end(-1.0) if high is not None or not search.rotary else None

@@ -14,7 +14,7 @@ from linkwright.loads.signals import place_named
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.named_output import named_outputs
 from linkwright.registry import no_such, offered
-from linkwright.words import _
+from linkwright.words import Message, _
 
 #: Kinds of outputs that are phrases, ``transmission_angle B``, by their first words.
 PHRASES = {
@@ -44,7 +44,7 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
     if "." in name:
         link, point = name.split(".", 1)
         if link != "frame" and link not in mechanism.links:
-            raise _unknown("link", link, ["frame", *mechanism.links])
+            raise _unknown(_("link"), link, ["frame", *mechanism.links])
         points = mechanism.link(link).points
         if point not in points:
             hint = offered(point, points)
@@ -62,7 +62,7 @@ def find_point(mechanism: Mechanism, name: str) -> tuple[str, str]:
     found = [link for link in owners(mechanism, name) if link not in welded]
     if not found:
         everything = [p for link in [mechanism.frame, *mechanism.links.values()] for p in link.points]
-        raise _unknown("point", name, everything)
+        raise _unknown(_("point"), name, everything)
     if len(found) > 1 and not mechanism.pin_links(name):
         choices = tuple(f"{link}.{name}" for link in found)
         raise RequestError(
@@ -99,7 +99,7 @@ def program_names(mechanism: Mechanism, output: Output) -> tuple[tuple[str, ...]
     return row_names("direction", output.owner) if output.kind == "angle" else (own,), (rate, second)
 
 
-def _unknown(noun: str, name: str, known: list[str]) -> RequestError:
+def _unknown(noun: Message, name: str, known: list[str]) -> RequestError:
     return RequestError(no_such(noun, name, known))
 
 
@@ -215,7 +215,7 @@ def no_output(mechanism: Mechanism, text: str, known: Iterable[str] = ()) -> NoR
     """Raises RequestError with those of the known names that come nearest to one that means nothing; of all outputs
     where none are given."""
     alone = () if "." in text else (*mechanism.links, *mechanism.guides)
-    hint = offered(text, known or [*output_names(mechanism), *alone], "study.such_as", most=6)
+    hint = offered(text, known or [*output_names(mechanism), *alone], _("such as {names}"), most=6)
     raise RequestError(
         _(
             "there is no output {name!r} in {mechanism!r}; {hint}",

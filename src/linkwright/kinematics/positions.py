@@ -20,9 +20,8 @@ from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
-from linkwright.units import LARGEST, SI_UNITS
+from linkwright.units import LARGEST, NOUNS, SI_UNITS
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
 
 #: Dimensions of a coordinate and its rates, by whether the driver turns.
 _RATES = {
@@ -193,7 +192,7 @@ def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
                     "its law or the cycle",
                     code="motion.law_beyond",
                     name=driver.name,
-                    kind=Sentence(f"nouns.a_{kind}"),
+                    kind=NOUNS[kind],
                     value=shown,
                     time=at,
                 )
@@ -287,5 +286,5 @@ def coordinate_text(name: str, value: float, rotary: bool) -> Message:
 
 def _driver(mechanism: Mechanism, name: str) -> Driver:
     if name not in mechanism.drivers:
-        raise CycleError(no_such("driver", name, mechanism.drivers))
+        raise CycleError(no_such(_("driver"), name, mechanism.drivers))
     return mechanism.drivers[name]

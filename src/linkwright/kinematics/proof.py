@@ -33,7 +33,6 @@ from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
 from linkwright.kinematics.groups import upstream
 from linkwright.kinematics.motion import Motion
 from linkwright.words import _
-from linkwright.words.sentence import Sentence, in_language
 
 #: ``turn`` of a link, ``slide`` of a guide, ``drive`` of a driver.
 Key = tuple[str, str]
@@ -70,7 +69,15 @@ class Proof:
             "first": first,
             "margin": f"{self.margin.min(initial=1.0):.2g}",
         }
-        return in_language(Sentence(f"proof.{'all' if count == total else 'some'}", **values), language)
+        told = (
+            _("the assembly is proved to be kept in all {total} steps (smallest margin {margin})")
+            if count == total
+            else _(
+                "the assembly is proved to be kept in {count} of {total} steps; the first one "
+                "without proof is step {first}",
+            )
+        )
+        return told.format(**values).translate(language)
 
 
 def prove(motion: Motion) -> Proof:

@@ -22,7 +22,6 @@ from linkwright.kinematics.constraint_equations import (
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.mobility import counts, grubler
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
 
 #: Singular values below this share of the largest one count as zero: at solved positions, and in a drawing.
 ZERO = 1e-9
@@ -247,6 +246,35 @@ def _moves(system: ConstraintEquations, x: Floats, rank: int) -> bool:
 
 
 # sentences ----------------------------------------------------------------------------------------
+#: Where the rank was taken: at the start, in the drawing, where the joints close.
+_CONFIRMED = {
+    "": _("Grübler's mobility {count} is confirmed by the rank of the Jacobian", code="rank.confirmed"),
+    "_drawn": _(
+        "Grübler's mobility {count} is confirmed by the rank of the Jacobian in the drawing",
+        code="rank.confirmed_drawn",
+    ),
+}
+_DIFFERS = {
+    "": _(
+        "Grübler gives {count}, but the rank of the Jacobian gives {mobility}: {reason}", code="rank.differs"
+    ),
+    "_drawn": _(
+        "Grübler gives {count}, but the rank of the Jacobian in the drawing gives {mobility}: {reason}",
+        code="rank.differs_drawn",
+    ),
+    "_assembled": _(
+        "Grübler gives {count}, but the rank of the Jacobian where the joints close gives "
+        "{mobility}: {reason}",
+        code="rank.differs_assembled",
+    ),
+}
+_HELD = {
+    "place": _("place at {joint}"),
+    "rotation": _("rotation at {joint}"),
+    "rolling": _("rolling at {joint}"),
+}
+
+
 def report_of(
     mechanism: Mechanism,
     rank: int,
@@ -263,7 +291,7 @@ def report_of(
     equations, redundant = freedoms - count, _said(implied)
     make = partial(RankReport, rank, freedoms, equations, count, redundant, links, special)
     if mobility == count:
-        return make(Sentence(f"rank.confirmed{where}", count=count))
+        return make(_CONFIRMED[where].format(count=count))
     wheels = bool(guides) and all(mechanism.joints[name].higher for name in guides)
     if joints:
         reason = (
@@ -280,7 +308,7 @@ def report_of(
         ).format(joints=_named(joints))
     else:
         reason = _reason(redundant, links, special, guides, wheels)
-    return make(Sentence(f"rank.differs{where}", count=count, mobility=mobility, reason=reason))
+    return make(_DIFFERS[where].format(count=count, mobility=mobility, reason=reason))
 
 
 def _reason(
@@ -330,7 +358,7 @@ def _named(names: Sequence[str]) -> tuple[Message, ...]:
 
 
 def _said(rows: Sequence[Row]) -> tuple[Message, ...]:
-    return tuple(Sentence(f"rank.{row.holds}", joint=row.joint) for row in rows)
+    return tuple(_HELD[row.holds].format(joint=row.joint) for row in rows)
 
 
 def _gaping(

@@ -21,7 +21,6 @@ from linkwright.kinematics.whole_turns import MOST
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import number
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import Group
@@ -48,6 +47,55 @@ def explain(motion: Motion) -> list[Outcome]:
     return found
 
 
+_PASSAGES = {
+    "change": _(
+        "change point of group ({links}) at {where}: the motion goes on smoothly", code="cycle.change"
+    ),
+    "meeting": _(
+        "the outer pins of group ({links}) meet at {where}, where it could turn freely: the "
+        "motion goes on smoothly",
+        code="cycle.meeting",
+    ),
+    "end": _(
+        "change point of group ({links}) at {where}: the groups without closed form that "
+        "hang on it cannot be followed through it, so the motion ends there",
+        code="cycle.end",
+    ),
+    "pole": _(
+        "the guides of group ({links}) become parallel at {where}: the mechanism cannot pass there",
+        code="cycle.pole",
+    ),
+    "gap": _(
+        "group ({links}) cannot be assembled in a short stretch at {where}, between two "
+        "positions: the mechanism cannot pass there",
+        code="cycle.gap",
+    ),
+}
+_OUTCOMES = {
+    "lost": _(
+        "group {signature} ({links}) cannot be followed to this position: it is out of reach "
+        "or beyond a singular position",
+        code="outcome.lost",
+    ),
+    "stopped": _(
+        "group {signature} ({links}) cannot be followed to this position: on the way it "
+        "becomes singular at {where}",
+        code="outcome.stopped",
+    ),
+    "singular": _(
+        "group {signature} ({links}) is at a singular position (dead point or change point), "
+        "where its motion is not determined by the driver",
+        code="outcome.singular",
+    ),
+    "coinciding": _(
+        "the two outer pins of group {signature} ({links}) are at one place, so that the "
+        "group can turn freely about them",
+        code="outcome.coinciding",
+    ),
+    "apart": _("group {signature} ({links}) cannot be assembled: {reason}", code="outcome.apart"),
+}
+
+
 def turn_notes(motion: Motion) -> tuple[Message, ...]:
     """How many turns of the drivers the cycle of a mechanism with wheels takes, if not one, or that it never ends."""
     positions, mechanism = motion.positions, motion.mechanism
@@ -57,8 +105,15 @@ def turn_notes(motion: Motion) -> tuple[Message, ...]:
         turns, driver = cycle_turns(mechanism, positions.period)
         if turns == 1:
             return ()
-        key = "cycle.turns" if turns > together(mechanism) else "cycle.turns_of_drivers"
-        return (Sentence(key, turns=turns, driver=driver),)
+        said = (
+            _("the cycle is {turns} turns of {driver!r}: only then are all wheels back", code="cycle.turns")
+            if turns > together(mechanism)
+            else _(
+                "the cycle is {turns} turns of {driver!r}: only then are all drivers back",
+                code="cycle.turns_of_drivers",
+            )
+        )
+        return (said.format(turns=turns, driver=driver),)
     if (count := together(mechanism)) > FEW:
         return (_apart(mechanism, count),)
     return (
@@ -128,7 +183,7 @@ def passage_notes(passing: Sequence[Passage], positions: Positions) -> tuple[Mes
 def _passage_note(p: Passage, positions: Positions) -> Message:
     name = next(iter(positions.coordinates))
     where = f"{name} = {reported(float(p.at), 'angle' if positions.rotary[name] else 'length')}"
-    return Sentence(f"cycle.{p.kind}", links=tuple(p.group.split("+")), where=where)
+    return _PASSAGES[p.kind].format(links=tuple(p.group.split("+")), where=where)
 
 
 class _Facts:
@@ -205,7 +260,7 @@ def way_stopped(motion: Motion, group: Group, stop: Stop) -> Message:
 
 def _of(key: str, group: Group, **values: object) -> Message:
     """What is to be said of a group."""
-    return Sentence(f"outcome.{key}", signature=group.signature, links=group.links, **values)
+    return _OUTCOMES[key].format(signature=group.signature, links=group.links, **values)
 
 
 def input_at(motion: Motion, index: int) -> str:

@@ -25,6 +25,4 @@ def analysed(mechanism: Mechanism) -> Structure:
             report = rank_from_dimensions(mechanism)
         if report is None:
             raise
-        raise StructureError(
-            _("{cause}. {sentence}", code="rank.besides", cause=error, sentence=report)
-        ) from None
+        raise StructureError(_("{cause}. {sentence}", cause=error, sentence=report)) from None

@@ -141,7 +141,7 @@ class Forces(Plotted):
         """Torque (N·m) or force (N) that a driver must supply, (n,), positive along its coordinate."""
         drivers = self.motion.design.base.drivers
         if name not in drivers:
-            raise RequestError(no_such("driver", name, drivers))
+            raise RequestError(no_such(_("driver"), name, drivers))
         return self.rows.row(row_name("effort", name), self.evaluate)
 
     @property
@@ -199,7 +199,7 @@ class Forces(Plotted):
     def load(self, name: str) -> LoadForce:
         """What one of the file's loads did."""
         if name not in self.mechanism.loads:
-            raise RequestError(no_such("load", name, self.mechanism.loads))
+            raise RequestError(no_such(_("load"), name, self.mechanism.loads))
         names = (*row_names("load", name), row_name("load_moment", name), *row_names("load_place", name))
         fx, fy, moment, px, py = self.fetch(names)
         return LoadForce(name, locked(np.stack([fx, fy], axis=1)), moment, locked(np.stack([px, py], axis=1)))
@@ -227,7 +227,7 @@ class Forces(Plotted):
     def _link_at(self, joint: str, on: str | None) -> str:
         joints = self.motion.design.base.joints
         if joint not in joints:
-            raise RequestError(no_such("joint", joint, joints))
+            raise RequestError(no_such(_("joint"), joint, joints))
         links = joints[joint].joined
         if on is None:
             others = [link for link in links if link != "frame"]

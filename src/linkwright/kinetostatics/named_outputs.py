@@ -328,7 +328,7 @@ class Named:
         inner = {g.name: g for g in self.motion.structure.groups if g.cuts}
         inner |= {c.joint: g for g in self.motion.structure.groups for c in g.inner_joints}
         if joint not in inner:
-            hint = offered(joint, inner, "study.inner_joints")
+            hint = offered(joint, inner, _("inner joints are: {names}"))
             raise RequestError(
                 _(
                     "{name!r}: {joint!r} is not the inner joint of a group; {hint}",

@@ -26,8 +26,8 @@ from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.loads.over_cycle import evaluate
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import format as spelled
-from linkwright.words import Message, _, has
-from linkwright.words.sentence import Sentence, together
+from linkwright.words import Message, _
+from linkwright.words.sentence import together
 
 #: Iterations of the friction, and the change, as share of what the largest reaction causes, at which these end.
 FRICTION_STEPS = 400
@@ -84,6 +84,26 @@ def run_forces(
     return forces
 
 
+_LOST = {
+    "": _(
+        "the pair {name} ({kind}) can only push, but would have to pull {places}, with up to "
+        "{most} at {where}; press its links together with a spring or a load",
+        code="forces.contact_lost",
+    ),
+    "cam": _(
+        "the cam {name} cannot hold its follower {places}: it would have to pull, with up to "
+        "{most} at {where}; press it on with a spring or a load, or run it in a groove",
+        code="forces.contact_lost_cam",
+    ),
+    "belt": _(
+        "the belt {name} is too loose {places}: it transmits more than twice its pretension, "
+        "so that its slack strand would have to push; raise the pretension, or leave it out: "
+        "then the slack strand carries nothing",
+        code="forces.contact_lost_belt",
+    ),
+}
+
+
 def _contacts_lost(forces: Forces) -> Iterable[Message]:
     """Where pairs that can only push would have to pull, and belts to push."""
     motion = forces.motion
@@ -102,9 +122,7 @@ def _contacts_lost(forces: Forces) -> Iterable[Message]:
         )
         sizes = np.linalg.norm(forces.reaction(name, on=joint.joined[-1]), axis=1)[at]
         most, where = float(sizes.max()), float(motion.input[at[first_largest(sizes)]])
-        own = f"forces.contact_lost_{joint.kind}"
-        yield Sentence(
-            own if has(own) else "forces.contact_lost",
+        yield _LOST.get(joint.kind, _LOST[""]).format(
             name=name,
             kind=joint.word(),
             places=together(places),

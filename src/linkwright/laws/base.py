@@ -127,7 +127,7 @@ class MeetingLaw(MotionLaw):
 
 
 MOTION_LAWS: Registry[type[MotionLaw]] = Registry(
-    "motion_law", "linkwright.laws", entry_points="linkwright.laws", attribute="key"
+    _("motion law"), "linkwright.laws", entry_points="linkwright.laws", attribute="key"
 )
 
 #: Names of the laws in words.

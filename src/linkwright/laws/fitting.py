@@ -28,7 +28,7 @@ def motion_law(
     does not exist and values that do not fit.
     """
     if name not in MOTION_LAWS:
-        raise UnknownName(no_such("motion_law", name, sorted(MOTION_LAWS)))
+        raise UnknownName(no_such(_("motion law"), name, sorted(MOTION_LAWS)))
     kind = MOTION_LAWS[name]
     unknown = sorted(set(values) - set(kind.fields))
     missing = sorted(key for key, each in kind.fields.items() if each.required and key not in values)

@@ -13,7 +13,6 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.words import _
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.laws.base import MotionLaw
@@ -212,8 +211,12 @@ class ProgramField(Field):
             return None
         way = ways[0]
         if (way == "dwell") == (values.get("over") is not None):
-            key = "laws.dwell_over" if way == "dwell" else "laws.no_over"
-            reader.error(node, place, Sentence(key), Sentence(f"{key}_remedy"), "missing-key")
+            problem, remedy = (
+                (_("a dwell says itself how long it is"), _("write {{dwell: 90 deg}} without over"))
+                if way == "dwell"
+                else (_("the segment does not say how long it takes"), _("add over: 90 deg"))
+            )
+            reader.error(node, place, problem, remedy, "missing-key")
             return None
         if way == "dwell":
             return Segment(values["dwell"])

@@ -16,13 +16,19 @@ from linkwright.laws.pieces import Pieces
 from linkwright.laws.program import TURN, Program
 from linkwright.laws.spline_space import DEGREE, SplineSpace
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
 
 ORDERS = {"velocity": 1, "acceleration": 2, "jerk": 3}
 #: Places of a window between two knots at which it is kept, and rounds in which what lies between is mended.
 _LOOKS, _ROUNDS = 6, 4
 #: What a limit is worth, as a share of the aim, for it to be called binding.
 _WORTH = 1e-7
+
+
+_WORDS = {
+    "velocity": _("velocity"),
+    "acceleration": _("acceleration"),
+    "jerk": _("jerk"),
+}
 
 
 @dataclass(frozen=True)
@@ -205,7 +211,7 @@ class FoundProgram(Program):
                 np.concatenate([bound, -bound]),
                 0.0,
                 limit,
-                _("limit of the {what}", what=Sentence(f"laws.{name}")),
+                _("limit of the {what}", what=_WORDS[name]),
             )
         for k, each in enumerate(self.windows):
             if each.least == each.most:

@@ -53,7 +53,7 @@ from linkwright.loads.site import Mechanism, Site, Wrench
 from linkwright.loads.sizes import OverCycle, Ramp
 from linkwright.registry import Registry
 from linkwright.words import _
-from linkwright.words.sentence import Sentence, together
+from linkwright.words.sentence import together
 from linkwright.words.synonyms import meaning
 
 if TYPE_CHECKING:
@@ -207,15 +207,17 @@ class Load:
 
 
 LOADS: Registry[type[Load]] = Registry(
-    "load_kind", "linkwright.loads", entry_points="linkwright.loads", attribute="kind"
+    _("load kind"), "linkwright.loads", entry_points="linkwright.loads", attribute="kind"
 )
 
 
 #: What some take for a kind of load, by its meaning, and the sentence that says where it stands.
 ELSEWHERE = {
-    "gravity": "loads.gravity_is_key",
-    "mass": "loads.gravity_is_key",
-    "friction": "loads.friction_is_key",
+    "gravity": _("gravity is a key of the model, beside loads: gravity: [0, -9.81 m/s²]"),
+    "mass": _("gravity is a key of the model, beside loads: gravity: [0, -9.81 m/s²]"),
+    "friction": _(
+        "friction is a key of pins and guides under joints: friction: 0.1, of a pin with pin_radius: 5 mm",
+    ),
 }
 
 
@@ -226,9 +228,9 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
     text = said.text if isinstance(said, ScalarNode) and said.text not in LOADS else ""
     for concept in meaning(text) & ELSEWHERE.keys() if text else ():
         problem = _('"{text}" is not known here', code="model.unknown_word", text=text)
-        reader.error(said, place.child("kind"), problem, Sentence(ELSEWHERE[concept]), "unknown-word")
+        reader.error(said, place.child("kind"), problem, ELSEWHERE[concept], "unknown-word")
         return None
-    read = reader.of_kind(node, place, LOADS, "loads.no_kind", "loads.write_kind")
+    read = reader.of_kind(node, place, LOADS, _("the load has no kind"), _("write kind: one of {kinds}"))
     if read is None:
         return None
     mapping, cls, found = read

@@ -14,8 +14,8 @@ from linkwright.formula.late_import import numpy as np
 from linkwright.loads.signals import Signals, column, input_dimension, named_column, place_named
 from linkwright.loads.strokes import NEAR, TURN, StrokePart
 from linkwright.units import LARGEST
-from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence, together
+from linkwright.words import Message, _, pgettext
+from linkwright.words.sentence import together
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
@@ -129,12 +129,27 @@ def interval_fault(start: float, end: float, signals: Signals) -> Message | None
     if not signals.rotary:
         return None
     if length < 0 and signals.heading == 0:
-        key = "loads.phase_to_and_fro"
+        problem = _(
+            "the phase goes from {start} down to {end}, but the input turns to and fro; write "
+            "the smaller angle first",
+            code="loads.phase_to_and_fro",
+        )
     elif length > TURN + NEAR or (length < -TURN - NEAR and signals.heading < 0):
-        key = "loads.phase_too_long"
+        problem = _(
+            "the phase from {start} to {end} is longer than one turn of the input; use a table "
+            "over the time instead",
+            code="loads.phase_too_long",
+        )
     else:
         return None
-    return Sentence(key, start=reported(start, "angle"), end=reported(end, "angle"))
+    return problem.format(start=reported(start, "angle"), end=reported(end, "angle"))
+
+
+_PARTS = {
+    "first": pgettext("loads", "first"),
+    "last": _("last"),
+    "free": _("free"),
+}
 
 
 def part_fault(output: Output, part: StrokePart, stroke: float) -> Message:
@@ -143,7 +158,7 @@ def part_fault(output: Output, part: StrokePart, stroke: float) -> Message:
         "too much of the stroke is named ({part}: {amounts}): the output '{output}' moves "
         "through {stroke}; give less",
         code="loads.part_too_long",
-        part=Sentence(f"loads.part_{part.word}"),
+        part=_PARTS[part.word],
         amounts=" + ".join(reported(each.way(stroke), output.dimension) for each in part.amounts),
         output=output,
         stroke=reported(stroke, output.dimension),

@@ -28,7 +28,7 @@ from linkwright.fields.references import OutputName
 from linkwright.loads.phases import InputPhase, MovingPhase, Phase, SwingPhase
 from linkwright.loads.sizes import Constant, Formula, Ramp, Table
 from linkwright.loads.strokes import Amount, PartWord, StrokePart
-from linkwright.words import _
+from linkwright.words import Message, _
 
 #: Keys of a phase that name a part of the stroke.
 PARTS: Mapping[PartWord, str] = {
@@ -149,16 +149,16 @@ class TableField(_Part):
         return given if value.interpolation == "linear" else {**given, "interpolation": value.interpolation}
 
 
-def _fault_of_period(table: Table) -> str | None:
+def _fault_of_period(table: Table) -> Message | None:
     """What keeps a table that is said to be periodic from being so."""
     if table.interpolation != "periodic":
         return None
     turns = (table.x[-1] - table.x[0]) / math.tau
     of_angle = table.over != "time" and table.across == "angle"
     if not of_angle or round(turns) < 1 or abs(turns - round(turns)) > 1e-6:
-        return "periodic_span"
+        return _("a periodic table goes over whole turns of an angle, and this one does not")
     close = abs(table.y[-1] - table.y[0]) <= 1e-9 * max(map(abs, table.y))
-    return None if close else "periodic_ends"
+    return None if close else _("a periodic table must end where it begins")
 
 
 @dataclass(frozen=True)
@@ -229,18 +229,34 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
     if "input" in values:
         start, end = values["input"]
         if start == end:
-            reader.finding(node, place, "phase_empty", "range")
+            reader.finding(
+                node, place, _("the phase begins where it ends"), "range", _("give two different values")
+            )
             return None
         return InputPhase(start, end, reader.input_dimension())
     if "moving" in values:
         return MovingPhase(values["moving"], values["direction"])
     if values["from"] == values["to"]:
-        reader.finding(node, place, "from_is_to", "range", end=values["from"])
+        reader.finding(
+            node,
+            place,
+            _("from and to are both {end}"),
+            "range",
+            _("go from max to min or from min to max"),
+            end=values["from"],
+        )
         return None
     parts = [values[word] for word in PARTS if values.get(word) is not None]
     if len(parts) > 1:
         words = tuple(part.word for part in parts)
-        reader.finding(node, place, "several_parts", "choice", words=words)
+        reader.finding(
+            node,
+            place,
+            _("several parts of the stroke are given: {words}"),
+            "choice",
+            _("keep one of them"),
+            words=words,
+        )
         return None
     return SwingPhase(values["of"], values["from"], values["to"], *parts)
 
@@ -278,7 +294,15 @@ class StrokePartField(Field):
         if 0 < found.value < whole or found.value == (0 if self.word == "free" else whole):
             return found
         example = "10 mm" if dimension == "length" else "5 deg"
-        reader.finding(node, place, "no_stroke_part", "range", text=text, example=example)
+        reader.finding(
+            node,
+            place,
+            _('"{text}" is no part of a stroke'),
+            "range",
+            _('give a share between 0 and 1, or a way such as "{example}"'),
+            text=text,
+            example=example,
+        )
         return None
 
     def shape(self) -> Schema:

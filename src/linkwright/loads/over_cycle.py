@@ -30,9 +30,7 @@ def evaluate(load: Load, signals: Signals) -> Floats:
     try:
         return magnitudes(load, signals)
     except LinkwrightError as error:
-        raise LinkwrightError(
-            _("loads.{name}: {cause}", code="loads.of_load", name=load.name, cause=error)
-        ) from None
+        raise LinkwrightError(_("loads.{name}: {cause}", name=load.name, cause=error)) from None
 
 
 def magnitudes(load: Load, signals: Signals) -> Floats:

@@ -14,8 +14,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.formula.late_import import numpy as np
 from linkwright.formula.trace import Mask, Scalar, floor, maximum, minimum, select
 from linkwright.loads.signals import BetweenLimits, Limit, Signals, Whole, input_dimension
-from linkwright.words import _
-from linkwright.words.sentence import Sentence
+from linkwright.words import _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
@@ -73,6 +72,12 @@ class Stretch:
         return (since >= -slack) & (since <= length + slack), np.clip(gained / self.rise, 0.0, 1.0)
 
 
+_LIMITS = {
+    "max": pgettext("loads", "max"),
+    "min": pgettext("loads", "min"),
+}
+
+
 def strokes(phase: BetweenLimits, signals: Signals) -> list[Stretch]:
     """The ways of a phase within the cycle. Raises LinkwrightError where it has none."""
     limits = signals.limits(phase.output)
@@ -94,12 +99,12 @@ def strokes(phase: BetweenLimits, signals: Signals) -> list[Stretch]:
     places = tuple(
         _(
             "{kind} at input {input}",
-            kind=Sentence(f"loads.{each.kind}"),
+            kind=_LIMITS[each.kind],
             input=reported(each.input, dimension),
         )
         for each in extreme
     )
-    ends = {name: Sentence(f"loads.{kind}") for name, kind in (("start", phase.start), ("end", phase.end))}
+    ends = {name: _LIMITS[kind] for name, kind in (("start", phase.start), ("end", phase.end))}
     raise LinkwrightError(
         _(
             "the output '{output}' does not go from its {start} to its {end} within the cycle "

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from linkwright.errors import RequestError
 from linkwright.registry import no_such
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
@@ -32,10 +33,10 @@ def reaction_pairs(mechanism: Mechanism) -> list[tuple[str, str]]:
 def chosen_pairs(mechanism: Mechanism, names: Sequence[str]) -> list[tuple[str, str]]:
     """The pairs of the joints that are named, else all; raises RequestError for a joint without any."""
     pairs = reaction_pairs(mechanism)
-    known = list(dict.fromkeys(joint for joint, _ in pairs))
+    known = list(dict.fromkeys(joint for joint, _unused in pairs))
     for name in names:
         if name not in known:
-            raise RequestError(no_such("joint", name, known))
+            raise RequestError(no_such(_("joint"), name, known))
     return [pair for pair in pairs if pair[0] in names] if names else pairs
 
 

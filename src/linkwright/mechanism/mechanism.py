@@ -273,7 +273,7 @@ class Mechanism(Frozen):
         if name == "frame":
             return self.frame
         if name not in self.links:
-            raise RequestError(no_such("link", name, ["frame", *self.links]))
+            raise RequestError(no_such(_("link"), name, ["frame", *self.links]))
         return self.links[name]
 
     @cached_property

@@ -304,5 +304,5 @@ def _unbounded(value: float, at: float, analysis: Analysis) -> tuple[Remark, ...
 
 
 METRICS: Registry[type[Metric]] = Registry(
-    "metric", "linkwright.metrics", entry_points="linkwright.metrics", attribute="name"
+    _("metric"), "linkwright.metrics", entry_points="linkwright.metrics", attribute="name"
 )

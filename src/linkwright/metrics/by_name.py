@@ -74,7 +74,7 @@ def _read(each: str | tuple[str, str]) -> list[Summary]:
         )
     output, kind = each
     if kind not in KINDS:
-        hint = offered(kind, KINDS, "names.one_of")
+        hint = offered(kind, KINDS, _("one of: {names}"))
         raise RequestError(
             _(
                 "{output!r}: there is no summary {kind!r}; {hint}",

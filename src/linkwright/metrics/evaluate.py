@@ -177,7 +177,7 @@ def _refusal(name: str, analysis: Analysis) -> str:
         )
     obstacle = METRICS[name]().obstacle(analysis)
     if obstacle is not None:
-        return _("{name}: {cause}", code="cli.about", name=name, cause=obstacle)
+        return _("{name}: {cause}", name=name, cause=obstacle)
     return _(
         '"{name}" does not apply to {title!r}: {meaning}',
         code="metrics.does_not_apply",

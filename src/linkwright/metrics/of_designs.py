@@ -279,7 +279,7 @@ def refuse_obstacles(numbers: NumbersOfDesigns) -> None:
     for name in numbers.kinds:
         found = metric_named(name)
         if found is not None and (why := found[0].obstacle(numbers.analysis)) is not None:
-            raise RequestError(_("{name}: {cause}", code="cli.about", name=name, cause=why))
+            raise RequestError(_("{name}: {cause}", name=name, cause=why))
     start = {name: np.array([machine.mechanism.dimension(name)]) for name in machine.varied}
     if numbers.running and not numbers.evaluate(start)[1].all():
         raise RequestError(

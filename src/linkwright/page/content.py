@@ -34,15 +34,12 @@ from linkwright.page.glyphs import glyphs, undrawn
 from linkwright.page.positions import packed, positions
 from linkwright.page.programs import SIZES, PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
+from linkwright.page.texts import TEXTS
 from linkwright.plot.drawing.machine import Machine, fitted
 from linkwright.whole_files import write_whole
-from linkwright.words import LANGUAGES, _, catalogue, say
+from linkwright.words import LANGUAGES, _
 from linkwright.words.sentence import in_language
 
-#: What of a position's outcome a page can find itself.
-_OUTCOMES = ("apart", "singular", "lost", "rrr_far", "rrr_near", "rrp_far", "rpr_near", "rpp_parallel")
-#: Words of the page's area that are said here, not by the page.
-_NAMES = frozenset(("opening",))
 _TAGS = {"en": "en", "zh": "zh-CN"}
 
 
@@ -65,11 +62,7 @@ def page(models: Sequence[tuple[Motion, str | None]], language: str = "en") -> s
 def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tuple[Plain, str]:
     """What a page is made of as plain data, and the kernels' JavaScript text where there is no module."""
     found = [_model(motion, text, number) for number, (motion, text) in enumerate(models)]
-    words = {
-        each: {f"page.{key}": say(f"page.{key}", each) for key in catalogue("page") if key not in _NAMES}
-        | {f"outcome.{key}": say(f"outcome.{key}", each) for key in _OUTCOMES}
-        for each in LANGUAGES
-    }
+    words = {each: {key: text.translate(each) for key, text in TEXTS.items()} for each in LANGUAGES}
     data = {"language": language, "words": words, "models": [each for each, _unused in found]}
     return data, "\n".join(text for _unused, text in found)
 
@@ -176,12 +169,13 @@ def document(data: Plain, kernels: str, title: str, language: str) -> str:
         f"default-src 'none'; script-src {hashes} 'wasm-unsafe-eval'; style-src 'sha256-{_hash(style)}'; "
         "img-src data: blob:; base-uri 'none'; form-action 'none'"
     )
+    opening = _("Opening … This page needs scripts, and a browser of 2023 or later.").translate(language)
     return (
         f'<!doctype html>\n<html lang="{_TAGS[language]}">\n<head>\n<meta charset="utf-8">\n'
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f'<meta name="color-scheme" content="light dark">\n<title>{escape(title)}</title>\n'
-        f'</head>\n<body>\n<div id="page">{escape(say("page.opening", language))}</div>\n'
+        f'</head>\n<body>\n<div id="page">{escape(opening)}</div>\n'
         f'<script type="text/plain" id="packed">{written}</script>\n'
         f"<script>{unpack}</script>\n</body>\n</html>\n"
     )

@@ -13,7 +13,7 @@ from linkwright.kinematics.names import canonical
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.page.programs import PagePrograms
-from linkwright.words import LANGUAGES, say
+from linkwright.words import LANGUAGES, Message, _
 
 #: Numbers over the cycle that are shown of a signal.
 _NUMBERS = {
@@ -21,6 +21,13 @@ _NUMBERS = {
     "effort": ("largest", "rms"),
     "reaction": ("largest",),
     "shaking_force": ("largest",),
+}
+
+
+_EXTREMES = {
+    "least": _("smallest {name}"),
+    "largest": _("largest {name}"),
+    "rms": _("root mean square of the {name}"),
 }
 
 
@@ -42,8 +49,8 @@ def _signal(page: PagePrograms, output: Output) -> Plain:
     return {"id": key, "form": form, "rows": list(rows), "kind": output.dimension, "name": name}
 
 
-def _said(word: str, **names: str) -> dict[str, str]:
-    return {language: say(f"quantity.{word}", language, **names) for language in LANGUAGES}
+def _said(message: Message) -> dict[str, str]:
+    return {language: message.translate(language) for language in LANGUAGES}
 
 
 def _motion(page: PagePrograms) -> Iterator[Output]:
@@ -76,11 +83,17 @@ def numbers(page: PagePrograms, known: Mapping[Output, Plain]) -> list[Plain]:
         angle = output.kind == "angle"
         if angle and _turns(page, output.owner):
             continue
-        found.append(
-            _number("range", known[output], _said("swing" if angle else "stroke", name=output.owner))
-        )
+        name = _("swing angle of {name}") if angle else _("stroke at {name}")
+        found.append(_number("range", known[output], _said(name.format(name=output.owner))))
         if rotating and _returns_once(page.motion.read(output)):
-            found.append(_number("ratio", known[output], _said("ratio", name=output.owner), "ratio"))
+            found.append(
+                _number(
+                    "ratio",
+                    known[output],
+                    _said(_("quick-return ratio of {name}", name=output.owner)),
+                    "ratio",
+                )
+            )
     for output, signal in known.items():
         found += [_number(kind, signal, _within(kind, signal)) for kind in _NUMBERS.get(output.kind, ())]
     return found
@@ -95,7 +108,8 @@ def _number(kind: str, signal: Plain, name: dict[str, str], quantity: str | None
 
 def _within(word: str, signal: Plain) -> dict[str, str]:
     return {
-        language: say(f"quantity.{word}", language, name=signal["name"][language]) for language in LANGUAGES
+        language: _EXTREMES[word].format(name=signal["name"][language]).translate(language)
+        for language in LANGUAGES
     }
 
 

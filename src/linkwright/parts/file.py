@@ -194,7 +194,11 @@ def _kind(reader: Reader, root: MappingNode) -> str | None:
         return reader.word(node, "kind", tuple(KINDS))
     if (task := root.get("synthesis")) is not None and root.get("links") is None:
         reader.finding(
-            task, "synthesis", "task_alone", "kind", _("linkwright synthesize finds machines for it")
+            task,
+            "synthesis",
+            _("the file holds a task of synthesis and no machine"),
+            "kind",
+            _("linkwright synthesize finds machines for it"),
         )
         return None
     key = "model" if root.get("links") is not None else "no_kind"

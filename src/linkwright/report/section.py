@@ -12,7 +12,7 @@ from typing import TypeVar
 from linkwright.core.dataclass import dataclass
 from linkwright.registry import Registry
 from linkwright.report.document import Block
-from linkwright.words import Message
+from linkwright.words import Message, _
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Section:
 
 #: What makes the blocks of a section, of a case or of all cases.
 Blocks = TypeVar("Blocks", bound=Callable[..., Iterator[Block]])
-SECTIONS: Registry[Section] = Registry("report_section", "linkwright.report.sections")
+SECTIONS: Registry[Section] = Registry(_("section of reports"), "linkwright.report.sections")
 
 
 def section(

@@ -9,9 +9,8 @@ from typing import Any, NoReturn, TypeVar
 
 from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError
-from linkwright.words import _
+from linkwright.words import _, pgettext
 from linkwright.words.characters import one_line
-from linkwright.words.sentence import Sentence
 
 T = TypeVar("T")
 #: Largest coordinate that is drawn, m, and number at all; most letters of a name.
@@ -87,6 +86,16 @@ def mapping(asked: Mapping[str, Any], key: str) -> dict[str, Any]:
     return value if isinstance(value, dict) else refuse(key, "mapping")
 
 
+_FORMS = {
+    "text": pgettext("studio", "a text"),
+    "name": _("a name on one line"),
+    "names": _("a list of names"),
+    "number": _("a finite number of ordinary size"),
+    "place": _("two finite coordinates"),
+    "mapping": _("a mapping"),
+}
+
+
 def refuse(key: str, form: str) -> NoReturn:
     """Raise BadRequest for a value that has not the form."""
     raise BadRequest(
@@ -94,7 +103,7 @@ def refuse(key: str, form: str) -> NoReturn:
             "{name} is missing or of the wrong form; expected {form}",
             code="studio.bad_value",
             name=key,
-            form=Sentence(f"studio.form_{form}"),
+            form=_FORMS[form],
         )
     )
 

@@ -22,19 +22,28 @@ from urllib.parse import parse_qs, urlsplit
 
 from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError
+from linkwright.page.texts import TEXTS as PAGE_TEXTS
 from linkwright.server.background import unexpected
 from linkwright.server.files import LARGEST, Files
 from linkwright.server.request import BadRequest, parsed
+from linkwright.server.texts import TEXTS
 from linkwright.server.work import Work, language_of, said
-from linkwright.words import LANGUAGES, catalogue, say
-from linkwright.words.sentence import Sentence
+from linkwright.words import LANGUAGES, Message, _
 
 _POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self'; "
     "img-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
 )
 _BUILT = {"/studio.js": "text/javascript", "/studio.css": "text/css"}
-_AREAS = ("page", "outcome", "studio")
+_BAD_REQUEST = _(
+    "the server does not understand this request; open the studio at the address that the terminal shows",
+)
+_NO_PAGE = _(
+    "there is nothing at this address; open the studio at the address that the terminal shows",
+)
+_NO_SECRET = _(
+    "the address lacks the secret of this studio; open it at the address that the terminal shows",
+)
 _HEADER = "X-Linkwright-Token"
 _LENGTH = re.compile(r"[0-9]{1,9}")
 
@@ -84,7 +93,7 @@ class _Handler(BaseHTTPRequestHandler):
             address = urlsplit(self.path)
             token = parse_qs(address.query).get("token", [""])[0]
         except ValueError:
-            self._refuse(400, "bad_request")
+            self._refuse(400, _BAD_REQUEST)
             return
         if address.path in _BUILT:
             built = files("linkwright") / "page" / "built" / address.path[1:]
@@ -92,11 +101,11 @@ class _Handler(BaseHTTPRequestHandler):
         elif address.path == "/favicon.ico":
             self._send(204, b"", "text/plain")
         elif address.path != "/":
-            self._refuse(404, "no_page")
+            self._refuse(404, _NO_PAGE)
         elif self.server.allows(token):
             self._send(200, self._page(), "text/html")
         else:
-            self._refuse(403, "no_secret")
+            self._refuse(403, _NO_SECRET)
 
     def do_POST(self) -> None:
         """One request of the page."""
@@ -104,17 +113,17 @@ class _Handler(BaseHTTPRequestHandler):
             return
         length = self.headers.get("Content-Length", "")
         if not _LENGTH.fullmatch(length) or self.headers.get("Transfer-Encoding"):
-            self._end(411, "no_length")
+            self._end(411, _("a request needs a plain number as Content-Length"))
             return
         if int(length) > 2 * LARGEST:
-            self._end(413, "large", most=2 * LARGEST)
+            self._end(413, _("the text is larger than {most} bytes", most=2 * LARGEST))
             return
         body = self.rfile.read(int(length))
         answer = self.server.work.answers.get(self.path.removeprefix("/api/"))
         if not self.server.allows(self.headers.get(_HEADER, "")):
-            self._refuse(403, "no_secret")
+            self._refuse(403, _NO_SECRET)
         elif answer is None or self.headers.get("Content-Type") != "application/json":
-            self._refuse(404, "no_page")
+            self._refuse(404, _NO_PAGE)
         else:
             self._answer(answer, body)
 
@@ -139,16 +148,17 @@ class _Handler(BaseHTTPRequestHandler):
         too_long = code in (HTTPStatus.REQUEST_URI_TOO_LONG, HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE)
         no_method = code == HTTPStatus.NOT_IMPLEMENTED
         self._end(
-            code if too_long else 405 if no_method else 400, "no_method" if no_method else "bad_request"
+            code if too_long else 405 if no_method else 400,
+            _("the server answers only GET and POST") if no_method else _BAD_REQUEST,
         )
 
-    def _end(self, status: int, key: str, **values: object) -> None:
+    def _end(self, status: int, message: Message) -> None:
         """Refuses a request of which there may be more to come, which is not read."""
         self.close_connection = True
-        self._refuse(status, key, **values)
+        self._refuse(status, message)
 
-    def _refuse(self, status: int, key: str, **values: object) -> None:
-        sentence = Sentence(f"studio.{key}", **values).say(self.server.language)
+    def _refuse(self, status: int, message: Message) -> None:
+        sentence = message.translate(self.server.language)
         if self.command == "POST":
             self._send(status, json.dumps({"error": sentence}).encode(), "application/json")
         else:
@@ -160,12 +170,12 @@ class _Handler(BaseHTTPRequestHandler):
         own = [f"http://{name}" for name in self.server.names]
         if self.headers.get("Host") in self.server.names and (origin is None or origin in own):
             return True
-        self._end(403, "foreign")
+        self._end(403, _("this server answers only its own page on this machine"))
         return False
 
     def _page(self) -> bytes:
         words = {
-            each: {f"{area}.{key}": say(f"{area}.{key}", each) for area in _AREAS for key in catalogue(area)}
+            each: {key: text.translate(each) for key, text in (TEXTS | PAGE_TEXTS).items()}
             for each in LANGUAGES
         }
         data: dict[str, Any] = {

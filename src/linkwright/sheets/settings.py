@@ -23,7 +23,7 @@ from linkwright.report.settings import worked_place
 from linkwright.sheets.panel import Panel
 from linkwright.sheets.paper import Paper, Standard
 from linkwright.sheets.title_block import Fields
-from linkwright.words import Message, Say
+from linkwright.words import Message, Say, _
 from linkwright.words.sentence import Sentence
 
 
@@ -60,7 +60,7 @@ class Content:
 
 
 Kind = Callable[[Subject], Content]
-SHEETS: Registry[Kind] = Registry("sheet_kind", "linkwright.sheets.kinds")
+SHEETS: Registry[Kind] = Registry(_("kind of sheet"), "linkwright.sheets.kinds")
 
 
 #: Keys of the report's section, and of its cover, that a title block falls back on.

@@ -8,10 +8,10 @@ from dataclasses import field
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, Group
 from linkwright.errors import speaker
-from linkwright.joints.base import JOINTS
+from linkwright.joints.base import JOINTS, PAIRS
 from linkwright.structure.mobility import lower_pairs
 from linkwright.structure.trains import GearTrain, written
-from linkwright.words import Say, _, has, language_of
+from linkwright.words import Say, _, language_of, ngettext
 from linkwright.words.characters import aligned
 from linkwright.words.sentence import link_said
 
@@ -119,20 +119,41 @@ def numeral(number: int, say: Say) -> str:
     return numerals[number - 1] if number <= len(numerals) else str(number)
 
 
+_MOBILITIES = {
+    (False, False): _("Mobility F = 3n - 2p = 3·{links} - 2·{pairs} = {mobility}"),
+    (False, True): _("Mobility F = 3n - 2p - 3w = 3·{links} - 2·{pairs} - 3·{welds} = {mobility}"),
+    (True, False): _("Mobility F = 3n - 2p - p_H = 3·{links} - 2·{pairs} - {higher} = {mobility}"),
+    (True, True): _(
+        "Mobility F = 3n - 2p - 3w - p_H = 3·{links} - 2·{pairs} - 3·{welds} - {higher} = {mobility}",
+    ),
+}
+
+
 def _mobility(structure: Structure, say: Say) -> list[str]:
     n, (r, p, w) = structure.counts["links"], lower_pairs(structure.counts)
     higher = {
         kind: count for kind, count in structure.counts.items() if kind in JOINTS and JOINTS[kind].higher
     }
     h = sum(higher.values())
-    counts = "counts_welds" if w > 1 else "counts_weld" if w else "counts"
-    formula = f"mobility{'_higher' if h else ''}{'_welded' if w else ''}"
-    first = say(f"structure_text.{counts}", links=n, pairs=r + p, revolute=r, prismatic=p, welds=w)
+    counted = (
+        ngettext(
+            "Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} prismatic; "
+            "{count} weld",
+            "Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} prismatic; "
+            "{count} welds",
+            count=w,
+        )
+        if w
+        else _(
+            "Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} prismatic"
+        )
+    ).format(links=n, pairs=r + p, revolute=r, prismatic=p)
+    first = say(counted)
     if h:
         kinds = ", ".join(f"{count} {_kind(kind, say)}" for kind, count in higher.items())
         first += say(_("; higher pairs p_H = {higher}: {kinds}", higher=h, kinds=kinds))
     values = {"links": n, "pairs": r + p, "welds": w, "higher": h, "mobility": structure.grubler}
-    lines = [first, say(f"structure_text.{formula}", **values)]
+    lines = [first, say(_MOBILITIES[bool(h), bool(w)].format(**values))]
     guides = ", ".join(name for name in structure.redundant if name not in structure.passive)
     if guides:
         lines.append(
@@ -171,7 +192,7 @@ def _mobility(structure: Structure, say: Say) -> list[str]:
 
 def _kind(kind: str, say: Say) -> str:
     """A kind of joint as it is read; a kind of another package by its own word."""
-    return say(f"nouns.pair_{kind}") if has(f"nouns.pair_{kind}") else kind
+    return say(PAIRS[kind]) if kind in PAIRS else kind
 
 
 def _train(train: GearTrain, say: Say) -> list[str]:
@@ -220,16 +241,22 @@ def _table(structure: Structure, say: Say) -> list[str]:
 
 def _row(number: int, group: Group, say: Say) -> tuple[str, str, str, str, str]:
     drivers = ", ".join(group.drivers)
-    own = "_unnamed" if group.drivers == ("driver",) else ""
+    unnamed = group.drivers == ("driver",)
     if group.assur_class == 1 and group.drivers:
-        what = say(f"structure_text.driven{own}", drivers=drivers)
+        what = say(_("driven by driver") if unnamed else _("driven by {drivers}", drivers=drivers))
     else:
-        key = f"class_order_driven{own}" if group.drivers else "class_order"
-        level = numeral(group.assur_class, say)
-        what = say(f"structure_text.{key}", level=level, order=group.assur_order, drivers=drivers)
+        level, form = numeral(group.assur_class, say), _("class {level}, order {order}")
+        if group.drivers:
+            form = (
+                _("class {level}, order {order}, with the driver inside")
+                if unnamed
+                else _("class {level}, order {order}, with driver {drivers} inside")
+            )
+        what = say(form.format(level=level, order=group.assur_order, drivers=drivers))
     outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))
     inner = ", ".join(dict.fromkeys(c.joint for c in group.inner_joints))
-    joints = say(f"structure_text.{'outer_inner' if inner else 'outer'}", outer=outer, inner=inner)
+    seats = _("outer joints {outer}; inner joints {inner}") if inner else _("outer joints {outer}")
+    joints = say(seats.format(outer=outer, inner=inner))
     return f"{number}.", group.signature, f"({', '.join(group.links)})", what, joints
 
 

@@ -10,7 +10,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.structure.constraints import DRIVER, FRAME, ConstraintGraph
 from linkwright.structure.trains import GearTrain, blocking_pairs, gear_trains
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence, together
+from linkwright.words.sentence import together
 
 
 class StructureError(LinkwrightError):
@@ -71,14 +71,33 @@ def explain_free(mechanism: Mechanism, free: Sequence[str], lacking: int, mobili
     """The sentence for freedoms that nothing determines."""
     parts = islands(mechanism)
     apart = tuple("{" + ", ".join(part) + "}" for part in parts)
-    key = "free_idle" if _idle(mechanism, free) else "free"
-    said = Sentence(
-        "mobility.islands" if len(parts) > 1 else f"mobility.{key}",
+    problem = (
+        _(
+            "{has}; nothing determines the motion of {links}, and nothing else depends on it: a "
+            "local freedom, as of a roller on its pin; leave out what turns so (a cam's roller "
+            "is told by touch: roller), or give {more} (driver: {{turn: …, about: …, speed: …}})",
+            code="mobility.free_idle",
+        )
+        if _idle(mechanism, free)
+        else _(
+            "{has}; nothing determines the motion of {links}; give {more} (driver: {{turn: …, "
+            "about: …, speed: …}}), or join the links further",
+            code="mobility.free",
+        )
+    )
+    if len(parts) > 1:
+        problem = _(
+            "{has}; the file holds {count} mechanisms that share nothing but the frame: {parts}; "
+            "nothing determines the motion of {links}; give {more} (driver: {{turn: …, about: …, "
+            "speed: …}}), or join the links further",
+            code="mobility.islands",
+        )
+    said = problem.format(
         has=_has(mechanism, mobility),
         count=len(parts),
         parts=together(apart),
         links=tuple(map(repr, free)),
-        more=_drivers("more", lacking),
+        more=_MORE[min(lacking, 4)].format(count=lacking),
     )
     return StructureError(said)
 
@@ -108,7 +127,9 @@ def explain_excess(
                 "{drivers} are given",
             )
         ).format(
-            name=mechanism.name, mobility=grubler(counts(mechanism)), drivers=_drivers("drivers", drivers)
+            name=mechanism.name,
+            mobility=grubler(counts(mechanism)),
+            drivers=_DRIVERS[min(drivers, 4)].format(count=drivers),
         )
     blocked = [train for train in gear_trains(mechanism) if train.blocked]
     if blocked:
@@ -128,9 +149,23 @@ def explain_excess(
     pairs = blocking_pairs(mechanism)
     if pairs:
         named, uneven = tuple(map(repr, pairs)), [each for each in pairs if mechanism.joints[each].uneven]
-        key = "mobility.blocked_by_lift" if uneven else "mobility.blocked_pairs"
+        problem = (
+            _(
+                "{why}; the pairs {pairs} block each other: they move the same links, {cams} by the "
+                "lift of a cam, whose ratio changes over its turn, the others in another way; give "
+                "the others a link of their own to move, such as a pinion that turns alone on its "
+                "shaft, or take {pair!r} away",
+                code="mobility.blocked_by_lift",
+            )
+            if uneven
+            else _(
+                "{why}; the pairs {pairs} block each other: what they demand of rotations and "
+                "displacements holds at rest alone; take {pair!r} away, or change the sizes",
+                code="mobility.blocked_pairs",
+            )
+        )
         pair = next((each for each in reversed(pairs) if each not in uneven), pairs[-1])
-        return StructureError(key, why=why, pairs=named, pair=pair, cams=tuple(map(repr, uneven)))
+        return StructureError(problem.format(why=why, pairs=named, pair=pair, cams=tuple(map(repr, uneven))))
     links, extra = tuple(map(repr, bodies)), tuple(_source(mechanism, each) for each in sources)
     return StructureError(
         _(
@@ -167,7 +202,8 @@ def _loop_of(mechanism: Mechanism, train: GearTrain) -> list[str]:
 
 
 def _has(mechanism: Mechanism, mobility: int) -> Message:
-    drivers = _drivers("drivers", len(mechanism.drivers))
+    count = len(mechanism.drivers)
+    drivers = _DRIVERS[min(count, 4)].format(count=count)
     return _(
         "{name!r} has mobility {mobility} and {drivers}",
         name=mechanism.name,
@@ -176,8 +212,20 @@ def _has(mechanism: Mechanism, mobility: int) -> Message:
     )
 
 
-def _drivers(key: str, count: int) -> Message:
-    return Sentence(f"mobility.{key}_{count if count < 4 else 'many'}", count=count)
+_DRIVERS = (
+    _("no drivers"),
+    _("one driver"),
+    _("two drivers"),
+    _("three drivers"),
+    _("{count} drivers"),
+)
+_MORE = (
+    _("no more drivers"),
+    _("one more driver"),
+    _("two more drivers"),
+    _("three more drivers"),
+    _("{count} more drivers"),
+)
 
 
 __all__ = ["FRAME", "StructureError", "counts", "explain_excess", "explain_free", "grubler", "islands"]

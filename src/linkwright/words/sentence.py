@@ -7,22 +7,13 @@ import re
 from collections.abc import Mapping, Sequence
 
 from linkwright.core.dataclass import dataclass
-from linkwright.words import LANGUAGES, has, message_of, say
+from linkwright.words import LANGUAGES, message_of
 from linkwright.words.characters import one_line
-from linkwright.words.message import Message
+from linkwright.words.message import Message, _
 
 _OWN_NAMES = re.compile(
     r"(?<![\w.-])(?:frame|driver)(?![\w-])|\b(?:max|min)(?=→)|(?<=→)(?:max|min)\b|(?<= )(?:max|min)$"
 )
-
-#: Sentences that only say what another one is about, with the value that this is.
-_AROUND = {
-    "cli.about": "cause",
-    "loads.of_load": "cause",
-    "finding.with_remedy": "message",
-    "finding.below": "first",
-    "rank.besides": "cause",
-}
 
 
 @dataclass(frozen=True)
@@ -72,18 +63,38 @@ def in_language(text: str, language: str) -> str:
     return text.say(language) if isinstance(text, Message | Worded) else text
 
 
+_OWN = {
+    "frame": _("frame"),
+    "driver": _("driver"),
+    "max": _("max"),
+    "min": _("min"),
+}
+_SYSTEM = {
+    "ENOENT": _("No such file or directory"),
+    "EACCES": _("Permission denied"),
+    "EPERM": _("Operation not permitted"),
+    "EISDIR": _("Is a directory"),
+    "ENOTDIR": _("Not a directory"),
+    "ENOSPC": _("No space left on device"),
+    "EROFS": _("Read-only file system"),
+    "ENAMETOOLONG": _("File name too long"),
+    "EADDRINUSE": _("Address already in use"),
+    "EIO": _("Input/output error"),
+}
+
+
 def in_words(subject: str, language: str) -> str:
     """A subject with the names that the program itself gives (frame, driver, max→min) in a language."""
     if language == "en":
         return subject
-    told = _OWN_NAMES.sub(lambda found: say(f"nouns.{found[0]}", language), subject)
+    told = _OWN_NAMES.sub(lambda found: _OWN[found[0]].translate(language), subject)
     joint, on, link = told.partition(" on ")
-    return say("nouns.joint_on_link", language).format(joint=joint, link=link) if on else told
+    return _("{joint} on {link}", joint=joint, link=link).translate(language) if on else told
 
 
 def link_said(name: str, language: str) -> str:
     """A link's name; of the frame its word in a language."""
-    return say("nouns.frame", language) if name == "frame" else name
+    return _("frame").translate(language) if name == "frame" else name
 
 
 def links_said(numbers: Mapping[str, int], language: str) -> list[str]:
@@ -97,8 +108,7 @@ def code_of(text: object) -> str:
         return next(filter(None, map(code_of, text)), "")
     if not isinstance(text, Message):
         return getattr(text, "code", "") or getattr(getattr(text, "sentence", None), "code", "")
-    inner = code_of(text.values[_AROUND[text.code]]) if text.code in _AROUND else ""
-    return inner or text.code
+    return text.code or code_of(tuple(text.values.values()))
 
 
 def values_of(text: str) -> dict[str, object]:
@@ -115,18 +125,18 @@ def values_of(text: str) -> dict[str, object]:
 def together(items: Sequence[str]) -> str:
     """One or more texts as a list with "and" before the last."""
     *first, last = items
-    return Sentence("finding.and", first=tuple(first), last=last) if first else last
+    return _("{first} and {last}", first=tuple(first), last=last) if first else last
 
 
 def lines(items: Sequence[str]) -> str:
     """One or more sentences, each on a line of its own."""
     first, *rest = items
-    return Sentence("finding.below", first=first, second=lines(rest)) if rest else first
+    return _("{first}\n{second}", first=first, second=lines(rest)) if rest else first
 
 
 def reason_of(problem: Exception) -> str:
     """Why a file cannot be read or written."""
     name = errno.errorcode.get(getattr(problem, "errno", None) or 0, "")
-    if has(f"system.{name}"):
-        return Sentence(f"system.{name}")
+    if name in _SYSTEM:
+        return _SYSTEM[name]
     return getattr(problem, "strerror", None) or str(problem)

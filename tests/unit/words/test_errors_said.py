@@ -4,27 +4,28 @@ import copy
 import pickle
 import re
 
-from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
-from linkwright.words import _, say
-from linkwright.words.sentence import code_of, values_of
+from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError, with_remedy
+from linkwright.words import _
+from linkwright.words.sentence import code_of, lines, values_of
 
 STEEP = _(
     "the two slides are parallel (sine of the angle between them {sine})",
     code="outcome.rpp_parallel",
     sine="0",
 )
-REMEDY = _("assembled", code="outcome.assembled")
+REMEDY = _("assembled")
+ABOUT = "{name}: {cause}"
 CHINESE = re.compile("[一-鿿]")
 
 
 def test_an_error_says_its_sentence_in_both_languages() -> None:
     error = LinkwrightError(STEEP)
-    assert str(error) == error.say() == say(STEEP.code, sine="0")
-    assert error.say("zh") == say(STEEP.code, "zh", sine="0") and CHINESE.search(error.say("zh"))
+    assert str(error) == error.say() == STEEP
+    assert error.say("zh") == STEEP.translate("zh") and CHINESE.search(error.say("zh"))
 
 
 def test_an_error_is_a_value_of_another_sentence() -> None:
-    outer = LinkwrightError(_("{name}: {cause}", code="cli.about", name="--at", cause=LinkwrightError(STEEP)))
+    outer = LinkwrightError(_(ABOUT, name="--at", cause=LinkwrightError(STEEP)))
     assert str(outer).endswith(STEEP) and outer.say("zh").endswith(STEEP.say("zh"))
     assert "--at" in str(outer) and "--at" in outer.say("zh")
     again = pickle.loads(pickle.dumps(copy.deepcopy(outer)))
@@ -35,45 +36,29 @@ def test_the_code_is_that_of_what_is_within() -> None:
     """However deep, in a list the first; of an error its own, which is not the key of its sentence."""
     quantity = QuantityError(STEEP, REMEDY, code="missing-unit")
     within = {
-        "missing-unit": [_("{name}: {cause}", code="cli.about", name="--at", cause=quantity)],
+        "missing-unit": [_(ABOUT, name="--at", cause=quantity)],
         STEEP.code: [
-            _("{message}; {remedy}", code="finding.with_remedy", message=STEEP, remedy=REMEDY),
-            _(
-                "{first}\n{second}",
-                code="finding.below",
-                first=STEEP,
-                second=REMEDY,
-            ),
-            _(
-                "{name}: {cause}",
-                code="cli.about",
-                name="a",
-                cause=_("{name}: {cause}", code="cli.about", name="b", cause=[STEEP, REMEDY]),
-            ),
+            with_remedy(STEEP, REMEDY),
+            lines([STEEP, REMEDY]),
+            _(ABOUT, name="a", cause=_(ABOUT, name="b", cause=[STEEP, REMEDY])),
             LinkwrightError(STEEP),
         ],
-        "cli.about": [_("{name}: {cause}", code="cli.about", name="a", cause="a text")],
-        "": ["a text", [], LinkwrightError("a text")],
+        "": ["a text", [], _(ABOUT, name="a", cause="a text"), LinkwrightError("a text")],
     }
     for code, several in within.items():
         assert [code_of(each) for each in several] == [code] * len(several)
 
 
 def test_values_are_those_of_what_is_within_too() -> None:
-    inner = _("{name}: {cause}", code="cli.about", name="b", cause=LinkwrightError(STEEP))
-    found = values_of(_("{name}: {cause}", code="cli.about", name="a", cause=[inner]))
+    inner = _(ABOUT, name="b", cause=LinkwrightError(STEEP))
+    found = values_of(_(ABOUT, name="a", cause=[inner]))
     assert (found["name"], found["sine"]) == ("a", "0")
 
 
 def test_lists_take_the_comma_of_the_language() -> None:
-    sentence = _(
-        "change point of group ({links}) at {where}: the motion goes on smoothly",
-        code="cycle.change",
-        links=("a", "b"),
-        where="30°",
-    )
+    sentence = _("group ({links}) at {where}", links=("a", "b"), where="30°")
     for language in ("en", "zh"):
-        assert f"a{say('finding.comma', language)}b" in sentence.say(language)
+        assert f"a{_(', ').translate(language)}b" in sentence.say(language)
 
 
 def test_a_finding_puts_place_and_remedy_together() -> None:

@@ -71,7 +71,6 @@ def run(options: argparse.Namespace, session: Session) -> int:
         raise UsageError(
             _(
                 "{name}: {cause}",
-                code="cli.about",
                 name="linkwright compare",
                 cause=_("one file cannot be compared; name two or more", code="compare.too_few"),
             )

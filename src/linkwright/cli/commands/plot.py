@@ -150,9 +150,7 @@ def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
             motion = solve_motion(mechanism, steps=options.steps, failures="mark")
             failed = [outcome for outcome in motion.outcomes if not outcome.ok]
             if len(failed) == motion.steps:
-                raise LinkwrightError(
-                    _("{name}: {cause}", code="cli.about", name=file, cause=failed[0].sentence)
-                )
+                raise LinkwrightError(_("{name}: {cause}", name=file, cause=failed[0].sentence))
             if failed:
                 notes.append(
                     session.say(

@@ -22,6 +22,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.fields import AnyQuantity
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.units import si_unit
+from linkwright.words import _
 
 #: Standard deviation of each distribution as a share of its tolerance ±t.
 DEVIATIONS = {"normal": 1 / 3, "uniform": 1 / math.sqrt(3), "triangular": 1 / math.sqrt(6)}
@@ -115,7 +116,7 @@ class Tolerances(OfMechanism):
         doc="by dimension: crank.length: 0.05 mm, or {tolerance: 0.05 mm, distribution: uniform}",
     ), dict)  # fmt: skip
     clearances: Mapping[str, Clearance] = given(Named(
-        Table.of(Clearance), "pin", doc="clearances by pin: {clearance: 0.02 mm, on: rocker, kind: pressed}",
+        Table.of(Clearance), _("pin"), doc="clearances by pin: {clearance: 0.02 mm, on: rocker, kind: pressed}",
     ), dict)  # fmt: skip
     of: tuple[str, ...] = given(Listed(Text(), '["rocker.angle range"]', doc="summaries over the cycle"), ())
     curves: tuple[str, ...] = given(Listed(Text(), "[rocker.angle]", doc="outputs over the cycle"), ())

@@ -117,10 +117,10 @@ class Beam(Problem):
         section_field("cross section: IPE 100, {rectangle: [b, h]}, {circle: [d]}, {second_moment: 2e-5 m⁴}")
     )
     supports: Mapping[str, BeamSupport] = given(
-        Named(Table.of(BeamSupport), "support", doc="supports by name: {kind: pinned, at: 0 m}")
+        Named(Table.of(BeamSupport), _("support"), doc="supports by name: {kind: pinned, at: 0 m}")
     )
     loads: Mapping[str, BeamLoad] = given(Named(
-        Table.of(BeamLoad), "load",
+        Table.of(BeamLoad), _("load"),
         doc="by name: {force: -2 kN, at: 1 m}, {line: -1 kN/m, from: 0 m}, {couple: …}",
     ), dict)  # fmt: skip
     steps: tuple[SectionStep, ...] = given(

@@ -115,7 +115,7 @@ class Program(Problem):
 
     kind: ClassVar[str] = "program"
     variables: Mapping[str, Variable] = given(Named(
-        Table(VARIABLE, _variable), "variable",
+        Table(VARIABLE, _variable), _("variable"),
         doc="variables by name: {from: 0 mm, to: 40 mm}, with integer: true or choices: […]",
     ))  # fmt: skip
     minimize: Formula | None = given(Objective(doc="what is to be small, an expression"), None)

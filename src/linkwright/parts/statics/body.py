@@ -90,7 +90,7 @@ class BodyLoad(Force):
 
 
 LOADS = Named(
-    ForceField(Components("force", form="[0 N, -600 N]"), Table.of(BodyLoad)), "load",
+    ForceField(Components("force", form="[0 N, -600 N]"), Table.of(BodyLoad)), _("load"),
     doc="loads by name: [Fx, Fy], {magnitude: …, direction: […], at: […]}, {couple: 5 N·m}",
 )  # fmt: skip
 
@@ -107,7 +107,7 @@ class RigidBody(Problem):
         "loads": LOADS, "forces": replace(FORCES, replaced="loads"), "couples": replace(COUPLES, replaced="loads"),
     })  # fmt: skip
     supports: Mapping[str, Support] = given(Named(
-        Table.of(Support), "support",
+        Table.of(Support), _("support"),
         doc="supports by name: {at: [0 m, 0 m], holds: [x, y]}, or {at: […], direction: [0, 1]}",
     ))  # fmt: skip
     forces: Mapping[str, Force] = field(default_factory=dict)

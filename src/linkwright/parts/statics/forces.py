@@ -18,7 +18,7 @@ from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Either, Listed, Named, Table
 from linkwright.parts.base import fault
-from linkwright.words import _
+from linkwright.words import _, pgettext
 
 #: A sum smaller than this share of its largest part is zero but for rounding.
 ZERO = 1e-12
@@ -213,11 +213,11 @@ class ForceField(Either):
 
 FORCES = Named(
     ForceField(Components("force", form="[0 N, 40 N, 60 N]"), Table.of(Force)),
-    "force",
+    _("force"),
     doc="forces by name: [Fx, Fy, Fz], {magnitude: …, direction: […]}, or {direction: […]} where it is sought",
 )
 COUPLES = Named(
-    Components("torque"), "couple", doc="couples by name: [Mx, My, Mz]; in the plane [0 N·m, 0 N·m, M]"
+    Components("torque"), _("couple"), doc="couples by name: [Mx, My, Mz]; in the plane [0 N·m, 0 N·m, M]"
 )
 
 
@@ -233,10 +233,12 @@ class Along(Line):
 
 LINES = Named(
     Table.of(Along),
-    "direction",
+    _("direction"),
     doc="lines along which a force is resolved, by name: {of: F, direction: [2, 3, 6]}",
 )
-PAIRS = Named(Listed(Text(), "[F1, F2]"), "angle", doc="angles between two forces, by name: [F1, F2]")
+PAIRS = Named(
+    Listed(Text(), "[F1, F2]"), pgettext("nouns", "angle"), doc="angles between two forces, by name: [F1, F2]"
+)
 
 
 def direction_angles(vector: Floats) -> Floats:

@@ -49,11 +49,11 @@ class Rotor(Problem):
 
     kind: ClassVar[str] = "rotor"
     masses: Mapping[str, HeavyPoint] = given(Named(
-        Table.of(HeavyPoint), "mass",
+        Table.of(HeavyPoint), _("mass"),
         doc="masses by name: {mass: 10 kg, radius: 400 mm, angle: 120 deg, at: 0 mm}",
     ))  # fmt: skip
     planes: Mapping[str, BalancingPlane] = given(Named(
-        Table.of(BalancingPlane), "plane",
+        Table.of(BalancingPlane), _("plane"),
         doc="one or two planes of counterweights by name: {at: 0 mm, radius: 500 mm}",
     ))  # fmt: skip
     speed: float = given(Quantity("angular_velocity", minimum=0.0, doc="speed, for the forces"), 0.0)

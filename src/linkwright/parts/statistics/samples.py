@@ -99,7 +99,7 @@ class Samples(Problem):
 
     kind: ClassVar[str] = "statistics"
     samples: Mapping[str, Numbers] = given(Named(
-        Sample(), "sample", doc="samples by name: {unit: mm, values: [20.1, 19.9]}, or [20.1 mm, 19.9 mm]",
+        Sample(), _("sample"), doc="samples by name: {unit: mm, values: [20.1, 19.9]}, or [20.1 mm, 19.9 mm]",
     ))  # fmt: skip
     confidence: float = given(
         Quantity("dimensionless", above=0.0, doc="level of intervals and tests, 0.95 unless given"), 0.95
@@ -108,15 +108,19 @@ class Samples(Problem):
         Listed(Word(tuple(DISTRIBUTIONS)), "[normal, weibull]", doc=f"any of {', '.join(DISTRIBUTIONS)}"), ()
     )
     tests: Mapping[str, Asked] = given(
-        Named(Table(TEST_FIELDS, _asked), "test", doc="tests by name: {kind: mean, of: [a], value: 20 mm}"),
+        Named(
+            Table(TEST_FIELDS, _asked), _("test"), doc="tests by name: {kind: mean, of: [a], value: 20 mm}"
+        ),
         dict,
     )
     regressions: Mapping[str, Fitting] = given(
-        Named(Table.of(Fitting), "regression", doc="regressions by name: {y: force, on: [speed], degree: 2}"),
+        Named(
+            Table.of(Fitting), _("regression"), doc="regressions by name: {y: force, on: [speed], degree: 2}"
+        ),
         dict,
     )
     capability: Mapping[str, Limits] = given(Named(
-        Table(LIMIT_FIELDS, _limits), "sample",
+        Table(LIMIT_FIELDS, _limits), _("sample"),
         doc="limits by sample: {lower: 19.9 mm, upper: 20.1 mm, subgroup: 5}",
     ), dict)  # fmt: skip
     name: str = ""

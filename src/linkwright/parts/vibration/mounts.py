@@ -77,7 +77,7 @@ class Mounts(OfMechanism):
     )
     steps: int = given(Whole(8, doc="positions over the cycle, 360 unless given"), STEPS)
     mounts: Mapping[str, Mount] = given(Named(
-        Table.of(Mount), "mount",
+        Table.of(Mount), _("mount"),
         doc="every mount by name: {at: [0 m, 0 m], stiffness_x: 1 MN/m, stiffness_y: 2 MN/m}",
     ), dict)  # fmt: skip
     inertia: float | None = given(

@@ -110,23 +110,23 @@ class VibratingSystem(Problem):
             "on": Text(required=True, doc="the mass that is to be quieted"),
             "mass": Quantity("mass", required=True, above=0.0, doc="mass of the absorber"),
         }, doc="adds the best damped absorber: {on: body, mass: 5 kg}"),
-        "inertias": Named(AnyQuantity(("inertia",)), "disc", doc="discs on shafts, in place of masses: moments of "
+        "inertias": Named(AnyQuantity(("inertia",)), _("disc"), doc="discs on shafts, in place of masses: moments of "
                           "inertia (kg·m²) by name"),
     })  # fmt: skip
     masses: Mapping[str, float] = given(
-        MassesField(AnyQuantity(either("mass")), "mass", doc="masses (kg) by name"), dict
+        MassesField(AnyQuantity(either("mass")), _("mass"), doc="masses (kg) by name"), dict
     )
     springs: Mapping[str, Tie] = given(
-        Named(SPRING, "spring", doc="springs by name: {between: [ground, body], stiffness: 20 kN/m}"), dict
+        Named(SPRING, _("spring"), doc="springs by name: {between: [ground, body], stiffness: 20 kN/m}"), dict
     )
     dampers: Mapping[str, Tie] = given(
-        Named(DAMPER, "damper", doc="dampers by name: {between: [ground, body], damping: 300 N·s/m}"), dict
+        Named(DAMPER, _("damper"), doc="dampers by name: {between: [ground, body], damping: 300 N·s/m}"), dict
     )
     excitation: Excitation | None = given(
         Table(EXCITATION, doc="what shakes it: force, unbalance, base or table"), None
     )
     start: Mapping[str, Start] = given(
-        Named(Table(START), "mass", doc="start of the free vibration by mass"), dict
+        Named(Table(START), _("mass"), doc="start of the free vibration by mass"), dict
     )
     duration: float | None = given(
         Quantity("time", above=0.0, doc="how long responses in time are shown"), None

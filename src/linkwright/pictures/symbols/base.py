@@ -16,6 +16,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.pictures.picture import Circle, Line, Vec
 from linkwright.registry import Registry
+from linkwright.words import _
 
 PIN = 5.0
 LINE = 2.6
@@ -36,7 +37,7 @@ class Shape:
 
 EMPTY = Shape(())
 Symbol = Callable[..., Shape]
-SYMBOLS: Registry[Symbol] = Registry("symbol", "linkwright.pictures.symbols")
+SYMBOLS: Registry[Symbol] = Registry(_("symbol"), "linkwright.pictures.symbols")
 
 
 def joined(shapes: Iterable[Shape]) -> Shape:

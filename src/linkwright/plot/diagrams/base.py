@@ -110,8 +110,8 @@ class ResultDiagram:
         return isinstance(result, self.takes) and self.when(result)
 
 
-DIAGRAMS: Registry[type[Kind]] = Registry("diagram", "linkwright.plot.diagrams", attribute="name")
-RESULT_DIAGRAMS: Registry[ResultDiagram] = Registry("diagram", "linkwright.plot.result_diagrams")
+DIAGRAMS: Registry[type[Kind]] = Registry(_("kind of diagram"), "linkwright.plot.diagrams", attribute="name")
+RESULT_DIAGRAMS: Registry[ResultDiagram] = Registry(_("kind of diagram"), "linkwright.plot.result_diagrams")
 
 
 def result_diagram(

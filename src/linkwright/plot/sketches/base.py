@@ -15,11 +15,12 @@ from linkwright.pictures.picture import Vec
 from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.symbols.base import placed, points, vec
 from linkwright.registry import Registry
+from linkwright.words import _
 
 #: Room that a drawing takes, across and down.
 WIDE, HIGH = 560.0, 380.0
 DrawnBy = Callable[[Problem, str], Drawing]
-SKETCHES: Registry[DrawnBy] = Registry("sketch", "linkwright.plot.sketches")
+SKETCHES: Registry[DrawnBy] = Registry(_("sketch"), "linkwright.plot.sketches")
 _Drawn = TypeVar("_Drawn", bound=Callable[..., Drawing])
 
 
