@@ -49,7 +49,7 @@ class KnownForces:
                 _(
                     "F_A,2: force that joint A exerts on link 2 (F_A,1→2: that link 1 exerts on link 2 "
                     "at A); K, M_J: weight and inertia force at the mass centre, inertia couple. The "
-                    "other link of a joint feels the reverse. Groups in reverse order.",
+                    "other link of a joint feels the reverse. Groups in reverse order."
                 )
             )
         )

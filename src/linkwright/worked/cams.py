@@ -143,10 +143,7 @@ class CamPair(ABC):
             point = place
         else:
             step.say(self.book.say(_("Pitch curve in the cam's axes:")))
-            point = Pair(
-                self._found(step, "x_p", place.x, "m"),
-                self._found(step, "y_p", place.y, "m"),
-            )
+            point = Pair(self._found(step, "x_p", place.x, "m"), self._found(step, "y_p", place.y, "m"))
         step.say(self.book.say(_("Profile in the cam's axes:")))
         point = point - normal.times(self.roller)
         self._found(step, "x_n", point.x, "m")
@@ -358,7 +355,7 @@ class Swinging(CamPair):
             book.say(
                 _(
                     "Directions of the arm and of the line of axes in the cam's axes, and the angle "
-                    "between them:",
+                    "between them:"
                 )
             )
         )

@@ -163,7 +163,7 @@ class LiftWriter:
             say(
                 _(
                     "Between the points of the table at {low}° and {high}° the lift is a polynomial of t "
-                    "from -1 to 1:",
+                    "from -1 to 1:"
                 ).format(**ends)
             )
         )

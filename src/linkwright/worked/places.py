@@ -8,15 +8,7 @@ from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Group, TreeJoint
 from linkwright.equations.steps import Step
-from linkwright.equations.terms import (
-    ZERO,
-    Pair,
-    Term,
-    cosine,
-    minus,
-    sine,
-    symbol,
-)
+from linkwright.equations.terms import ZERO, Pair, Term, cosine, minus, sine, symbol
 from linkwright.groups.base import Dyad
 from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
 from linkwright.words import _

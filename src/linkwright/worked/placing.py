@@ -5,13 +5,7 @@ from __future__ import annotations
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import TreeJoint
 from linkwright.equations.steps import Step
-from linkwright.equations.terms import (
-    Pair,
-    Term,
-    cosine,
-    number,
-    sine,
-)
+from linkwright.equations.terms import Pair, Term, cosine, number, sine
 from linkwright.worked.symbols import Book, Slide, Spot
 
 

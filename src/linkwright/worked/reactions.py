@@ -94,7 +94,7 @@ class Reactions:
                         "T: tangential force of a pair. S acts along the line of centres (its direction: γ), "
                         "does no work and follows from T: it presses teeth apart, |T| tan α with the "
                         "pressure angle α, or is the pull of a belt's strands, which lie at the angle ψ to "
-                        "it.",
+                        "it."
                     )
                 )
             )
@@ -112,7 +112,7 @@ class Reactions:
                     _(
                         "The rows of the pairs hold for closed joints. So the pairs' forces T follow from "
                         "these equations, but the multipliers λ of the cut joints lack what the pairs do to "
-                        "these:",
+                        "these:"
                     )
                 )
             )
@@ -122,7 +122,7 @@ class Reactions:
                 book.say(
                     _(
                         "With the forces of the pairs among the known ones, the same equations give the "
-                        "forces at the cut joints, and nothing more for the pairs (ΔT = 0):",
+                        "forces at the cut joints, and nothing more for the pairs (ΔT = 0):"
                     )
                 )
             )
@@ -222,7 +222,7 @@ class Reactions:
             self.book.say(
                 _(
                     "How they share the load with others is not determined by rigid links; they count as "
-                    "unloaded.",
+                    "unloaded."
                 )
             )
         )

@@ -205,13 +205,13 @@ def _legend(book: Book) -> list[str]:
                 "axis and its rates; l, u, w: coordinates of a point in the axes of its link, from "
                 "the first point named to the second (l along the x axis); s, s', s'': displacement "
                 "of a block and its rates; atan2(y, x): angle of the vector (x, y) in its own "
-                "quadrant.",
+                "quadrant."
             )
         ),
         say(
             _(
                 "Every line: symbol = formula = numbers put in = result. Numbers put in have as many "
-                "digits as the result needs.",
+                "digits as the result needs."
             )
         ),
     ]

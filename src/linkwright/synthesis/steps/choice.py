@@ -20,21 +20,21 @@ APART = 0.0025
 REASONS = {
     "crank_rocker": _(
         "Candidate 1 has the largest smallest transmission angle of the family, {angle}°; the "
-        "others lie evenly over it.",
+        "others lie evenly over it."
     ),
     "drag_link": _(
         "It has the largest smallest transmission angle that was found, {angle}°, with a ratio "
-        "of links of {ratio}.",
+        "of links of {ratio}."
     ),
     "dwell": _(
         "Candidate 1 is taken for its smallest deviation during the rest; its smallest "
-        "transmission angle is {angle}°.",
+        "transmission angle is {angle}°."
     ),
     "straight_line": _("Candidate 1 is the smallest linkage that is straight enough."),
     "free_curve": _(
         "No candidate is beaten by another in error, number of links, transmission angle and "
         "size at once; the first has the smallest error, or the fewest links among those that "
-        "are good enough. Its smallest transmission angle is {angle}°.",
+        "are good enough. Its smallest transmission angle is {angle}°."
     ),
 }
 

@@ -40,7 +40,7 @@ def extreme_position_angle(w: Writer, step: Step, ratio: Term, radians: float) -
         w.say(
             _(
                 "The fast stroke takes the crank angle 180° − θ, the slow one 180° + θ, so K = (180° "
-                "+ θ)/(180° − θ), and",
+                "+ θ)/(180° − θ), and"
             )
         )
     )
@@ -85,7 +85,7 @@ def _from_ratios(w: Writer, d: SliderCrankDerivation, given: Step, terms: tuple[
         w.say(
             _(
                 "In the limit positions crank and rod lie in one line, at l + r and l − r from the "
-                "crank's pivot. With l = λ r and e = ε r the stroke is",
+                "crank's pivot. With l = λ r and e = ε r the stroke is"
             )
         )
     )
@@ -111,7 +111,7 @@ def _from_quick_return(w: Writer, d: SliderCrankDerivation, given: Step, terms: 
             _(
                 "The crank's pivot and both limit positions of the slider pin are a triangle with "
                 "the sides l + r and l − r, the angle θ between them and the side H opposite, at the "
-                "height e. Its area and the law of cosines give",
+                "height e. Its area and the law of cosines give"
             )
         )
     )
@@ -135,7 +135,7 @@ def _from_transmission(w: Writer, d: SliderCrankDerivation, given: Step, terms: 
         w.say(
             _(
                 "The transmission angle is smallest where the crank is perpendicular to the guide on "
-                "the side away from it: cos μ_min = (r + e)/l.",
+                "the side away from it: cos μ_min = (r + e)/l."
             )
         )
     )
@@ -158,7 +158,7 @@ def _slider_check(w: Writer, lengths: tuple[Term, Term, Term]) -> None:
         w.say(
             _(
                 "Limit positions of the slider pin along the guide, from the foot of the crank's "
-                "pivot; the stroke is their distance:",
+                "pivot; the stroke is their distance:"
             )
         )
     )
@@ -186,7 +186,7 @@ def _slider_check(w: Writer, lengths: tuple[Term, Term, Term]) -> None:
         w.say(
             _(
                 "Smallest transmission angle of the slow (s) and of the fast (f) stroke, with the "
-                "crank perpendicular to the guide on the guide's side and on the other one:",
+                "crank perpendicular to the guide on the guide's side and on the other one:"
             )
             if not e.is_zero
             else _("Smallest transmission angle, with the crank perpendicular to the guide:")
@@ -215,7 +215,7 @@ def quick_return(w: Writer, d: QuickReturnDerivation) -> None:
         w.say(
             _(
                 "In the limit positions the lever is tangent to the circle of the crank pin; the "
-                "lever swings by θ:",
+                "lever swings by θ:"
             )
         )
     )
@@ -240,7 +240,7 @@ def _ram(w: Writer, d: QuickReturnDerivation, step: Step, theta: Term, stroke: T
         w.say(
             _(
                 "The guide halves the sagitta s of that arc, so that the rod is inclined equally to "
-                "both sides. Distance y of the guide from the lever's pivot, and the sagitta:",
+                "both sides. Distance y of the guide from the lever's pivot, and the sagitta:"
             )
         )
     )
@@ -249,10 +249,7 @@ def _ram(w: Writer, d: QuickReturnDerivation, step: Step, theta: Term, stroke: T
     height = step.find(w.length("s", sagitta.value / w.scale), sagitta, w.unit)
     step.say(
         w.say(
-            _(
-                "With the rod l (as demanded, else at least half the arm) the ram's largest pressure "
-                "angle is",
-            )
+            _("With the rod l (as demanded, else at least half the arm) the ram's largest pressure angle is")
         )
     )
     rod = step.give(w.length("l", d.rod), w.unit)
@@ -271,7 +268,7 @@ def toggle(w: Writer, d: ToggleDerivation) -> None:
         w.say(
             _(
                 "Virtual work of the force F on the knee and P on the slider: P/F = 1/(2 tan α), so "
-                "at the ratio n",
+                "at the ratio n"
             )
         )
     )

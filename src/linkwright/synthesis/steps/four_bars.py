@@ -53,11 +53,7 @@ def grashof(w: Writer, step: Step, sides: tuple[Term, ...], each: Candidate) -> 
     """Sum of the shortest and the longest link against that of the others."""
     low, *middle, high = sorted(sides, key=lambda term: term.amount)
     step.say(
-        w.say(
-            _(
-                "Shortest and longest link, and the other two (a input, b coupler, c output, d frame):",
-            )
-        )
+        w.say(_("Shortest and longest link, and the other two (a input, b coupler, c output, d frame):"))
     )
     for index, (first, second) in enumerate(((low, high), tuple(middle)), 1):
         total = first + second
@@ -84,11 +80,7 @@ def transmission(w: Writer, step: Step, sides: tuple[Term, ...]) -> None:
     """Transmission angles where the input lies along the frame: the smallest is one of them."""
     a, b, c, d = sides
     step.say(
-        w.say(
-            _(
-                "The angle between coupler and output is extreme where the input lies along the frame:",
-            )
-        )
+        w.say(_("The angle between coupler and output is extreme where the input lies along the frame:"))
     )
     for index, apart in (("1", d - a), ("2", d + a)):
         cosine = (b.squared + c.squared - apart.squared) / (TWO * b * c)
@@ -124,7 +116,7 @@ def branches(w: Writer, step: Step, each: Candidate) -> None:
         w.say(
             _(
                 "Input angle θ and transmission angle μ with the sign of its side; the link lengths "
-                "from the coordinates:",
+                "from the coordinates:"
             )
         )
     )
@@ -139,12 +131,10 @@ def branches(w: Writer, step: Step, each: Candidate) -> None:
     w.table(step, _("Transmission angle with its sign, and link lengths in every position"), columns)
     step.say(
         w.say(
-            _(
-                "μ keeps its sign and θ runs one way: all positions lie on one branch, in their order.",
-            )
+            _("μ keeps its sign and θ runs one way: all positions lie on one branch, in their order.")
             if not each.defects
             else _(
-                "The positions do not lie on one branch in their order: see the defects of the candidates.",
+                "The positions do not lie on one branch in their order: see the defects of the candidates."
             )
         )
     )

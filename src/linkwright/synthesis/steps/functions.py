@@ -23,7 +23,6 @@ from linkwright.synthesis.steps.writing import (
     Writer,
     decimals,
     degrees,
-    entries,
     matrix,
     numbers,
     product,
@@ -130,22 +129,23 @@ def _solved(w: Writer, d: FunctionDerivation) -> None:
     """The system of equations as matrices, with symbols and with numbers, and its solution."""
     equation = d.equation
     assert equation is not None
-    unknown, count = entries([each] for each in P), len(equation.phi)
+    unknown, count = Entries.of(P), len(equation.phi)
     step = w.step(_("System of equations and its solution"))
     if count <= ALL_ROWS:
-        rows = [[f"cos ψ_{i}", f"cos γ_{i}", "1"] for i in range(1, count + 1)]
-        product(step, entries(rows), unknown, "=", entries([f"cos φ_{i}"] for i in range(1, count + 1)))
+        rows = [(f"cos ψ_{i}", f"cos γ_{i}", "1") for i in range(1, count + 1)]
+        right = Entries.of([f"cos φ_{i}" for i in range(1, count + 1)])
+        product(step, Entries(tuple(rows)), unknown, "=", right)
         product(step, matrix(equation.rows), unknown, "=", matrix(equation.right))
     if d.method == "equation" and count > 3:
         step.say(
             w.say(
                 _(
                     "There are more pairs than unknowns, so the sum of the squared residuals is made "
-                    "smallest. Normal equations, with sums over all pairs:",
+                    "smallest. Normal equations, with sums over all pairs:"
                 )
             )
         )
-        product(step, _sums(count), unknown, "=", entries([each] for each in _sums_right()))
+        product(step, _sums(count), unknown, "=", Entries.of(_sums_right()))
         product(step, matrix(equation.normal), unknown, "=", matrix(equation.moment))
     step.say(
         w.say(
@@ -170,8 +170,8 @@ def _sum(*names: str) -> str:
 
 def _sums(count: int) -> Entries:
     names = ("ψ", "γ")
-    rows = [[_sum(first, second) for second in names] + [_sum(first)] for first in names]
-    return entries([*rows, [*(_sum(name) for name in names), str(count)]])
+    rows = [(*(_sum(first, second) for second in names), _sum(first)) for first in names]
+    return Entries((*rows, (*map(_sum, names), str(count))))
 
 
 def _sums_right() -> list[str]:
@@ -212,7 +212,7 @@ def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
             _(
                 "Four pairs agree for three unknowns where the determinant of the four equations "
                 "vanishes. In the free zero angle ζ it is D(ζ) = k_0 + k_1 cos ζ + k_2 sin ζ + k_3 "
-                "cos 2ζ + k_4 sin 2ζ with",
+                "cos 2ζ + k_4 sin 2ζ with"
             )
         )
     )
@@ -226,9 +226,7 @@ def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
         fixed = w.angle("ζ", d.zeros[0], "φ")
         step.say(
             w.say(
-                _(
-                    "The input's zero angle is free as well and was tried at evenly spaced values; taken was",
-                )
+                _("The input's zero angle is free as well and was tried at evenly spaced values; taken was")
             )
         )
         step.give(fixed, "°")
@@ -269,11 +267,7 @@ def _lengths(w: Writer, d: FunctionDerivation) -> tuple[Term, Term, Term, Term]:
 
 def _coefficients(sides: tuple[Term, Term, Term, Term]) -> tuple[Term, Term, Term]:
     a, b, c, frame = sides
-    return (
-        c / a,
-        -(c / frame),
-        (a.squared + c.squared + frame.squared - b.squared) / (TWO * a * frame),
-    )
+    return (c / a, -(c / frame), (a.squared + c.squared + frame.squared - b.squared) / (TWO * a * frame))
 
 
 # errors -----------------------------------------------------------------------------------------
@@ -322,11 +316,7 @@ def _errors(w: Writer, d: FunctionDerivation) -> None:
     places = w.found.error_name == "length"
     if d.method == "search":
         step.say(
-            w.say(
-                _(
-                    "Coordinates of the moving points at every pair, from which the output can be measured:",
-                )
-            )
+            w.say(_("Coordinates of the moving points at every pair, from which the output can be measured:"))
         )
         moving = [name for name in best.positions if name not in best.linkage.frame]
         columns = [(w.say(_("pair")), numbers(len(d.inputs))), *coordinates(w, best, moving)]

@@ -40,7 +40,7 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
         w.say(
             _(
                 "The limit positions B1 and B2 of the rocker pin lie symmetrically about the y axis, "
-                "the rocker's pivot at the origin; their chord is",
+                "the rocker's pivot at the origin; their chord is"
             )
         )
     )
@@ -53,7 +53,7 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
             w.say(
                 _(
                     "With K = 1 the angle θ is zero: crank and coupler have the same direction in both "
-                    "limit positions, and the crank's pivot lies on the line B1 B2.",
+                    "limit positions, and the crank's pivot lies on the line B1 B2."
                 )
             )
         )
@@ -62,7 +62,7 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
         w.say(
             _(
                 "From every point of a circle over this chord, B1 and B2 are seen under the angle θ "
-                "(inscribed angle); its radius is",
+                "(inscribed angle); its radius is"
             )
         )
     )
@@ -111,7 +111,7 @@ def _limits_again(w: Writer, sides: tuple[Term, Term, Term, Term]) -> None:
         w.say(
             _(
                 "The law of cosines with b + a and b − a gives the rocker's and the crank's angle in "
-                "both limit positions; their differences are ψ and θ:",
+                "both limit positions; their differences are ψ and θ:"
             )
         )
     )
@@ -143,7 +143,7 @@ def drag_link(w: Writer, d: DragLinkDerivation) -> None:
         w.say(
             _(
                 "While the follower makes its slow half turn between the ends of the stroke, the "
-                "driver turns by",
+                "driver turns by"
             )
         )
     )
@@ -183,7 +183,7 @@ def _drag_lengths(w: Writer, step: Step, given: tuple[Term, ...]) -> None:
         w.say(
             _(
                 "The coupler has the same length at both ends; equating both gives the driver's "
-                "length, and each end gives the coupler:",
+                "length, and each end gives the coupler:"
             )
         )
     )

@@ -12,21 +12,13 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Complexes
+from linkwright.equations.matrix import Entries
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import Term, root, symbol
 from linkwright.synthesis.motion_generation.families import POWERS
 from linkwright.synthesis.motion_generation.generate import MotionDerivation
 from linkwright.synthesis.steps.four_bars import coordinates, examine
-from linkwright.synthesis.steps.writing import (
-    Writer,
-    decimals,
-    degrees,
-    entries,
-    matrix,
-    numbers,
-    product,
-    small,
-)
+from linkwright.synthesis.steps.writing import Writer, decimals, degrees, matrix, numbers, product, small
 from linkwright.words import _, pgettext
 
 #: Most poses of which every pole is printed.
@@ -85,7 +77,7 @@ def _poles(w: Writer, d: MotionDerivation) -> None:
             _(
                 "A body that goes from pose j to pose k turns about the pole P_jk, the point that "
                 "has the same place in both. Pins and pivots are seen from the poles under half "
-                "these turns:",
+                "these turns:"
             )
         )
     )
@@ -162,7 +154,7 @@ def _points(w: Writer, d: MotionDerivation) -> None:
             _(
                 "Five poses: the condition of a circle is linear in seven products of point and "
                 "centre; two quadratic relations between these leave four solutions. A is the pin in "
-                "pose 1, O the centre of its circle:",
+                "pose 1, O the centre of its circle:"
             )
         )
     )
@@ -220,7 +212,7 @@ def _centre(w: Writer, step: Step, positions: Complexes, names: tuple[str, str])
             )
         )
         known = matrix(np.stack([rows.real, rows.imag], 1), 4)
-        product(step, known, entries([each] for each in unknown), "=", matrix(right, 4))
+        product(step, known, Entries.of(unknown), "=", matrix(right, 4))
     else:
         step.say(
             w.say(

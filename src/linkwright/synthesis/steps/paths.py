@@ -45,7 +45,7 @@ def path(w: Writer, d: PathDerivation) -> None:
             _(
                 "P = O1 + a e^(iθ) + p e^(iδ) with the crank a and the vector p on the coupler. For "
                 "given ratios of the lengths and crank angles the place, size and direction of the "
-                "linkage follow from linear least squares; only ratios and angles are iterated.",
+                "linkage follow from linear least squares; only ratios and angles are iterated."
             )
         )
     )
@@ -137,7 +137,7 @@ def nine_points(w: Writer, d: NinePointDerivation) -> None:
         w.say(
             _(
                 "P lies at the nine points; the lengths |O1A|, |AB| and |O2B| from these coordinates "
-                "are the same in all of them:",
+                "are the same in all of them:"
             )
         )
     )
@@ -166,7 +166,7 @@ def straight_line(w: Writer, d: StraightLineDerivation) -> None:
                 _(
                     "Peaucellier's linkage: arms L, rhombus s and crank r equal to the frame keep P at "
                     "the distance (L² − s²)/(2 r) from the arms' pivot, on a straight line. Its lengths "
-                    "are in the last table.",
+                    "are in the last table."
                 )
                 if kind == "peaucellier"
                 else _("{kind}'s proportions, with the unit m that makes the stretch as long as demanded:")
@@ -196,7 +196,7 @@ def _along(w: Writer, places: np.ndarray, off: np.ndarray) -> None:
         w.say(
             _(
                 "The drawing point along the stretch, and its distance from the line through the "
-                "first of these points:",
+                "first of these points:"
             )
         )
     )
@@ -235,7 +235,7 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
         w.say(
             _(
                 "While P runs along this arc, a link of the length ρ keeps its other end Q in the "
-                "centre C, and the output rests:",
+                "centre C, and the output rests:"
             )
         )
     )
@@ -281,7 +281,7 @@ def free_curve(w: Writer, d: FreeCurveDerivation) -> None:
         w.say(
             _(
                 "Error: mean nearest distance from the curve to the drawn curve, plus that back, "
-                "divided by R. Centroid and R of both curves are the same.",
+                "divided by R. Centroid and R of both curves are the same."
             )
         )
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import field
 
 import numpy as np
@@ -127,12 +127,7 @@ def matrix(values: ArrayLike, places: int = 6) -> Entries:
     """A matrix of numbers; a vector is a column."""
     rows = np.asarray(values, float)
     rows = rows[:, None] if rows.ndim == 1 else rows
-    return entries(decimals(row, places) for row in rows)
-
-
-def entries(rows: Iterable[Iterable[str]]) -> Entries:
-    """A matrix of symbols."""
-    return Entries(tuple(map(tuple, rows)))
+    return Entries(tuple(tuple(decimals(row, places)) for row in rows))
 
 
 def product(step: Step, *parts: Entries | str) -> None:
