@@ -13,10 +13,12 @@ from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.table import Column
 from linkwright.export.results import Results
+from linkwright.export.tables import QUANTITIES
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.pictures.diagram import COLOURS
 from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_outputs
-from linkwright.words import _, say
+from linkwright.plot.diagrams.titles import TITLES
+from linkwright.words import Message, _
 from linkwright.words.characters import printable
 
 #: Pixels of a chart over the input and of a square one, and between them.
@@ -27,6 +29,8 @@ MOST = 12
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 #: Angles between labels over a turn, degrees.
 _TURN_STEPS = (15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0)
+#: Titles of vectors with two components.
+VECTORS = {"position": _("position"), "velocity": _("velocity"), "acceleration": _("acceleration")}
 
 
 @dataclass(frozen=True)
@@ -76,9 +80,9 @@ class Charts:
         rows = [*self._motion(), self._reactions(), [*self._efforts(), *self._hodograph()]]
         return [row for row in rows if row]
 
-    def say(self, key: str, **values: object) -> str:
-        """A word of the catalogue."""
-        return say(key, self.language, **values)
+    def say(self, message: Message) -> str:
+        """A message in the language of the results."""
+        return message.translate(self.language)
 
     @property
     def _input(self) -> Place:
@@ -110,9 +114,9 @@ class Charts:
         places = [each for each in found if each is not None]
         if not places:
             return None
-        words = [self.say(f"export.quantity.{each.column.quantity}") for each in places]
+        words = [self.say(QUANTITIES[each.column.quantity]) for each in places]
         curves = tuple(Curve(word, self._input, each) for word, each in zip(words, places, strict=True))
-        word = words[0] if len(words) == 1 else self.say(f"plot.{quantities[0].partition('.')[0]}")
+        word = words[0] if len(words) == 1 else self.say(VECTORS[quantities[0].partition(".")[0]])
         return Chart(f"{name}: {word}", self._input_title, f"{word} [{places[0].column.unit}]", curves)
 
     def _reactions(self) -> list[Chart]:
@@ -126,7 +130,7 @@ class Charts:
                 name = f"{joint} on {link}"
                 curves.append(Curve(name, self._input, self.places["forces", name, "magnitude"]))
         parts = [tuple(curves[k : k + MOST]) for k in range(0, len(curves), MOST)]
-        axis = f"{self.say('export.quantity.magnitude')} [N]"
+        axis = f"{self.say(QUANTITIES['magnitude'])} [N]"
         return [Chart(word, self._input_title, axis, part) for part in parts]
 
     def _efforts(self) -> Iterator[Chart]:
@@ -138,7 +142,7 @@ class Charts:
                 by_unit.setdefault(place.column.unit, []).append(Curve(name, self._input, place))
         for unit, curves in by_unit.items():
             word = self.say(_("what the driver must supply"))
-            axis = f"{self.say('export.quantity.effort')} [{unit}]"
+            axis = f"{self.say(QUANTITIES['effort'])} [{unit}]"
             yield Chart(word, self._input_title, axis, tuple(curves[:MOST]))
 
     def _hodograph(self) -> Iterator[Chart]:
@@ -151,10 +155,8 @@ class Charts:
         if ("forces", name, "x") not in self.places:
             return
         x, y = (self.places["forces", name, axis] for axis in "xy")
-        right, up = (f"{self.say(f'export.quantity.{axis}')} [N]" for axis in "xy")
-        yield Chart(
-            f"{self.say('plot.kind.hodograph')}, {name}", right, up, (Curve(name, x, y),), square=True
-        )
+        right, up = (f"{self.say(QUANTITIES[axis])} [N]" for axis in "xy")
+        yield Chart(f"{self.say(TITLES['hodograph'])}, {name}", right, up, (Curve(name, x, y),), square=True)
 
 
 def write_charts(sheet: Any, book: Any, rows: Sequence[Sequence[Chart]]) -> None:

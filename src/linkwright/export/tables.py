@@ -12,6 +12,7 @@ from linkwright.core.outputs import KINDS, NAMED
 from linkwright.core.table import Column
 from linkwright.export.results import Results
 from linkwright.kinetostatics.table import results_of
+from linkwright.words import _, pgettext
 
 #: Rates of a coordinate, by the unit of the coordinate.
 UNITS = {"rad": ("rad", "rad/s", "rad/s²"), "m": ("m", "m/s", "m/s²")}
@@ -19,6 +20,43 @@ SUBJECTS = ("positions", "links", "points", "joints", "forces", "loads", "output
 #: The table of outputs by what they belong to, and by their kind; those of guides stand among all joints.
 OF_OWNER = {"motion": "positions", "link": "links", "point": "points", "joint": "forces", "machine": "forces"}
 OF_KIND = {"input": "positions", "effort": "forces", **dict.fromkeys(NAMED, "outputs")}
+#: Quantities of columns in words.
+QUANTITIES = {
+    "time": _("time"),
+    "angle": _("angle"),
+    "angular_velocity": _("angular velocity"),
+    "angular_acceleration": _("angular acceleration"),
+    "position.x": _("position x"),
+    "position.y": _("position y"),
+    "velocity.x": _("velocity x"),
+    "velocity.y": _("velocity y"),
+    "acceleration.x": _("acceleration x"),
+    "acceleration.y": _("acceleration y"),
+    "displacement": _("displacement"),
+    "velocity": _("velocity"),
+    "acceleration": _("acceleration"),
+    "relative_angle": _("relative angle"),
+    "relative_velocity": _("relative angular velocity"),
+    "relative_acceleration": _("relative angular acceleration"),
+    "rate": _("rate"),
+    "second_rate": _("second rate"),
+    "effort": _("driver effort"),
+    "x": _("force x"),
+    "y": _("force y"),
+    "magnitude": _("force"),
+    "direction": _("direction of the force"),
+    "couple": pgettext("export", "couple"),
+    "shaking_force": _("shaking force"),
+    "shaking_moment": _("shaking moment"),
+    "power_residual": _("power residual"),
+    "balance_residual": _("balance residual"),
+    "force.x": _("force x"),
+    "force.y": _("force y"),
+    "force.magnitude": _("force"),
+    "moment": _("moment about the origin"),
+    "place.x": _("acts at x"),
+    "place.y": _("acts at y"),
+}
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from linkwright.plot.diagrams.scaled_page import SHARES, SHORT, corners, end_to_
 from linkwright.plot.free_bodies.actions import Action
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.sheets.positions import Positions, Shown
-from linkwright.words import _
+from linkwright.words import Message, _
 
 #: Letters at the ends of parts of an acceleration.
 ENDS = {"normal": "n", "coriolis": "k"}
@@ -67,6 +67,8 @@ class MotionPolygonPanel(ScaledPanel):
 
     prime: ClassVar[str] = ""
     word: ClassVar[str]
+    title: ClassVar[Message]
+    title_at: ClassVar[Message]
 
     def __init__(self, name: str, rank: float, positions: Positions, shown: Shown) -> None:
         super().__init__(name, rank, positions, shown)
@@ -91,8 +93,8 @@ class MotionPolygonPanel(ScaledPanel):
     def caption(self) -> str:
         positions = self.positions
         if len(positions.shown) < 2:
-            return positions.subject.words(f"caption_{self.word}")
-        return positions.subject.words(f"caption_{self.word}_at", number=self.shown.number)
+            return positions.subject.words(self.title)
+        return positions.subject.words(self.title_at.format(number=self.shown.number))
 
     def picture(self, scale: float) -> Picture:
         found = Picture()
@@ -142,6 +144,8 @@ class VelocityPanel(MotionPolygonPanel):
     """The velocity polygon of a position."""
 
     symbol, unit, word = "v", "(m/s)", "velocity"
+    title = _("Velocity polygon")
+    title_at = _("Velocity polygon, position {number}")
 
     def made(self) -> MotionPolygon:
         return velocity_polygon(self.positions.motion, self.shown.index)
@@ -151,6 +155,8 @@ class AccelerationPanel(MotionPolygonPanel):
     """The acceleration polygon of a position."""
 
     symbol, unit, word, prime = "a", "(m/s²)", "acceleration", "′"
+    title = _("Acceleration polygon")
+    title_at = _("Acceleration polygon, position {number}")
 
     def made(self) -> MotionPolygon:
         return acceleration_polygon(self.positions.motion, self.shown.index)

@@ -20,6 +20,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.report.machine_results import Case
 from linkwright.report.settings import settings as report_settings
 from linkwright.sheets.settings import Subject, places
+from linkwright.words import _
 
 #: Numbered positions of the crank, and the most positions that are worked out.
 NUMBERED, MOST = 12, 2
@@ -99,17 +100,22 @@ class Positions:
     @cached_property
     def shown(self) -> list[Shown]:
         """The positions that are worked out; those that are not reached are noted and left out."""
-        motion, rows, _ = self._passing
+        motion, rows, _limits = self._passing
         for row in rows:
             if not motion.ok[row]:
-                self.subject.note("not_reached", sentence=motion.outcomes[row].sentence)
+                self.subject.note(
+                    _(
+                        "A position of the sheet is not reached: {sentence}",
+                        sentence=motion.outcomes[row].sentence,
+                    )
+                )
         reached = [row for row in dict.fromkeys(rows) if motion.ok[row]]
         return [Shown(number, row) for number, row in zip(ROMAN, reached, strict=False)]
 
     @property
     def limits(self) -> list[int]:
         """Rows of the limit positions of the last output."""
-        motion, _, rows = self._passing
+        motion, _positions, rows = self._passing
         return [row for row in rows if motion.ok[row]]
 
     @cached_property
@@ -120,7 +126,7 @@ class Positions:
         try:
             return solve_forces(self.motion)
         except LinkwrightError as error:
-            self.subject.note("no_forces", sentence=error.sentence)
+            self.subject.note(_("No forces on the sheet: {sentence}", sentence=error.sentence))
             return None
 
     def place(self, shown: Shown) -> str:

@@ -24,7 +24,6 @@ from linkwright.sheets.panel import Panel
 from linkwright.sheets.paper import Paper, Standard
 from linkwright.sheets.title_block import Fields
 from linkwright.words import Message, Say, _
-from linkwright.words.sentence import Sentence
 
 
 @dataclass(frozen=True)
@@ -41,13 +40,13 @@ class Subject:
     of: str = ""
     notes: list[str] = field(default_factory=list)
 
-    def note(self, key: str, **values: object) -> None:
-        """Notes what the sheet lacks: a sentence of the area ``sheet``."""
-        self.notes.append(Sentence(f"sheet.{key}", **values).say(self.language))
+    def note(self, message: Message) -> None:
+        """Notes what the sheet lacks."""
+        self.notes.append(message.translate(self.language))
 
-    def words(self, key: str, **values: object) -> str:
-        """A text of the area ``sheet``."""
-        return self.say(key if isinstance(key, Message) else f"sheet.{key}", **values)
+    def words(self, message: Message) -> str:
+        """A text on the sheet."""
+        return self.say(message)
 
 
 @dataclass(frozen=True)

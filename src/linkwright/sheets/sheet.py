@@ -30,6 +30,8 @@ from linkwright.words.titles import title_said
 #: Size of a kind of sheet where none is asked for, if it is not A1.
 USUAL = {"cam": "A2"}
 ENDINGS = (".pdf", ".svg", ".dxf")
+#: What is drawn, for the title block.
+DRAWINGS = {"mechanism": _("Kinematic and force analysis"), "cam": _("Cam")}
 
 
 @dataclass(frozen=True)
@@ -204,7 +206,14 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
     free = [key for key in panels if key not in fixed]
     layout = laid_out(free, {key: panels[key].rank for key in free}, draw, room.without(*fixed.values()))
     if layout.left_out:
-        subject.note("no_room", size=paper.size, names=layout.left_out)
+        subject.note(
+            _(
+                "{size} has no room for: {names}. Take a larger size, or leave other panels out with "
+                "`leave_out`.",
+                size=paper.size,
+                names=layout.left_out,
+            )
+        )
     places = {**fixed, **layout.places}
     picture = frame(paper, zones=wanted.zones, block=corner)
     picture.add(control_bar(subject.say), (bar.left, bar.bottom))
@@ -220,7 +229,7 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
 
 def _block(subject: Subject, kind: str, scale: str) -> TitleBlock:
     given, say = subject.settings.fields, subject.say
-    fields = replace(given, drawing=given.drawing or say(f"sheet.drawing_{kind}"), scale=scale)
+    fields = replace(given, drawing=given.drawing or say(DRAWINGS[kind]), scale=scale)
     if subject.settings.block == "short":
         return school_block(fields, say)
     return (gb_block if subject.settings.paper.standard == "gb" else iso_block)(fields, say)

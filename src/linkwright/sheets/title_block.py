@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from linkwright.core.dataclass import dataclass
 from linkwright.pictures.picture import LEAST, TEXT, Box, Picture, as_runs, runs_width
 from linkwright.pictures.svg.fonts import needs_chinese
-from linkwright.words import Say, _
+from linkwright.words import Say, _, pgettext
 
 #: Least width of letters as a share of their own.
 NARROWEST = 0.62
@@ -125,30 +125,30 @@ def gb_block(given: Fields, say: Say) -> TitleBlock:
 
 
 def _gb_changes(say: Say) -> Iterator[Cell]:
-    heads = ("mark", "places", "zone", "change_file", "signature", "day")
+    heads = (_("Mark"), pgettext("sheet", "No."), _("Zone"), _("Change"), _("Signed"), _("Date"))
     x = 0.0
     for width, head in zip((10, 10, 16, 16, 12, 16), heads, strict=True):
         for row in range(3):
             yield Cell(x, 7.0 * row, width, 7.0)
-        yield Cell(x, 21.0, width, 7.0, say(f"sheet.block.{head}"), 3.5 if width > 10 else 2.5)
+        yield Cell(x, 21.0, width, 7.0, say(head), 3.5 if width > 10 else 2.5)
         x += width
     yield Cell(0, 0, 80, 28, thick=True)
 
 
 def _gb_signatures(given: Fields, say: Say) -> Iterator[Cell]:
     people = (
-        ("designed", given.student, given.date if given.student else ""),
-        ("adviser", given.adviser, ""),
-        ("checked", given.checker, ""),
-        ("process", "", ""),
+        (_("Drawn"), given.student, given.date if given.student else ""),
+        (pgettext("sheet", "Adviser"), given.adviser, ""),
+        (_("Checked"), given.checker, ""),
+        (_("Process"), "", ""),
     )
-    others = ("standardised", "", "", "approved")
+    others = (_("Stand."), None, None, _("Appr."))
     for row, (head, name, date) in enumerate(people):
         y = 28.0 + 7.0 * row
-        yield Cell(0, y, 12, 7, say(f"sheet.block.{head}"), 3.5)
+        yield Cell(0, y, 12, 7, say(head), 3.5)
         yield Cell(12, y, 12, 7, name, 3.5)
         yield Cell(24, y, 16, 7, date, 3.5)
-        yield Cell(40, y, 12, 7, say(f"sheet.block.{others[row]}") if others[row] else "", 3.5)
+        yield Cell(40, y, 12, 7, say(other) if (other := others[row]) else "", 3.5)
         yield Cell(52, y, 12, 7)
         yield Cell(64, y, 16, 7)
     yield Cell(0, 28, 80, 28, thick=True)
@@ -179,22 +179,22 @@ def school_block(given: Fields, say: Say) -> TitleBlock:
     """140 × 40 mm: drawing, scale, number, class, persons, title of the task, school, sheet of sheets."""
     cells = [Cell(0, 0, 60, 16, given.drawing, 7.0)]
     right = (
-        ("scale", given.scale, "number", given.number),
-        ("class", given.class_name, "student_number", given.student_number),
+        (_("Scale"), given.scale, pgettext("sheet.block.number", "No."), given.number),
+        (_("Class"), given.class_name, _("Id. no."), given.student_number),
     )
     for row, (head, text, other, value) in enumerate(right):
         y = 8.0 * row
-        cells += [Cell(60, y, 15, 8, say(f"sheet.block.{head}")), Cell(75, y, 25, 8, text)]
-        cells += [Cell(100, y, 15, 8, say(f"sheet.block.{other}")), Cell(115, y, 25, 8, value)]
+        cells += [Cell(60, y, 15, 8, say(head)), Cell(75, y, 25, 8, text)]
+        cells += [Cell(100, y, 15, 8, say(other)), Cell(115, y, 25, 8, value)]
     people = (
-        ("designed", given.student, given.date),
-        ("adviser", given.adviser, ""),
-        ("checked", given.checker, ""),
+        (_("Drawn"), given.student, given.date),
+        (pgettext("sheet", "Adviser"), given.adviser, ""),
+        (_("Checked"), given.checker, ""),
     )
     for row, (head, name, date) in enumerate(people):
         y = 16.0 + 8.0 * row
         cells += [
-            Cell(0, y, 18, 8, say(f"sheet.block.{head}")),
+            Cell(0, y, 18, 8, say(head)),
             Cell(18, y, 22, 8, name),
             Cell(40, y, 20, 8, date),
         ]
@@ -209,27 +209,24 @@ def school_block(given: Fields, say: Say) -> TitleBlock:
 def iso_block(given: Fields, say: Say) -> TitleBlock:
     """180 × 40 mm with the fields of ISO 7200, and the scale."""
 
-    def head(key: str) -> str:
-        return say(f"sheet.block.{key}")
-
     top = (
-        (head("department"), _joined(given.faculty, given.class_name)),
-        (head("reference"), given.student_number),
-        (head("created"), given.student),
-        (head("approved_by"), _joined(given.adviser, given.checker)),
+        (say(_("Responsible dept.")), _joined(given.faculty, given.class_name)),
+        (say(_("Technical reference")), given.student_number),
+        (say(_("Created by")), given.student),
+        (say(_("Approved by")), _joined(given.adviser, given.checker)),
     )
     cells = [Cell(45.0 * k, 0, 45, 10, text, 3.5, name) for k, (name, text) in enumerate(top)]
     cells += [
-        Cell(0, 10, 72, 20, given.school, 5.0, head("owner")),
-        Cell(72, 10, 108, 20, f"{given.title}\n{given.drawing}", 5.0, head("title")),
+        Cell(0, 10, 72, 20, given.school, 5.0, say(_("Legal owner"))),
+        Cell(72, 10, 108, 20, f"{given.title}\n{given.drawing}", 5.0, say(_("Title, supplementary title"))),
     ]
     bottom = (
-        (40.0, head("kind"), head("kind_value")),
-        (46.0, head("identification"), given.number),
-        (28.0, head("date"), given.date),
-        (24.0, head("scale"), given.scale),
-        (16.0, head("language"), head("language_value")),
-        (26.0, head("sheet"), f"{given.sheet}/{given.sheets}"),
+        (40.0, say(_("Document type")), say(pgettext("sheet", "Kinematic drawing"))),
+        (46.0, say(_("Identification number")), given.number),
+        (28.0, say(_("Date of issue")), given.date),
+        (24.0, say(_("Scale")), given.scale),
+        (16.0, say(_("Lang.")), say(_("en"))),
+        (26.0, say(_("Sheet")), f"{given.sheet}/{given.sheets}"),
     )
     x = 0.0
     for width, name, text in bottom:

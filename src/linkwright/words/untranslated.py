@@ -17,7 +17,6 @@ linkwright optimize gallery:jaw_crusher_sixbar --vary pitman.length=1.1..1.4m to
     --minimize peak_input_torque --keep "jaw.angle range=same within 1 %"
 linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot front.svg --state front.state""",
     "page.where": "{name} = {value}",
-    "plot.step": "{dimension} + {step}",
     "program.examples": """\
 linkwright program gallery:production_mix
 linkwright program gallery:lightest_spring --worked
@@ -34,7 +33,6 @@ linkwright statistics gallery:shaft_diameters
 linkwright statistics gallery:spring_rate --plot rate.svg
 linkwright statistics gallery:shaft_diameters --worked --lang zh""",
     "statistics.sigma": "σ",
-    "structure_text.willis": "  (n_{wheel} - n_{carrier}) / (n_{first} - n_{carrier}) = {ratio}",
     "studio.examples": "linkwright studio\nlinkwright studio crusher.yaml",
     "studio.demand_hint": "at least 40 deg",
     "study.examples": """\

@@ -16,7 +16,7 @@ from linkwright.plot import plot
 from linkwright.plot.diagrams.axes import round_up, significant, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS
 from linkwright.plot.diagrams.outputs import main_output
-from linkwright.words import catalogue
+from linkwright.plot.diagrams.titles import TITLES
 
 CRUSHER = store.machine("jaw_crusher_sixbar")
 
@@ -35,9 +35,7 @@ def test_without_a_chinese_font_a_sentence_says_what_to_install(monkeypatch: pyt
 
 
 def test_every_kind_has_its_words() -> None:
-    assert {f"kind.{name}" for name in every([*DIAGRAMS, *RESULT_DIAGRAMS], least=20)} <= set(
-        catalogue("plot")
-    )
+    assert set(every([*DIAGRAMS, *RESULT_DIAGRAMS], least=20)) <= set(TITLES)
 
 
 def test_numbers_and_units() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,15 +16,45 @@ from linkwright.errors import RequestError
 from linkwright.export.charts import Charts, Place, write_charts
 from linkwright.export.export import FORMATS, Format, package
 from linkwright.export.results import Results
-from linkwright.export.tables import Subject, tables
+from linkwright.export.tables import QUANTITIES, Subject, tables
 from linkwright.metrics.base import METRICS
 from linkwright.units import NONE, si_symbol
-from linkwright.words import Message, _, say
+from linkwright.words import Message, _, pgettext
 from linkwright.words.characters import printable
 
 LONGEST_TEXT = 32767
 MOST_ROWS, MOST_COLUMNS = 1_048_575, 16_384
 #: Words over the columns of sheets that are no values over the positions, with the columns' widths.
+#: Titles of sheets, and heads of their columns.
+SHEETS = {
+    "model": _("Model"),
+    "structure": _("Structure"),
+    "links": _("Links"),
+    "points": _("Points"),
+    "joints": _("Joints"),
+    "forces": _("Forces"),
+    "loads": _("Loads"),
+    "outputs": _("Outputs"),
+    "charts": _("Charts"),
+    "metrics": _("Metrics"),
+}
+HEADS = {
+    "item": _("item"),
+    "value": pgettext("export", "value"),
+    "unit": _("unit"),
+    "number": _("no."),
+    "group": _("group"),
+    "links": _("links"),
+    "class": _("class"),
+    "order": _("order"),
+    "drivers": pgettext("export", "drivers"),
+    "joints": _("joints"),
+    "metric": _("design number"),
+    "subject": _("of"),
+    "at": _("at input"),
+    "at_unit": _("unit"),
+    "remark": _("remark"),
+}
 _MODEL = {"item": 28, "value": 60, "unit": 12}
 _GROUPS = {"number": 8, "group": 14, "links": 32, "class": 8, "order": 8, "drivers": 20, "joints": 40}
 _METRICS = {"metric": 34, "subject": 24, "value": 14, "unit": 8, "at": 12, "at_unit": 8, "remark": 60}
@@ -81,24 +111,22 @@ class Workbook:
         if numbers:
             self._rows("metrics", _METRICS, numbers)
 
-    def say(self, key: str) -> str:
-        """A word of the catalogue."""
-        return say(key if isinstance(key, Message) else f"export.{key}", self.results.language)
+    def say(self, message: Message) -> str:
+        """A message in the language of the results."""
+        return message.translate(self.results.language)
 
     def _turned(self, columns: Sequence[Column]) -> list[Column]:
         return [column.in_degrees(rates=True) if self.degrees else column for column in columns]
 
     def _sheet(self, subject: str) -> Any:
-        return self.book.add_worksheet(self.say(f"sheet.{subject}"))
+        return self.book.add_worksheet(self.say(SHEETS[subject]))
 
     def _rows(self, subject: str, columns: Mapping[str, int], rows: Sequence[Sequence[Cell]]) -> None:
         """A sheet of a table under a heading; columns by their words, with their widths."""
         sheet = self._sheet(subject)
         for column, width in enumerate(columns.values()):
             sheet.set_column(column, column, width)
-        head, *body = Table([self.say(f"head.{word}") for word in columns], rows).values(
-            self.results.language
-        )
+        head, *body = Table([self.say(HEADS[word]) for word in columns], rows).values(self.results.language)
         sheet.write_row(0, 0, head, self.head)
         for row, cells in enumerate(body, start=1):
             for column, cell in enumerate(cells):
@@ -139,7 +167,7 @@ class Workbook:
     def _heading(self, column: Column) -> str:
         """Owner, quantity in words, unit, each on a line."""
         owner = self.say(_("shaking force")) if column.owner == "shaking_force" else column.owner
-        word = self.say(f"quantity.{column.quantity}") if column.quantity else self.say(_("input"))
+        word = self.say(QUANTITIES[column.quantity]) if column.quantity else self.say(_("input"))
         return printable("\n".join(filter(None, (owner, word, f"[{column.unit}]"))))
 
 
@@ -155,19 +183,19 @@ def number_format(values: np.ndarray[Any, np.dtype[np.float64]]) -> str:
     return "0." + "0" * decimals if decimals else "0"
 
 
-def _model(results: Results, word: Any) -> Iterable[Sequence[Cell]]:
+def _model(results: Results, say: Callable[[Message], str]) -> Iterable[Sequence[Cell]]:
     mechanism = results.mechanism
-    yield word("name"), mechanism.name, ""
-    for key, text in (("purpose", mechanism.purpose), ("source", mechanism.source)):
+    yield say(_("name")), mechanism.name, ""
+    for name, text in ((_("purpose"), mechanism.purpose), (_("source"), mechanism.source)):
         if text:
-            yield word(key), text, ""
-    yield word("mobility"), results.structure.mobility, ""
-    yield word("positions"), results.motion.steps, ""
-    yield word("reached"), int(results.motion.ok.sum()), ""
+            yield say(name), text, ""
+    yield say(_("mobility")), results.structure.mobility, ""
+    yield say(pgettext("export", "positions")), results.motion.steps, ""
+    yield say(_("positions reached")), int(results.motion.ok.sum()), ""
     if results.motion.positions.period is not None:
-        yield word("period"), Amount(results.motion.positions.period, "time"), "s"
+        yield say(_("period")), Amount(results.motion.positions.period, "time"), "s"
     for note in results.notes:
-        yield word("note"), note, ""
+        yield say(pgettext("export", "note")), note, ""
     for address, value in mechanism.dimensions().items():
         yield address, Amount(value), si_symbol(dimension_of(mechanism, address) or NONE)
 

@@ -1,7 +1,7 @@
 """What all kinds of diagrams have in common, and their registry.
 
-A kind is one class, a diagram of a result one function, registered under its name; its title is the word
-``plot.kind.NAME``.
+A kind is one class, a diagram of a result one function, registered under its name; its title stands in
+:mod:`linkwright.plot.diagrams.titles`.
 """
 
 from __future__ import annotations
@@ -18,8 +18,9 @@ from linkwright.pictures.diagram import INK, Figure
 from linkwright.pictures.drawing import Drawing
 from linkwright.plot.diagrams.axes import Legend, wrapped
 from linkwright.plot.diagrams.source import Source
+from linkwright.plot.diagrams.titles import TITLES
 from linkwright.registry import Registry
-from linkwright.words import Message, Say, _, say
+from linkwright.words import Say, _, say
 from linkwright.words.characters import printable
 from linkwright.words.sentence import in_language
 
@@ -54,12 +55,12 @@ class Request:
 
     @property
     def say(self) -> Say:
-        """Words of diagrams by key, in the language that is asked for."""
-        return partial(_word, language=self.language)
+        """Messages in the language that is asked for."""
+        return partial(say, language=self.language)
 
     def titled(self, name: str, subject: str = "") -> str:
         """The title of a diagram, ``Crank-rocker: joint forces``: its subject is its kind unless given."""
-        told = subject or self.say(f"kind.{self.kind}")
+        told = subject or self.say(TITLES[self.kind])
         return (
             self.say(_("{name}: {subject}", name=in_language(name, self.language), subject=told))
             if name
@@ -129,7 +130,3 @@ def result_diagram(
         return draw
 
     return registered
-
-
-def _word(key: str, *, language: str, **values: object) -> str:
-    return say(key if isinstance(key, Message) else f"plot.{key}", language, **values)

@@ -26,8 +26,9 @@ from linkwright.plot.diagrams.scaled_page import (
     vector_cell,
 )
 from linkwright.plot.diagrams.source import Source
+from linkwright.plot.diagrams.titles import TITLES
 from linkwright.plot.free_bodies.actions import STYLES, Action, free_bodies
-from linkwright.words import _
+from linkwright.words import _, pgettext
 from linkwright.words.sentence import links_said
 
 #: Pictures in a row.
@@ -35,6 +36,14 @@ IN_ROW = 3
 #: Roles in the order of the graphical method; what the key calls some of them.
 ORDER = ("load", "friction", "weight", "inertia", "driver", "reaction")
 PLAIN = {"friction": "load"}
+#: What the forces of a polygon are.
+ROLES = {
+    "load": _("load"),
+    "weight": _("weight G"),
+    "inertia": _("inertia force −m·a"),
+    "driver": pgettext("plot", "driver"),
+    "reaction": _("joint force F"),
+}
 
 
 def link_forces(forces: Forces, index: int) -> dict[str, list[Action]]:
@@ -84,10 +93,10 @@ class ForcePolygon(Kind):
         roles = {PLAIN.get(force.role, force.role) for each in parts.values() for force in each}
         wide = page_width(cells[:IN_ROW], IN_ROW)
         heading = request.titled(
-            source.label, f"{say('kind.force_polygon')}, {source.place_text(forces.motion, say)}"
+            source.label, f"{say(TITLES['force_polygon'])}, {source.place_text(forces.motion, say)}"
         )
         numbered = fold(", ".join(links_said(link_numbers(forces.mechanism), request.language)), wide, SIZE)
-        below = [key([(say(f"force.{role}"), style) for role, style in STYLES.items() if role in roles])]
+        below = [key([(say(ROLES[role]), style) for role, style in STYLES.items() if role in roles])]
         below += [[((line, "lw-legend"), 0.0)] for line in numbered]
         shown = heading if request.title is None else request.title
         return page(cells, IN_ROW, below, shown, heading)

@@ -36,6 +36,7 @@ from linkwright.plot.diagrams.scaled_page import (
     units,
 )
 from linkwright.plot.diagrams.source import Source
+from linkwright.plot.diagrams.titles import TITLES
 from linkwright.words import _
 
 #: Longest extent of the polygon on the paper, mm.
@@ -59,6 +60,15 @@ CSS = "".join(
     f"{arrow_rules(role, colour, 1.8)}.lw-{role}-line{{stroke-dasharray:{dash or 'none'}}}"
     for role, (colour, dash) in LOOKS.items()
 )
+#: What the parts of a polygon are.
+ROLES = {
+    "absolute": _("absolute"),
+    "relative": _("relative"),
+    "normal": _("normal aⁿ"),
+    "tangential": _("tangential aᵗ"),
+    "coriolis": _("Coriolis aᵏ"),
+    "sliding": _("sliding"),
+}
 
 
 class MotionPolygons(Kind):
@@ -103,13 +113,13 @@ class MotionPolygons(Kind):
             Cell(_sketch(polygon, scale, self.prime), (title,), bar),
         ]
         roles = {step.role for step in polygon.steps}
-        subject = f"{say(f'kind.{self.name}')}, {source.place_text(motion, say)}"
+        subject = f"{say(TITLES[self.name])}, {source.place_text(motion, say)}"
         heading = request.titled(source.label, subject)
         return page(
             cells,
             2,
             [
-                key([(say(f"role.{role}"), f"lw-{role}") for role in LOOKS if role in roles]),
+                key([(say(ROLES[role]), f"lw-{role}") for role in LOOKS if role in roles]),
                 *_columns(_table(polygon, self.unit), page_width(cells, 2)),
             ],
             heading if request.title is None else request.title,

@@ -11,6 +11,7 @@ from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.outputs import known_link
 from linkwright.plot.diagrams.reactions import require_forces
 from linkwright.plot.diagrams.source import Source
+from linkwright.plot.diagrams.titles import TITLES
 from linkwright.plot.flow_chart.content import flow_chart_steps
 from linkwright.plot.flow_chart.picture import flow_chart_pages
 from linkwright.plot.free_bodies.page import free_body_pages
@@ -58,7 +59,7 @@ class FreeBodies(Kind):
         require_forces(forces)
         links = [known_link(forces.mechanism, name) for name in request.of]
         place = source.place_text(forces.motion, request.say)
-        title = request.titled(source.label, f"{request.say(f'kind.{request.kind}')}, {place}")
+        title = request.titled(source.label, f"{request.say(TITLES[request.kind])}, {place}")
         (svg,) = free_body_pages(
             forces,
             0,

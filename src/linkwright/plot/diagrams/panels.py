@@ -24,6 +24,7 @@ from linkwright.plot.diagrams.marks import (
     through_peaks,
 )
 from linkwright.plot.diagrams.source import Source
+from linkwright.plot.diagrams.titles import TITLES
 from linkwright.words import Say, _
 
 #: A value below this in the unit of the axis has a unit of its own, below that share of the largest it is rounding.
@@ -70,7 +71,7 @@ def with_mean(
     if np.isnan(mean):
         return Panel(title, dimension, (curve,), (), fill)
     value = _readable(Panel(title, dimension, (curve,)).unit, dimension, mean, curve.values)
-    level = Level(f"{whose}{request.say('mean', value=value)}", mean)
+    level = Level(f"{whose}{request.say(_('mean {value}').format(value=value))}", mean)
     return Panel(title, dimension, (curve,), (level,), fill)
 
 
@@ -95,7 +96,7 @@ class OverInput(Kind):
 
     def subject(self, sources: Sequence[Source], request: Request) -> str:
         """What the title names beside the mechanism."""
-        return request.say(f"kind.{self.name}")
+        return request.say(TITLES[self.name])
 
     def output(self, source: Source, request: Request) -> Output | None:
         """The output whose limit positions are marked."""
@@ -243,7 +244,7 @@ def _name_limits(axes: Axes, limits: list[LimitMark], axis: InputAxis, say: Say)
     for limit in ordered:
         row = 1 - row if limit.place - before < 0.14 * span else 0
         before = limit.place
-        text = f"{say(limit.kind)} {axis.unit.text(limit.place)}"
+        text = f"{say(_('max') if limit.kind == 'max' else _('min'))} {axis.unit.text(limit.place)}"
         axes.annotate(text, (limit.place * axis.unit.factor, 1.0), (0, 2 + 9 * row), ha="center", va="bottom",
                       xycoords=("data", "axes fraction"), textcoords="offset points", fontsize=7.5,
                       color=INK)  # fmt: skip

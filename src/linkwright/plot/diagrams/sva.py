@@ -22,12 +22,15 @@ from linkwright.plot.diagrams.panels import DASHES, OverInput, Panel, look
 from linkwright.plot.diagrams.source import TURN, Source
 from linkwright.words import Say, _
 
-ANGULAR = (("angle", "θ", "angle"), ("angular_velocity", "ω", "angular_velocity"),
-           ("angular_acceleration", "α", "angular_acceleration"))  # fmt: skip
+ANGULAR = (
+    (_("angle"), "θ", "angle"),
+    (_("angular velocity"), "ω", "angular_velocity"),
+    (_("angular acceleration"), "α", "angular_acceleration"),
+)
 STRAIGHT = (
-    ("displacement", "s", "length"),
-    ("velocity", "v", "velocity"),
-    ("acceleration", "a", "acceleration"),
+    (_("displacement"), "s", "length"),
+    (_("velocity"), "v", "velocity"),
+    (_("acceleration"), "a", "acceleration"),
 )
 
 
@@ -86,9 +89,9 @@ def _panels(source: Source, output: Output, say: Say) -> list[Panel]:
     named = ANGULAR if output.kind == "angle" else STRAIGHT
     found = []
     for (word, symbol, dimension), each in zip(named, output.course, strict=True):
-        shown = source.closed(source.motion.read(each), turns=word == "angle")
+        shown = source.closed(source.motion.read(each), turns=dimension == "angle")
         read = methodcaller("read", each)
-        exact = source.angle_extremes(read, shown) if word == "angle" else source.extremes(read)
+        exact = source.angle_extremes(read, shown) if dimension == "angle" else source.extremes(read)
         found.append(Panel(f"{say(word)} {symbol}", dimension, (Curve("", shown, extremes=exact),)))
     return found
 
@@ -122,10 +125,10 @@ def _of_result(source: Source, output: Output) -> Panel:
 def _of_point(source: Source, key: str, say: Say) -> list[Panel]:
     point = source.motion.point_of(key)
     found = []
-    for word, symbol, dimension in (
-        ("position", "r", "length"),
-        ("velocity", "v", "velocity"),
-        ("acceleration", "a", "acceleration"),
+    for word, title, symbol, dimension in (
+        ("position", _("position"), "r", "length"),
+        ("velocity", _("velocity"), "v", "velocity"),
+        ("acceleration", _("acceleration"), "a", "acceleration"),
     ):
         shown = source.closed(getattr(point, word))
         curves = [Curve(axis, shown[:, i], "", COLOURS[i]) for i, axis in enumerate("xy")]
@@ -133,7 +136,7 @@ def _of_point(source: Source, key: str, say: Say) -> list[Panel]:
             length = np.hypot(shown[:, 0], shown[:, 1])
             exact = source.extremes(partial(_size, key=key, word=word))
             curves.append(Curve(say(_("magnitude")), length, "max", COLOURS[2], extremes=exact))
-        found.append(Panel(f"{say(word)} {symbol}", dimension, tuple(curves)))
+        found.append(Panel(f"{say(title)} {symbol}", dimension, tuple(curves)))
     return found
 
 
@@ -168,17 +171,17 @@ class Angles(OverInput):
         ]
         return [
             Panel(
-                say(_("angle from the start θ − θ₀")) if change else f"{say('angle')} θ",
+                say(_("angle from the start θ − θ₀")) if change else f"{say(_('angle'))} θ",
                 "angle",
                 _curves(source, links, angle, "angle"),
             ),
             Panel(
-                f"{say('angular_velocity')} ω",
+                f"{say(_('angular velocity'))} ω",
                 "angular_velocity",
                 _curves(source, links, omega, "angular_velocity"),
             ),
             Panel(
-                f"{say('angular_acceleration')} α",
+                f"{say(_('angular acceleration'))} α",
                 "angular_acceleration",
                 _curves(source, links, alpha, "angular_acceleration"),
             ),

@@ -31,7 +31,7 @@ from linkwright.plot.drawing.vectors import (
     same_motion,
     scale_of,
 )
-from linkwright.words import _, pgettext, say
+from linkwright.words import _, pgettext
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
@@ -39,6 +39,13 @@ if TYPE_CHECKING:
 
 Names = Sequence[str] | bool
 MOST_FADED = 60
+#: What is said where there is nothing to draw.
+NO_FORCES = _("no forces: the links have no mass and there are no loads (mass: 5 kg, loads: …)")
+ZERO = {
+    "force": _("all forces are zero at this position"),
+    "velocity": _("all velocities are zero at this position"),
+    "acceleration": _("all accelerations are zero at this position"),
+}
 
 
 def draw(
@@ -190,8 +197,8 @@ class MachineSketch(Sketch):
             )
         for each in arrows:
             if each.empty([self.shown]):
-                word = "nothing" if each.kind == "force" and not mechanism.has_loads else "zero"
-                self.notes.append(say(f"drawing.{word}_{each.kind}", language))
+                nothing = each.kind == "force" and not mechanism.has_loads
+                self.notes.append((NO_FORCES if nothing else ZERO[each.kind]).translate(language))
         for note in self.notes:
             below.sentence(note)
         self.content += below.content

@@ -12,7 +12,7 @@ from linkwright.pictures.picture import Runs, indexed, joined, line_width, name_
 from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import fold
 from linkwright.plot.drawing.vectors import Arrows, Torques, Vectors, round_length, scale_of, with_unit
-from linkwright.words import _, say
+from linkwright.words import _
 from linkwright.words.sentence import links_said
 
 if TYPE_CHECKING:
@@ -21,6 +21,13 @@ if TYPE_CHECKING:
 SIZE, ROW = 12.0, 19.0
 #: A line of text is at least as wide as this.
 LEAST = 300.0
+#: What the arrows of a kind are.
+FAMILIES = {
+    "force": _("joint forces"),
+    "load": _("loads"),
+    "velocity": _("velocities"),
+    "acceleration": _("accelerations"),
+}
 
 
 class Legend(Sketch):
@@ -44,7 +51,7 @@ class Legend(Sketch):
         value = round_length(scale)
         end = self._left + value * scale
         self.arrow((self._left, self._y), (end, self._y), family.style)
-        text = f"{with_unit(value, family.unit)}  {say(f'drawing.{family.kind}', language)}"
+        text = f"{with_unit(value, family.unit)}  {FAMILIES[family.kind].translate(language)}"
         self._write(end + 8.0, name_runs(text), "lw-legend")
 
     def values(self, arrows: Iterable[Arrows], index: int) -> None:

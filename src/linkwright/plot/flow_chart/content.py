@@ -20,7 +20,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.wheel_sizes import wheel_sizes
-from linkwright.words import Message, Say, _, say
+from linkwright.words import Say, _, say
 from linkwright.words.sentence import link_said
 
 Shape = Literal["terminator", "data", "preparation", "process", "call", "decision"]
@@ -99,7 +99,7 @@ class _Writer:
         self.mechanism: Mechanism = motion.mechanism
         self.groups = motion.structure.groups
         self.numbers = link_numbers(self.mechanism)
-        self.say: Say = partial(_word, language=language)
+        self.say: Say = partial(say, language=language)
         self.rows = rows
         self.joint_points = set(self.mechanism.joints)
 
@@ -207,7 +207,7 @@ class _Writer:
         outer, inner = ([c.joint for c in part] for part in (group.outer_joints, group.inner_joints))
         lines = [self._heading(group)]
         lines += self._driven_within(group)
-        key = "from_to" if inner else "from_only"
+        key = _("from {outer} to {inner}") if inner else _("on {outer}")
         lines.append(self.say(key, outer=self._listed(outer), inner=self._listed(inner)))
         call = self._call(group, "k")
         if not call:
@@ -221,7 +221,11 @@ class _Writer:
         for step in group.tree:
             if step.driver is None:
                 continue
-            key = "driven_turn" if step.turns else "driven_slide"
+            key = (
+                _("driven link {link} turns about {joint}")
+                if step.turns
+                else _("driven link {link} slides along {joint}")
+            )
             lines.append(say(key, link=self._numbered([step.child]), joint=step.joint))
             lines.append(self._law(step.driver))
         found = [each for each in self._points_of(group.links) if each not in {s.joint for s in group.tree}]
@@ -291,7 +295,7 @@ class _Writer:
             if link.mass and not any(math.dist(link.centre, at) < 1e-12 for at in link.points.values())
         ]
         if heavy:
-            key = "mass_centres" if len(heavy) > 1 else "mass_centre"
+            key = _("mass centres of links {links}") if len(heavy) > 1 else _("mass centre of link {links}")
             parts.append(self.say(key, links=self._listed(heavy)))
         if parts:
             yield Node(
@@ -311,7 +315,7 @@ class _Writer:
         if self._heavy and mechanism.drivers:
             parts.append(say(_("inertia forces −m·a and couples −J·α")))
         if mechanism.loads:
-            key = "load_names" if len(mechanism.loads) > 1 else "load_name"
+            key = _("loads {names}") if len(mechanism.loads) > 1 else _("load {names}")
             parts.append(say(key, names=self._listed(mechanism.loads)))
         rubbing = self._rubbing()
         if rubbing:
@@ -383,7 +387,7 @@ class _Writer:
         if mechanism.has_loads:
             parts.append(say(_("joint forces")))
             parts += dict.fromkeys("M_d" if turns else "F_d" for turns in self._efforts())
-        key = "print" if mechanism.drivers else "print_rest"
+        key = _("Print position i: {parts}") if mechanism.drivers else _("Print: {parts}")
         return Node("data", (say(key, parts=say(_("; ")).join(parts)),))
 
     def _efforts(self) -> list[bool]:
@@ -392,14 +396,18 @@ class _Writer:
 
     def _stepped(self) -> Iterator[Node]:
         say, symbol = self.say, self._over.symbol
-        key = "next_uneven" if self._step is None else "next"
+        key = (
+            _("i = i + 1; next {symbol}")
+            if self._step is None
+            else _("i = i + 1; {symbol} = {symbol} + Δ{symbol}")
+        )
         yield Node("process", (say(key, symbol=symbol),), name=NEXT)
         yield Node("decision", (say(_("i > N?")),), jump=LOOP, down=say(_("yes")), across=say(_("no")))
         yield Node("data", (say(_("Peak values, limit positions, diagrams")),))
 
     # names ------------------------------------------------------------------------------------
     def _heading(self, group: Group) -> str:
-        key = "of_links" if len(group.links) > 1 else "of_link"
+        key = _("{signature}: links {links}") if len(group.links) > 1 else _("{signature}: link {links}")
         return self.say(key, signature=group.signature, links=self._numbered(group.links))
 
     def _numbered(self, links: Sequence[str]) -> str:
@@ -419,7 +427,3 @@ class _Writer:
         if len(shown) > LONGEST:
             shown = [*shown[: LONGEST - 2], "…", shown[-1]]
         return self.say(_(", ")).join(shown)
-
-
-def _word(key: str, *, language: str, **values: object) -> str:
-    return say(key if isinstance(key, Message) else f"flow.{key}", language, **values)

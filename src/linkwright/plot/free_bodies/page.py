@@ -27,7 +27,7 @@ from linkwright.plot.free_bodies.picture import (
     body_sketch,
     round_scale,
 )
-from linkwright.words import Say, _
+from linkwright.words import Say, _, pgettext
 from linkwright.words.sentence import link_said
 
 #: Width of a cell, space between cells, height of a page's pictures, mm.
@@ -40,6 +40,15 @@ TITLE, TITLE_LINE, SIZE, LINE = 13.0, 20.0, 10.5, 14.0
 COLUMNS = (0.42, 0.61, 0.8, 1.0)
 #: Significant digits of the largest number of a table; from here on forces are in kN.
 DIGITS, KILO = 5, 1e5
+#: What the arrows are.
+ROLES = {
+    "reaction": _("F, M: joint force, couple of a joint"),
+    "weight": _("G: weight"),
+    "inertia": _("F_I = −m·a, M_I = −J·α: inertia"),
+    "friction": _("index f: friction"),
+    "driver": _("index d: driver"),
+    "load": _("loads by their names"),
+}
 
 
 @dataclass(frozen=True)
@@ -114,7 +123,7 @@ def _table(found: Sketch, body: FreeBody, say: Say, y: float) -> float:
     """Components, sizes and directions of forces, and couples, below a height; where the table ends."""
     if body.forces:
         unit, factor = _force_unit(body.forces)
-        head = (f"Fx / {unit}", f"Fy / {unit}", f"F / {unit}", f"{say('free_bodies.direction')} / °")
+        head = (f"Fx / {unit}", f"Fy / {unit}", f"F / {unit}", f"{say(pgettext('free_bodies', 'angle'))} / °")
         y = _head(found, y, head)
         place = _places(max(each.size for each in body.forces) * factor)
         for each in body.forces:
@@ -219,7 +228,7 @@ def _key(cells: Sequence[Cell], say: Say) -> Iterator[str]:
     roles = {each.role for cell in cells for each in cell.body.actions}
     for role in STYLES:
         if role in roles:
-            yield say(f"free_bodies.{role}")
+            yield say(ROLES[role])
     if any(cell.shortened for cell in cells):
         yield say(
             _(

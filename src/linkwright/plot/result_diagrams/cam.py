@@ -22,6 +22,8 @@ _PER_ANGLE = {
     "length": ("length", "length_per_angle", "length_per_angle_squared", "length_per_angle_cubed"),
     "angle": ("angle", "dimensionless", "per_angle", "per_angle_squared"),
 }
+#: Titles of lift and derivatives.
+_MOTION = (_("lift s"), _("velocity v"), _("acceleration a"), _("jerk j"))
 
 
 @result_diagram("cam_motion", CamDesign)
@@ -30,12 +32,11 @@ def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
     speed = result.loading.speed
     kinds = (RATES if speed else _PER_ANGLE)[result.cam.follower.lift_dimension]
     given = []
-    for order, symbol in enumerate("svaj"):
+    for order, title in enumerate(_MOTION):
         values = result.motion[order] * (speed**order if speed else 1.0)
         ends = [result.cam.program.extreme(order, kind) for kind in ("max", "min")]
         peaks = tuple((each.place, each.value * (speed**order if speed else 1.0)) for each in ends)
-        title = request.say(f"cam_{symbol}")
-        given.append(Pane(title, kinds[order], (Line(result.angles, values, peaks=peaks),)))
+        given.append(Pane(request.say(title), kinds[order], (Line(result.angles, values, peaks=peaks),)))
     return panes(result.title, (request.say(_("cam angle φ")), "angle"), given, request)
 
 
@@ -111,10 +112,10 @@ def draw_cam_profile(result: CamDesign, request: Request) -> Figure:
 def _coloured(result: CamDesign, request: Request) -> tuple[np.ndarray, str]:
     """What the profile is coloured by, and its name with unit."""
     if result.pressure is not None:
-        return 1e-6 * result.pressure, f"{request.say('cam_pressure')} (MPa)"
+        return 1e-6 * result.pressure, f"{request.say(_('contact pressure p'))} (MPa)"
     if result.loaded and result.cam.barrel_radius is None:
-        return result.contact_force, f"{request.say('cam_force')} (N)"
-    return np.degrees(result.contact.pressure_angle), f"{request.say('cam_pressure_angle')} (°)"
+        return result.contact_force, f"{request.say(_('contact force N'))} (N)"
+    return np.degrees(result.contact.pressure_angle), f"{request.say(_('pressure angle α'))} (°)"
 
 
 @result_diagram("cam_vibration", CamDesign, usual=False)

@@ -23,20 +23,30 @@ from linkwright.plot.diagrams.panels import Panel, look, stacked
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.result_diagrams.design_space import DesignTable, chosen, draw_designs, measure, varied
 from linkwright.registry import offered
-from linkwright.words import _, say
+from linkwright.words import _
 
 HODOGRAPH = "hodograph"
 #: What a motion is called and measured in, for an output that turns and for one that slides.
 _MOTION = {
-    "travel": {"angle": ("angle", "θ", "angle"), "displacement": ("displacement", "s", "length")},
+    "travel": {"angle": (_("angle"), "θ", "angle"), "displacement": (_("displacement"), "s", "length")},
     "velocity": {
-        "angle": ("angular_velocity", "ω", "angular_velocity"),
-        "displacement": ("velocity", "v", "velocity"),
+        "angle": (_("angular velocity"), "ω", "angular_velocity"),
+        "displacement": (_("velocity"), "v", "velocity"),
     },
     "acceleration": {
-        "angle": ("angular_acceleration", "α", "angular_acceleration"),
-        "displacement": ("acceleration", "a", "acceleration"),
+        "angle": (_("angular acceleration"), "α", "angular_acceleration"),
+        "displacement": (_("acceleration"), "a", "acceleration"),
     },
+}
+#: What the curves are.
+CURVES = {
+    "input": _("input passed"),
+    "travel": _("output"),
+    "velocity": _("speed of the output"),
+    "acceleration": _("acceleration of the output"),
+    "pivot_reaction": _("reaction at the output's pivot"),
+    "hodograph": _("hodograph of the pivot reaction"),
+    "input_torque": _("balancing torque"),
 }
 
 
@@ -131,7 +141,7 @@ def _panels(
     looks = {label: look(n) for n, label in enumerate(result.labels)}
     kinds = _MOTION.get(overlay.name)
     if kinds is None:
-        title = say(f"compare.curve.{overlay.name}", request.language)
+        title = request.say(CURVES[overlay.name])
         curves = [_curve(overlay, label, sources[label], looks) for label in result.labels]
         return [Panel(title, overlay.dimension, tuple(curves))]
     found = []

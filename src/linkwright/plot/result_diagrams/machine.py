@@ -31,11 +31,11 @@ def draw_balancing(result: Balancing, request: Request) -> Figure:
     loops = [each.closed(each.forces.shaking_force) for each in (before, after)]
     _hodograph(places["force"], loops, names, request, legend)
     turning = next(iter(before.motion.positions.rotary.values()))
-    effort = ("input_torque", "T", "torque") if turning else ("input_force", "F", "force")
+    effort = (_("input torque"), "T", "torque") if turning else (_("driving force"), "F", "force")
     moments = [each.closed(each.forces.shaking_moment) for each in (before, after)]
     torques = [each.closed(each.forces.input_torque) for each in (before, after)]
     for place, (word, letter, dimension), values in (
-        ("moment", ("shaking_moment", "M", "torque"), moments),
+        ("moment", (_("shaking moment"), "M", "torque"), moments),
         ("torque", effort, torques),
     ):
         panel = Panel(f"{say(word)} {letter}", dimension, _curves(names, values))
@@ -80,7 +80,9 @@ BEFORE = 1e-9
 def draw_torque_curve(result: TorqueCurve, request: Request) -> Figure:
     """T(φ) over one period; jumps are drawn upright."""
     angle = _angles(result)
-    panel = with_mean(f"{request.say('torque')} T", "torque", Curve("", result(angle)), result.mean, request)
+    panel = with_mean(
+        f"{request.say(_('torque'))} T", "torque", Curve("", result(angle)), result.mean, request
+    )
     return stacked([panel], InputAxis("", "angle", angle), request, request.titled(""))[0]
 
 

@@ -22,7 +22,7 @@ from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.panels import Panel, look, stacked
 from linkwright.plot.result_diagrams.design_space import chosen
-from linkwright.words import _, say
+from linkwright.words import _
 from linkwright.words.sentence import in_language
 
 #: A front of less than this share of the way to the start would be a dot beside it; the start stays outside then.
@@ -60,8 +60,9 @@ def _front(axes: Any, result: Optimum, text: str, language: str) -> None:
     if np.isfinite([x0, y0]).all():
         wide, high = max(np.ptp([*x, x0]), 1e-300), max(np.ptp([*y, y0]), 1e-300)
         near = len(x) == 1 or (np.ptp(x) > NEAR * wide and np.ptp(y) > NEAR * high)
-        key = "optimize.legend.start" if near else "optimize.legend.outside"
-        said = say(key, language, x=f"{x0:.5g}", y=f"{y0:.5g}")
+        said = (
+            _("start") if near else _("start ({x}, {y}) lies outside", x=f"{x0:.5g}", y=f"{y0:.5g}")
+        ).translate(language)
         axes.plot([x0] if near else [], [y0] if near else [], "s", ms=7, mfc="none", color=INK, label=said)
     axes.margins(0.06)
     axes.set_xlabel(x_label)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
 from linkwright.plot.diagrams.outputs import main_outputs
+from linkwright.plot.diagrams.titles import TITLES
 from linkwright.report.document import Block, Figure, Paragraph, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
@@ -59,5 +60,5 @@ def _figure(case: Case, kind: str, caption: str, **options: object) -> Block | N
     except LinkwrightError as error:
         if error.code in WITHOUT:
             return None
-        return Paragraph(f"{case.say(f'plot.kind.{kind}')}: {literal(case.told(error))}", "missing")
+        return Paragraph(f"{case.say(TITLES[kind])}: {literal(case.told(error))}", "missing")
     return Figure(caption, ((shown, SHARE),), "" if options else kind, TALLEST)

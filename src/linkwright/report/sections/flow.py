@@ -18,8 +18,20 @@ def blocks(case: Case) -> Iterator[Block]:
     """The steps of the solution over the numbered positions, in as many pages as they need."""
     say, numbered = case.say, case.numbered
     nodes = flow_chart_steps(numbered.motion, numbered.rows, case.language)
-    key = "flow.text" if case.mechanism.drivers else "flow.text_rest"
-    yield Paragraph(say(key, figure="[[flow]]"))
+    said = (
+        _(
+            "{figure} shows in which order the machine is solved: what each step needs is known "
+            "from the steps before it. The calls have the names of the teaching texts (bark, "
+            "rrrk …); i counts the numbered positions.",
+        )
+        if case.mechanism.drivers
+        else _(
+            "{figure} shows in which order the machine is solved: what each step needs is known "
+            "from the steps before it. The calls have the names of the teaching texts (rrrk, "
+            "rrrf …).",
+        )
+    )
+    yield Paragraph(say(said, figure="[[flow]]"))
     caption = say(_("Flow chart of the solution"))
     pages = flow_chart_pages(nodes, caption)
     for number, svg in enumerate(pages, 1):

@@ -26,8 +26,20 @@ def blocks(case: Case) -> Iterator[Block]:
         raise Missing(NO_LOADS)
     pages = free_body_pages(forces, index, say, case.language, first=FIRST)
     place = literal(case.worked_text)
-    key = "free_bodies.text" if place else "free_bodies.text_rest"
-    yield Paragraph(say(key, figure="[[free-bodies]]", place=place))
+    said = (
+        _(
+            "{figure} shows every link by itself, as it stands at {place}, with all that acts on "
+            "it; the links come in the order of the force analysis. A joint force F with the "
+            "index 12 is what link 1 exerts on link 2.",
+        )
+        if place
+        else _(
+            "{figure} shows every link by itself with all that acts on it; the links come in the "
+            "order of the force analysis. A joint force F with the index 12 is what link 1 "
+            "exerts on link 2.",
+        )
+    )
+    yield Paragraph(say(said, figure="[[free-bodies]]", place=place))
     if idle := idle_loads(forces, index):
         yield Paragraph(
             literal(say(_("Not acting at this position: {names}.", names=", ".join(idle)))), "note"

@@ -92,11 +92,14 @@ class DevelopmentPanel(Panel):
             start, slope = pitch_of(self.design, phi)[0], self.design.wall.contact(phi).normal[0]
             spots = angle_between(picture, paper.point(start), 1j, complex(slope), 0.0)
             names.append(Name(indexed("α", "max"), spots))
-        for key, curve, share in (("pitch", self.pitch, 0.28), ("profile", self.walls[1], 0.36)):
+        for title, curve, share in (
+            (_("pitch curve"), self.pitch, 0.28),
+            (_("profile"), self.walls[1], 0.36),
+        ):
             place = paper.point(curve[round(share * (len(curve) - 1))])
             side = place + _LEADER
             picture.line([place, side])
-            names.append(Name(as_runs(self.say(f"cam_sheet.{key}_curve")), [side], clear=0.6))
+            names.append(Name(as_runs(self.say(title)), [side], clear=0.6))
         return names
 
     def _caption(self, reduction: float) -> Sequence[Runs]:

@@ -14,7 +14,7 @@ from linkwright.core.quantity import significant
 from linkwright.pictures.labels import Name
 from linkwright.pictures.picture import Picture, Runs, as_runs, indexed, joined
 from linkwright.sheets.cams.division import Paper, divided, inverted, pair, pitch_of, sharpest, widest_gap
-from linkwright.words import Say
+from linkwright.words import Message, Say, _
 
 
 def equal(symbol: Runs, value: float, unit: str, digits: int = 4) -> Runs:
@@ -148,16 +148,16 @@ def _curves(picture: Picture, paper: Paper, design: CamDesign, say: Say) -> Iter
     """The names of profile and pitch curve, with leaders from near the ends of the free directions."""
     phi = np.linspace(0.0, 2 * math.pi, 721)[:-1]
     low, high = _free(design)
-    curves: list[tuple[str, Complexes, float]] = [("profile", design.wall.contact(phi).point, 0.125)]
+    curves: list[tuple[Message, Complexes, float]] = [(_("profile"), design.wall.contact(phi).point, 0.125)]
     if design.cam.follower.kind == "roller":
-        curves.append(("pitch", pitch_of(design, phi), 0.875))
+        curves.append((_("pitch curve"), pitch_of(design, phi), 0.875))
     far = paper.length((design.cam.base_radius or 0.0) + design.cam.follower.roller_radius)
-    for key, curve, share in curves:
+    for title, curve, share in curves:
         ray = cmath.exp(1j * (low + share * (high - low)))
         point = curve[int(np.argmin(np.abs(np.angle(curve / ray))))]
         end = (max(far, paper.length(abs(point))) + _LEADER) * pair(ray)
         picture.line([paper.point(point), end])
-        yield Name(as_runs(say(f"cam_sheet.{key}_curve")), [end], clear=0.6)
+        yield Name(as_runs(say(title)), [end], clear=0.6)
 
 
 def said(design: CamDesign) -> Runs:

@@ -15,11 +15,13 @@ from linkwright.laws.smoothest import FoundProgram
 from linkwright.pictures.picture import Runs, Words, as_runs, indexed, joined
 from linkwright.sheets.cams.division import Phase, divided, phases, pitch_of
 from linkwright.sheets.panel import Drawn, TablePanel
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _, pgettext
 
 Row = list[Words]
 #: Most parts of the table of points side by side.
 _PARTS = 3
+#: What the phases of a motion are.
+WAYS = {"rise": pgettext("cam_sheet", "rise"), "fall": _("return"), "dwell": pgettext("cam_sheet", "dwell")}
 
 
 def data_table(design: CamDesign, say: Say, parts: int) -> TablePanel:
@@ -36,23 +38,23 @@ def data_table(design: CamDesign, say: Say, parts: int) -> TablePanel:
     return TablePanel("table_data", 2.0, head, rows, say(_("Data of the cam")), parts=parts)
 
 
-def _row(say: Say, key: str, symbol: Words, value: float, unit: str) -> Row:
+def _row(say: Say, name: Message, symbol: Words, value: float, unit: str) -> Row:
     gap = "" if unit in ("", "°") else " "
-    return [say(f"cam_sheet.{key}"), symbol, f"{significant(value, 5)}{gap}{unit}"]
+    return [say(name), symbol, f"{significant(value, 5)}{gap}{unit}"]
 
 
 def _motion(design: CamDesign, say: Say) -> Iterator[Row]:
     cam = design.cam
     low, high = cam.program.lifts
     if cam.follower.oscillating:
-        yield _row(say, "swing", indexed("ψ", "max"), math.degrees(high - low), "°")
+        yield _row(say, _("swing of the follower"), indexed("ψ", "max"), math.degrees(high - low), "°")
     else:
-        yield _row(say, "lift", "h", 1e3 * (high - low), "mm")
+        yield _row(say, _("lift"), "h", 1e3 * (high - low), "mm")
     for number, phase in enumerate(phases(cam.program), 1):
         yield _phase(phase, number, say)
     if isinstance(cam.program, FoundProgram):
         yield [say(_("motion")), "", say(_("found from points and windows"))]
-    sense = say(f"cam_sheet.{'counterclockwise' if cam.turn > 0 else 'clockwise'}")
+    sense = say(_("counter-clockwise") if cam.turn > 0 else _("clockwise"))
     if design.loading.speed:
         speed = f"{significant(design.loading.speed * 30 / math.pi, 5)} r/min"
         yield [say(_("speed of the cam")), "n", f"{speed}, {sense}"]
@@ -63,7 +65,7 @@ def _motion(design: CamDesign, say: Say) -> Iterator[Row]:
 def _phase(phase: Phase, number: int, say: Say) -> Row:
     """The angle of a phase, and its law where it moves."""
     symbol: Words = indexed(*phase.symbol) if phase.symbol[0] else indexed("δ", str(number))
-    name = say(f"cam_sheet.{_name(phase)}")
+    name = say(_named(phase))
     degrees = f"{significant(math.degrees(phase.angle), 5)}°"
     if phase.way == "dwell":
         return [name, symbol, degrees]
@@ -71,52 +73,68 @@ def _phase(phase: Phase, number: int, say: Say) -> Row:
     return [name, symbol, f"{degrees}, {laws}"]
 
 
-def _name(phase: Phase) -> str:
+def _named(phase: Phase) -> Message:
     if phase.way == "dwell" and phase.symbol[0]:
-        return "far_dwell" if phase.symbol[0] == "Φ" else "near_dwell"
-    return phase.way
+        return _("outer dwell") if phase.symbol[0] == "Φ" else _("inner dwell")
+    return WAYS[phase.way]
 
 
 def _sizes(design: CamDesign, say: Say) -> Iterator[Row]:
     cam, follower = design.cam, design.cam.follower
     base = cam.base_radius or 0.0
     if cam.barrel_radius is not None:
-        yield _row(say, "barrel_radius", "R", 1e3 * cam.barrel_radius, "mm")
+        yield _row(say, _("radius of the barrel"), "R", 1e3 * cam.barrel_radius, "mm")
     elif follower.kind == "roller":
-        yield _row(say, "prime_radius", indexed("r", "0"), 1e3 * (base + follower.roller_radius), "mm")
-        yield _row(say, "base_radius", indexed("r", "b"), 1e3 * base, "mm")
-    else:
-        yield _row(say, "one_base_radius", indexed("r", "0"), 1e3 * base, "mm")
-    if follower.kind == "roller":
-        yield _row(say, "roller_radius", indexed("r", "r"), 1e3 * follower.roller_radius, "mm")
-    if follower.oscillating:
-        yield _row(say, "pivot_distance", "l", 1e3 * (follower.pivot_distance or 0.0), "mm")
-        if follower.kind == "flat":
-            yield _row(say, "face_offset", "f", 1e3 * follower.face_offset, "mm")
-        else:
-            yield _row(say, "arm", indexed("l", "r"), 1e3 * (follower.arm or 0.0), "mm")
         yield _row(
-            say, "start_angle", indexed("ψ", "0"), math.degrees(follower.start_angle(base) or 0.0), "°"
+            say,
+            _("prime circle (to roller centre)"),
+            indexed("r", "0"),
+            1e3 * (base + follower.roller_radius),
+            "mm",
+        )
+        yield _row(say, _("base circle (of the profile)"), indexed("r", "b"), 1e3 * base, "mm")
+    else:
+        yield _row(say, _("base circle"), indexed("r", "0"), 1e3 * base, "mm")
+    if follower.kind == "roller":
+        yield _row(say, _("roller radius"), indexed("r", "r"), 1e3 * follower.roller_radius, "mm")
+    if follower.oscillating:
+        yield _row(say, _("cam centre to pivot"), "l", 1e3 * (follower.pivot_distance or 0.0), "mm")
+        if follower.kind == "flat":
+            yield _row(say, _("offset of the face"), "f", 1e3 * follower.face_offset, "mm")
+        else:
+            yield _row(say, _("arm of the follower"), indexed("l", "r"), 1e3 * (follower.arm or 0.0), "mm")
+        yield _row(
+            say,
+            _("angle of the arm at zero lift"),
+            indexed("ψ", "0"),
+            math.degrees(follower.start_angle(base) or 0.0),
+            "°",
         )
     elif follower.kind != "flat" and follower.offset:
-        yield _row(say, "offset", "e", 1e3 * follower.offset, "mm")
+        yield _row(say, _("offset"), "e", 1e3 * follower.offset, "mm")
     if design.face is not None:
-        yield _row(say, "face_width", "b", 1e3 * (design.face[1] - design.face[0]), "mm")
+        yield _row(say, _("width of face in use"), "b", 1e3 * (design.face[1] - design.face[0]), "mm")
 
 
 def _checks(design: CamDesign, say: Say) -> Iterator[Row]:
     limits = design.cam.limits
     fall = limits.pressure_angle if limits.pressure_angle_fall is None else limits.pressure_angle_fall
-    for key, extreme, limit in (
-        ("angle_rise", design.pressure_angle_rise, limits.pressure_angle),
-        ("angle_fall", design.pressure_angle_fall, fall),
+    for name, extreme, limit in (
+        (_("pressure angle, rise"), design.pressure_angle_rise, limits.pressure_angle),
+        (_("pressure angle, return"), design.pressure_angle_fall, fall),
     ):
         if extreme.value:
             value = f"{significant(abs(math.degrees(extreme.value)), 4)}°"
             value += "" if limit is None else f",  [α] = {significant(math.degrees(limit))}°"
-            yield [say(f"cam_sheet.{key}"), indexed("α", "max"), value]
+            yield [say(name), indexed("α", "max"), value]
     if design.smallest_radius is not None:
-        yield _row(say, "smallest_radius", indexed("ρ", "min"), 1e3 * design.smallest_radius.value, "mm")
+        yield _row(
+            say,
+            _("minimum radius of curvature"),
+            indexed("ρ", "min"),
+            1e3 * design.smallest_radius.value,
+            "mm",
+        )
 
 
 class PointsTable(TablePanel):

@@ -28,7 +28,11 @@ from linkwright.sheets.settings import SHEETS, Content, Subject
 from linkwright.words import _
 
 #: Names of the diagrams of an output, with their ranks: where it is, its velocity, its acceleration.
-_MOTION = (("displacement", 3.0), ("velocity", 3.5), ("acceleration", 4.0))
+_MOTION = (
+    ("displacement", 3.0, _("Motion of {output}")),
+    ("velocity", 3.5, _("Velocity of {output}")),
+    ("acceleration", 4.0, _("Acceleration of {output}")),
+)
 _SYMBOLS = {"angle": "φ", "length": "s", "time": "t"}
 
 
@@ -93,19 +97,17 @@ def _curves(positions: Positions) -> Iterator[Panel]:
     source = Source(positions.case.motion)
     try:
         name = _moving(positions.mechanism, main_output(source.motion))
-        for (word, rank), plotted in zip(_MOTION, Sva().panels(source, request), strict=False):
-            yield _curve(
-                word, rank, subject.words(f"caption_curve_{word}", output=name), source.axis, plotted
-            )
+        for (word, rank, title), plotted in zip(_MOTION, Sva().panels(source, request), strict=False):
+            yield _curve(word, rank, subject.words(title.format(output=name)), source.axis, plotted)
     except LinkwrightError as error:
-        subject.note("no_curves", sentence=error.sentence)
+        subject.note(_("No diagrams on the sheet: {sentence}", sentence=error.sentence))
     if positions.forces is None:
         return
     efforts = Torque().panels(Source(positions.case.forces), request)
     for number, plotted in enumerate(efforts, 1):
-        word = "torque" if plotted.dimension == "torque" else "drive_force"
+        title = _("Driving torque") if plotted.dimension == "torque" else _("Driving force")
         key = "balance" if len(efforts) == 1 else f"balance_{number}"
-        yield _curve(key, 4.5, subject.words(f"caption_curve_{word}"), source.axis, plotted)
+        yield _curve(key, 4.5, subject.words(title), source.axis, plotted)
 
 
 def _moving(mechanism: Mechanism, output: Output) -> str:
