@@ -54,7 +54,8 @@ class Torque(OverInput):
             effort = forces.driver_effort(name)
             exact = source.extremes(partial(Forces.driver_effort, name=name), "forces")
             dimension = "torque" if turning else "force"
-            title = f"{say(_('input torque') if turning else _('driving force'))} {'T' if turning else 'F'}{f' {name}' if several else ''}"
+            word = say(_("input torque") if turning else _("driving force"))
+            title = f"{word} {'T' if turning else 'F'}{f' {name}' if several else ''}"
             curve = Curve("", source.closed(effort), extremes=exact)
             mean = Analysis.of(forces).mean_of(partial(Forces.driver_effort, name=name))
             found.append(with_mean(title, dimension, curve, mean, request, f"{name}: " if several else ""))
