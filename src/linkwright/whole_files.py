@@ -10,11 +10,21 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from linkwright.errors import RequestError
-from linkwright.words import _
+from linkwright.words import Message, _
 from linkwright.words.sentence import reason_of
 
 #: Permissions of new files, before the user's mask.
 _USUAL, _PRIVATE = 0o666, 0o600
+
+
+_CANNOT_WRITE = _(
+    'the file "{path}" cannot be written ({reason}); choose another name or a folder of your own',
+    code="file.cannot_write",
+)
+_CANNOT_MAKE = _(
+    'the folder "{path}" cannot be made ({reason}); choose another name or a folder of your own',
+    code="file.cannot_make",
+)
 
 
 def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "force=True") -> None:
@@ -52,7 +62,7 @@ def refuse_folder(path: str | Path) -> None:
     try:
         there = next(each for each in (target, *target.absolute().parents) if each.exists())
     except (OSError, ValueError) as problem:
-        raise _refused(target, problem, "file.cannot_make") from None
+        raise _refused(target, problem, _CANNOT_MAKE) from None
     if not there.is_dir():
         raise RequestError(
             _(
@@ -63,7 +73,7 @@ def refuse_folder(path: str | Path) -> None:
             )
         )
     if not os.access(there, os.W_OK | os.X_OK):
-        raise _refused(target, PermissionError(errno.EACCES, ""), "file.cannot_make")
+        raise _refused(target, PermissionError(errno.EACCES, ""), _CANNOT_MAKE)
 
 
 def make_folder(path: str | Path) -> Path:
@@ -72,7 +82,7 @@ def make_folder(path: str | Path) -> Path:
     try:
         target.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as problem:
-        raise _refused(target, problem, "file.cannot_make") from None
+        raise _refused(target, problem, _CANNOT_MAKE) from None
     return target
 
 
@@ -175,6 +185,8 @@ def _made(path: Path, mode: int) -> int:
     return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), mode)
 
 
-def _refused(target: Path, problem: OSError | ValueError, said: str = "file.cannot_write") -> RequestError:
+def _refused(
+    target: Path, problem: OSError | ValueError, problem_of: Message = _CANNOT_WRITE
+) -> RequestError:
     shown = str(target) if len(str(target)) < 300 else f"{str(target)[:120]}…"
-    return RequestError(said, path=shown, reason=reason_of(problem))
+    return RequestError(problem_of.format(path=shown, reason=reason_of(problem)))

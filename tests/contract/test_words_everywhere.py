@@ -9,7 +9,6 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.words import catalogue
 
 ROOT = Path(lw.__file__).parent
 #: Errors of the program itself, which no user can do anything about.
@@ -73,19 +72,6 @@ def test_no_english_sentence_stands_where_an_error_is_raised() -> None:
     for path in every(sorted(ROOT.rglob("*.py")), least=800):
         places += [f"{path.relative_to(ROOT)}:{line}" for line in in_place(path.read_text(encoding="utf-8"))]
     assert places == []
-
-
-def test_every_finding_has_its_remedy_in_every_language() -> None:
-    """``finding(node, place, "key", code)`` says ``model.key`` and ``model.key_do``, with a remedy only the first."""
-    calls = {
-        (node.args[2].value, len(node.args))
-        for path in sorted(ROOT.rglob("*.py"))
-        for node in ast.walk(ast.parse(path.read_text()))
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "finding"
-        and len(node.args) > 3 and isinstance(node.args[2], ast.Constant)
-    }  # fmt: skip
-    keys = {said for key, given in calls for said in ((key, f"{key}_do") if given == 4 else (key,))}
-    assert len(keys) > 80 and keys <= set(catalogue("model"))
 
 
 #: One term for one thing: that of Chinese textbooks of the theory of machines, and what is not written instead.

@@ -18,8 +18,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import Registry, nearest, offered
 from linkwright.whole_files import refuse_target, write_whole
-from linkwright.words import _
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,7 @@ class Format:
 FORMATS: Registry[Format] = Registry(_("export format"), "linkwright.export.formats")
 
 
-def package(name: str, purpose: str, install: str | None = None) -> Any:
+def package(name: str, purpose: Message, install: str | None = None) -> Any:
     """An optional package, imported when it is needed.
 
     Raises:
@@ -50,7 +49,7 @@ def package(name: str, purpose: str, install: str | None = None) -> Any:
             _(
                 "{purpose} need the package {install}; install it with: {command}",
                 code="export.needs_package",
-                purpose=Sentence(f"nouns.{purpose}"),
+                purpose=purpose,
                 install=install or name,
                 command=command,
             )

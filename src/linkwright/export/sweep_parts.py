@@ -98,7 +98,7 @@ def part_content(plan: Plan, number: int, threads: int | None = 1) -> bytes:
 
 
 def _arrow() -> tuple[Any, Any]:
-    return package("pyarrow", "parquet_files"), package("pyarrow.parquet", "parquet_files", "pyarrow")
+    return package("pyarrow", _("Parquet files")), package("pyarrow.parquet", _("Parquet files"), "pyarrow")
 
 
 class SweepParts:

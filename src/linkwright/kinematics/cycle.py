@@ -59,8 +59,20 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
     first = next(iter(mechanism.drivers.values()))
     known = _naturals(mechanism)
     if cycle is None and not known:
-        said = "no_natural_end" if first.law.constant_speed else "law_without_end"
-        raise CycleError(f"motion.{said}", name=mechanism.name, driver=first.name)
+        problem = (
+            _(
+                "the cycle of {name!r} has no natural end, as driver {driver!r} does not turn; write "
+                "cycle: {{from: …, to: …}} (the driver's coordinate) or cycle: {{duration: 2 s}}",
+                code="motion.no_natural_end",
+            )
+            if first.law.constant_speed
+            else _(
+                "the cycle of {name!r} has no natural end, as driver {driver!r} follows a law in "
+                "time; write how long it is: cycle: {{duration: 2 s}}",
+                code="motion.law_without_end",
+            )
+        )
+        raise CycleError(problem.format(name=mechanism.name, driver=first.name))
     if cycle is None:
         whole = _whole(mechanism) if together(mechanism) <= FEW else None
         return 0.0, whole or max(known), whole is not None

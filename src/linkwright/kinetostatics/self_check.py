@@ -13,7 +13,7 @@ from linkwright.core.outputs import Output, kind_of
 from linkwright.core.quantity import shown
 from linkwright.errors import SelfCheckError
 from linkwright.kinematics.reach_sentences import input_at
-from linkwright.words import _
+from linkwright.words import Message, _
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion, Rows
@@ -82,14 +82,36 @@ class ForceChecks:
             names, factors = self._speeds
             speed = (np.abs(motion.rows.fetch(names, motion.evaluate)) * factors).max(axis=0, initial=0.0)
             if (apart > LIMIT * largest * speed).any():
-                _differ("forces.powers_differ", "W", apart, largest * speed, motion)
+                _differ(
+                    _(
+                        "the forces of {name!r} do not pass their own check at {where}: the power of the "
+                        "drivers and that of all other forces differ by {gap}, beside the {size} that forces "
+                        "and speeds of this size make. {check_failed}",
+                        code="forces.powers_differ",
+                    ),
+                    "W",
+                    apart,
+                    largest * speed,
+                    motion,
+                )
 
     def require_balance(self, gap: Floats, rows: Rows, motion: Motion) -> None:
         """Raises SelfCheckError where the gap of the links' balance, (n,) N, is more than rounding."""
         largest = self._largest(self._parts(rows)[0])
         with np.errstate(all="ignore"):
             if (gap > LIMIT * largest).any():
-                _differ("forces.results_unbalanced", "N", gap, largest, motion)
+                _differ(
+                    _(
+                        "the forces of {name!r} do not pass their own check at {where}: forces, loads and "
+                        "inertia put together leave a link out of balance by {gap}, beside forces of up to "
+                        "{size}. {check_failed}",
+                        code="forces.results_unbalanced",
+                    ),
+                    "N",
+                    gap,
+                    largest,
+                    motion,
+                )
 
     def _parts(self, rows: Rows) -> tuple[Floats, Floats, Floats]:
         """The rows of forces, of what no joint supplies, and of the two powers."""
@@ -125,19 +147,20 @@ class ForceChecks:
         )
 
 
-def _differ(key: str, unit: str, gaps: Floats, sizes: Floats, motion: Motion) -> NoReturn:
+def _differ(problem: Message, unit: str, gaps: Floats, sizes: Floats, motion: Motion) -> NoReturn:
     _unused, place = _worst(gaps[None], sizes)
     raise SelfCheckError(
-        key,
-        name=motion.mechanism.name,
-        where=input_at(motion, place),
-        gap=f"{gaps[place]:.3g} {unit}",
-        size=f"{sizes[place]:.3g} {unit}",
-        check_failed=_(
-            "Next to a singular position the numbers may have no digits left: ask for positions "
-            "away from it. Elsewhere this is an error of the program, and no result may be used: "
-            "please report it with the model file",
-        ),
+        problem.format(
+            name=motion.mechanism.name,
+            where=input_at(motion, place),
+            gap=f"{gaps[place]:.3g} {unit}",
+            size=f"{sizes[place]:.3g} {unit}",
+            check_failed=_(
+                "Next to a singular position the numbers may have no digits left: ask for positions "
+                "away from it. Elsewhere this is an error of the program, and no result may be used: "
+                "please report it with the model file",
+            ),
+        )
     )
 
 

@@ -33,10 +33,13 @@ def motion_law(
     unknown = sorted(set(values) - set(kind.fields))
     missing = sorted(key for key, each in kind.fields.items() if each.required and key not in values)
     if unknown or missing:
-        key = "laws.unknown_value" if unknown else "laws.missing_value"
-        raise RequestError(
-            key, law=name, names=", ".join(unknown or missing), known=", ".join(kind.fields) or "–"
+        problem = (
+            _("the law {law} has no {names}; it has: {known}", code="laws.unknown_value")
+            if unknown
+            else _("the law {law} needs {names}; it has: {known}", code="laws.missing_value")
         )
+        names, known = ", ".join(unknown or missing), ", ".join(kind.fields) or "–"
+        raise RequestError(problem.format(law=name, names=names, known=known))
     return altered(kind(**values), crossover, portion, backwards)
 
 

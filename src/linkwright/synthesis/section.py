@@ -22,7 +22,6 @@ from linkwright.files.reader import Reader as FileReader
 from linkwright.registry import listed, nearest
 from linkwright.synthesis.result import DEMAND_MISSING, DEMAND_UNKNOWN, NO_TASK
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.synthesis.catalogue import Task
@@ -172,8 +171,8 @@ class Demand(Field):
             return None
 
     def _wrong(self, reader: Reader, node: Node, place: Place) -> None:
-        kind = "model.a_list" if isinstance(node, Sequence) else "model.a_mapping"
-        said = node.text if isinstance(node, Scalar) else Sentence(kind)
+        kind = _("a list") if isinstance(node, Sequence) else _("a mapping (key: value)")
+        said = node.text if isinstance(node, Scalar) else kind
         demand = place.key.rpartition(".")[2]
         told = _(
             "{demand}: {form} is wanted; given: {given}",

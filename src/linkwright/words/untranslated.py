@@ -6,17 +6,11 @@ linkwright beam gallery:cantilever
 linkwright beam gallery:propped_cantilever --worked
 linkwright beam gallery:pitman_bending --plot bending.svg""",
     "cams.drawing": "{name}",
-    "finding.error": "{body}",
-    "finding.below": "{first}\n{second}",
-    "form.just": "{value}",
-    "model.form_length": "length: 0.5 m",
-    "motion.coordinate": "{name} = {value}",
     "optimize.examples": """\
 linkwright optimize crusher.yaml --output better.yaml
 linkwright optimize gallery:jaw_crusher_sixbar --vary pitman.length=1.1..1.4m toggle.length=1..1.3m \\
     --minimize peak_input_torque --keep "jaw.angle range=same within 1 %"
 linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot front.svg --state front.state""",
-    "page.where": "{name} = {value}",
     "program.examples": """\
 linkwright program gallery:production_mix
 linkwright program gallery:lightest_spring --worked
@@ -33,8 +27,6 @@ linkwright statistics gallery:shaft_diameters
 linkwright statistics gallery:spring_rate --plot rate.svg
 linkwright statistics gallery:shaft_diameters --worked --lang zh""",
     "statistics.sigma": "σ",
-    "studio.examples": "linkwright studio\nlinkwright studio crusher.yaml",
-    "studio.demand_hint": "at least 40 deg",
     "study.examples": """\
 linkwright study gallery:jaw_crusher_sixbar --vary "pitman.length=1.2..1.3 m:11"
 linkwright study crusher.yaml --vary "pitman.length=1.2..1.3 m:5" "jaw.mass=700, 900 kg" \\

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from linkwright.words import catalogue
+from linkwright.page.texts import TEXTS as OF_PAGES
+from linkwright.server.texts import TEXTS
 
 UI = Path(__file__).resolve().parents[3] / "ui"
 
@@ -29,4 +30,4 @@ def test_every_sentence_that_the_studio_says_is_in_the_catalogues() -> None:
     names = re.findall(r'"(\w+)"', tools)
     said |= {*names, *(f"help_{name}" for name in names)}
     assert len(said) > 60
-    assert said - {*catalogue("studio"), *catalogue("page")} == set()
+    assert said - {key.partition(".")[2] for key in TEXTS | OF_PAGES} == set()

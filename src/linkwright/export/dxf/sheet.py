@@ -208,7 +208,7 @@ def check_unit(unit: str) -> tuple[float, int]:
 def new_document(layers: Mapping[str, int], unit: int = 4) -> Any:
     """An empty document with layers of these colours (numbers of the AutoCAD colour index); ``unit``: DXF's number,
     millimetres unless given. Raises LinkwrightError where ezdxf is missing."""
-    document = package("ezdxf", "dxf_drawings").new("R2010", setup=["linetypes"])
+    document = package("ezdxf", _("DXF drawings")).new("R2010", setup=["linetypes"])
     document.units = unit
     for name, colour in layers.items():
         document.layers.add(name, color=colour)

@@ -8,6 +8,7 @@ import json
 from linkwright.export.export import FORMATS, Format, package
 from linkwright.export.results import Results
 from linkwright.export.tables import wide
+from linkwright.words import _
 
 
 def content(results: Results, *, compression: str = "zstd") -> bytes:
@@ -15,8 +16,8 @@ def content(results: Results, *, compression: str = "zstd") -> bytes:
 
     A field's metadata has ``owner``, ``quantity`` and ``unit``; the schema's has ``name`` and ``linkwright`` (JSON).
     """
-    pyarrow = package("pyarrow", "parquet_files")
-    parquet = package("pyarrow.parquet", "parquet_files", "pyarrow")
+    pyarrow = package("pyarrow", _("Parquet files"))
+    parquet = package("pyarrow.parquet", _("Parquet files"), "pyarrow")
     columns = wide(results)
     fields = [
         pyarrow.field(

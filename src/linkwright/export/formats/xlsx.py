@@ -70,7 +70,7 @@ def content(results: Results, *, degrees: bool = False) -> bytes:
     written as texts: none is read as a formula or a link. Values that are not finite stay empty. ``degrees``: angles
     in degrees.
     """
-    xlsxwriter = package("xlsxwriter", "excel_files", "XlsxWriter")
+    xlsxwriter = package("xlsxwriter", _("Excel files"), "XlsxWriter")
     stream = io.BytesIO()
     settings = {
         "in_memory": True,
