@@ -81,8 +81,23 @@ def _pivot(w: Writer, d: CrankRockerDerivation, lengths: tuple[Term, Term]) -> N
     step = w.step(_("Choice of the crank's pivot"))
     limit = "" if math.isinf(d.link_ratio) else f"{d.link_ratio:.4g}"
     family = w.found.counts.get("family", 0)
-    key = "pivot.both" if d.frame and d.rocker else "pivot.best"
-    step.say(w.say(key, count=family, limit=limit))
+    step.say(
+        w.say(
+            _(
+                "Frame and rocker are both given, so the crank's pivot lies where the circle about the "
+                "rocker's pivot with the frame as radius meets this circle; {count} such points give a crank-rocker.",
+                count=family,
+            )
+            if d.frame and d.rocker
+            else _(
+                "The crank's pivot O1 may lie anywhere on it where the linkage is a crank-rocker of one "
+                "circuit: of {count} points examined, the one with the largest smallest transmission angle was "
+                "taken, with the longest link at most {limit} times the shortest.",
+                count=family,
+                limit=limit,
+            )
+        )
+    )
     place = d.pivot * d.rocker_length
     x, y = (
         step.give(w.length("x", place.real, "O1"), w.unit),

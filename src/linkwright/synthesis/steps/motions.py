@@ -41,16 +41,33 @@ def motion(w: Writer, d: MotionDerivation) -> None:
         _points(w, d)
     else:
         step = w.step(_("Dyads"))
-        step.say(w.say(_family(d), count=len(d.p), dyads=w.found.counts.get("dyads", 0)))
+        step.say(w.say(_family(d, w.found.counts.get("dyads", 0))))
     _circles(w, d)
     if not w.found.best.linkage.guides:
         examine(w, w.found.best)
 
 
-def _family(d: MotionDerivation) -> str:
+def _family(d: MotionDerivation, dyads: int) -> str:
     if np.isnan(d.phi).any():
-        return "motion.mixed"
-    return {2: "motion.two", 3: "motion.three"}.get(len(d.p), "motion.many")
+        return _("Some angles are free; they are unknowns beside pins and pivots.")
+    if len(d.p) == 2:
+        return _(
+            "Two poses: every body point lies on a circle about any point of the bisector of its two "
+            "places; {dyads} dyads were sampled, and all their pairs examined.",
+            dyads=dyads,
+        )
+    if len(d.p) == 3:
+        return _(
+            "Three poses: every body point has a circle through its three places; {dyads} dyads were "
+            "sampled within the region, and all their pairs examined.",
+            dyads=dyads,
+        )
+    return _(
+        "{count} poses cannot all be met exactly: dyads of least squares, from Burmester's points "
+        "of many sets of five poses; {dyads} different ones were found.",
+        count=len(d.p),
+        dyads=dyads,
+    )
 
 
 def _given(w: Writer, d: MotionDerivation) -> None:

@@ -50,8 +50,26 @@ def path(w: Writer, d: PathDerivation) -> None:
         )
     )
     unknowns = 2 * len(points) - d.demand.excess
-    key = "path.more" if d.demand.excess > 0 else "path.enough"
-    step.say(w.say(key, equations=2 * len(points), unknowns=unknowns, optima=d.optima))
+    equations = 2 * len(points)
+    step.say(
+        w.say(
+            _(
+                "{equations} equations for {unknowns} unknowns: the sum of squared distances is made "
+                "smallest, from many starts; {optima} optima were compared.",
+                equations=equations,
+                unknowns=unknowns,
+                optima=d.optima,
+            )
+            if d.demand.excess > 0
+            else _(
+                "{equations} equations for {unknowns} unknowns: the points can be passed exactly, in many "
+                "ways; {optima} solutions from many starts were compared.",
+                equations=equations,
+                unknowns=unknowns,
+                optima=d.optima,
+            )
+        )
+    )
     if d.demand.pivot is not None:
         step.say(w.say(_("The crank's pivot is given.")))
     _coupler_point(w)
@@ -157,8 +175,21 @@ def straight_line(w: Writer, d: StraightLineDerivation) -> None:
     step = w.step(pgettext("synthesis_steps", "Given"))
     step.give(w.length("s", d.length), w.unit)
     step.give(w.length("δ", d.allowed), w.unit)
-    key = "line.kind" if d.compared == 1 else "line.compared"
-    step.say(w.say(key, count=d.compared, good=len(w.found)))
+    step.say(
+        w.say(
+            _(
+                "The kind of linkage is demanded; the longest stretch of its path that is straight enough is "
+                "made as long as demanded."
+            )
+            if d.compared == 1
+            else _(
+                "{count} classical linkages were compared, each by the longest stretch of its path that "
+                "is straight enough; there is one in {good} of them.",
+                count=d.compared,
+                good=len(w.found),
+            )
+        )
+    )
     step = w.step(_("Link lengths"))
     step.say(
         w.say(
@@ -271,8 +302,20 @@ def free_curve(w: Writer, d: FreeCurveDerivation) -> None:
     """The measure, the search's demands, and how far the drawn curve lies from some points of the given one."""
     best = w.found.best
     step = w.step(pgettext("synthesis_steps", "Given"))
-    key = "free.closed" if d.closed else "free.open"
-    step.say(w.say(key, points=len(d.curve)))
+    points = len(d.curve)
+    step.say(
+        w.say(
+            _(
+                "A closed curve by {points} corners; its centroid S and root mean square radius R:",
+                points=points,
+            )
+            if d.closed
+            else _(
+                "An open curve by {points} corners; its centroid S and root mean square radius R:",
+                points=points,
+            )
+        )
+    )
     for name, value in (("x_S", d.centroid.real), ("y_S", d.centroid.imag), ("R", d.radius)):
         letter, _unused, index = name.partition("_")
         step.give(w.length(letter, value, index), w.unit)
