@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from linkwright.cams.result import CamDesign
+from linkwright.cams.result import LABELS, CamDesign
 from linkwright.core.quantity import number, shown
 from linkwright.core.search import first_largest
 from linkwright.core.table import Block, Row
@@ -89,7 +89,7 @@ def _motion(design: CamDesign, say: Say) -> Block:
                 )
             else:
                 unit = ("rad" if kinds[0] == "angle" else "m") + ("/rad", "/rad²")[order - 1]
-                label = f"{say(f'cams.{word}_{key}')} ({unit})"
+                label = f"{say(LABELS[f'{word}_{key}'])} ({unit})"
                 rows.append(Row(f"{word}_{key}", extreme.value, "", label, at(extreme.place, say)))
     return Block("motion", say(_("Motion")), rows, _remarks(design, say))
 
@@ -102,12 +102,14 @@ def _remarks(design: CamDesign, say: Say) -> list[str]:
         return [say(_("What keeps it from being smoother: {names}.", names=named))]
     if not isinstance(program, MotionProgram):
         return []
-    words = ("cams.acceleration_jumps", "cams.jerk_jumps")
+    told = (_("The acceleration jumps at {places}."), _("The jerk jumps at {places}."))
     found = []
-    for order, key in zip((2, 3), words, strict=True):
+    for order, jumps in zip((2, 3), told, strict=True):
         places = [shown(each, "angle") for each in program.places_of_jumps(order)]
         if places:
-            found.append(say(key, places=", ".join([*places[:MANY], *(["…"] if len(places) > MANY else [])])))
+            found.append(
+                say(jumps, places=", ".join([*places[:MANY], *(["…"] if len(places) > MANY else [])]))
+            )
     return found
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -25,7 +25,7 @@ from linkwright.equations.steps import Step
 from linkwright.errors import RequestError
 from linkwright.laws.program import MotionProgram
 from linkwright.parts.base import Result
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.cams.curves import CamCurve, Contact
@@ -38,6 +38,35 @@ POINTS = 1440
 #: Share of the largest contact force that is none.
 ROUNDING = 1e-12
 _FEWEST, _MOST = 36, 100_000
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "lift": _("lift"),
+    "own_frequency": _("natural frequency"),
+    "steady_deviation": _("largest deviation in steady motion"),
+    "barrel_radius": _("radius of the barrel"),
+    "roller_radius": _("radius of the roller"),
+    "start_angle": _("angle of the arm at zero lift ψ₀"),
+    "face_width": _("width of the flat face"),
+    "smallest_radius": _("smallest radius of curvature"),
+    "hollow_radius": _("smallest hollow radius"),
+    "stiffness": _("stiffness of the spring"),
+    "preload": _("preload of the spring"),
+    "largest_contact_pressure": _("largest contact pressure"),
+    "residual": _("residual amplitude"),
+    "base_radius": _("radius of the base circle"),
+    "prime_radius": _("radius of the prime circle (base circle of the pitch curve)"),
+    "offset_row": _("offset"),
+    "largest_velocity": _("largest velocity"),
+    "smallest_velocity": _("smallest velocity"),
+    "largest_acceleration": _("largest acceleration"),
+    "smallest_acceleration": _("smallest acceleration"),
+    "pressure_angle_rise": pgettext("cams", "pressure angle, rise"),
+    "pressure_angle_fall": _("pressure angle, fall"),
+    "largest_contact_force": _("largest contact force"),
+    "smallest_contact_force": _("smallest contact force"),
+    "largest_torque": _("largest torque"),
+    "smallest_torque": _("smallest torque"),
+}
 
 
 @dataclass(frozen=True, repr=False)
@@ -47,7 +76,7 @@ class CamDesign(Result):
     Curves are over ``angles`` (n,) of one turn, in rad, the end included; walls are those of ``cam.walls``.
     """
 
-    area: ClassVar[str] = "cams"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     cam: CamShape
 
     @cached_property

@@ -183,9 +183,9 @@ class Row:
     more: Mapping[str, Any] = field(default_factory=dict)
     digits: int | None = None
 
-    def cells(self, labels: Mapping[str, Message] | str, say: Say, digits: int = 6) -> list[str]:
+    def cells(self, labels: Mapping[str, Message], say: Say, digits: int = 6) -> list[str]:
         """Label, number with so many digits, unit and note."""
-        label = self.label or say(f"{labels}.{self.key}" if isinstance(labels, str) else labels[self.key])
+        label = self.label or say(labels[self.key])
         if self.text:
             return [label, self.text, "", self.note]
         amount = Amount(self.value, self.dimension, self.digits or digits, self.end, self.scale)
@@ -215,7 +215,7 @@ class Block:
     rows: Sequence[Row]
     remarks: Sequence[str] = ()
 
-    def lines(self, labels: Mapping[str, Message] | str, say: Say, digits: int = 6) -> list[str]:
+    def lines(self, labels: Mapping[str, Message], say: Say, digits: int = 6) -> list[str]:
         """Title, rows and remarks on a terminal."""
         rows = aligned([row.cells(labels, say, digits) for row in self.rows], "<><<")
         title = [self.title] if self.title else []
@@ -260,9 +260,7 @@ def rows_data(blocks: Sequence[Block]) -> dict[str, Any]:
     return found
 
 
-def together(
-    blocks: Sequence[Block], labels: Mapping[str, Message] | str, say: Say, digits: int = 7
-) -> list[str]:
+def together(blocks: Sequence[Block], labels: Mapping[str, Message], say: Say, digits: int = 7) -> list[str]:
     """The rows of all blocks aligned with one another, an empty line before each block."""
     lines = iter(aligned([row.cells(labels, say, digits) for block in blocks for row in block.rows], "<><>"))
     return [line for block in blocks if block.rows for line in ("", *(next(lines) for _ in block.rows))]

@@ -19,6 +19,17 @@ from linkwright.words.sentence import in_language, reason_of
 
 #: Letters of an answer that a sentence repeats.
 SHOWN = 60
+#: The usual mistakes.
+MISTAKE_NAMES = {
+    "degrees_for_radians": _("degrees for radians"),
+    "wrong_assembly_mode": _("wrong assembly mode"),
+    "missing_parenthesis": _("missing parenthesis"),
+    "arctangent_quadrant": _("quadrant of the arctangent"),
+    "inertia_couple_sign": _("sign of the inertia couple"),
+    "missing_coriolis": _("missing Coriolis term"),
+    "mass_centre_wrong_end": _("mass centre at the wrong end"),
+    "rpm_for_radians": _("rpm for rad/s"),
+}
 
 
 @dataclass(frozen=True)
@@ -98,8 +109,20 @@ def _rows(
         ) from None
     for name in ("variant", *names):
         if columns.count(name) != 1:
-            said = "course.two_columns" if name in columns else "course.no_column"
-            raise RequestError(said, name=name)
+            raise RequestError(
+                _(
+                    'the answers have more than one column "{name}"; leave one of them',
+                    code="course.two_columns",
+                    name=name,
+                )
+                if name in columns
+                else _(
+                    'the answers have no column "{name}"; its first line names the columns as answers.csv '
+                    "does",
+                    code="course.no_column",
+                    name=name,
+                )
+            )
     return rows
 
 
@@ -219,7 +242,13 @@ def _number(text: str | None, line: int, name: str) -> float | None:
 def table(grades: Sequence[Grade], names: Sequence[str], language: str = "en") -> Table:
     """A table: student, variant, score, wrong numbers, mistake."""
     say = speaker(language)
-    head = [say(f"course.{each}") for each in ("student", "variant", "score", "wrong", "mistake")]
+    head = [
+        say(_("student")),
+        say(_("variant")),
+        say(_("right")),
+        say(_("wrong")),
+        say(_("probable mistake")),
+    ]
     rows: list[list[Cell]] = []
     for each in grades:
         if each.fault:
@@ -227,7 +256,7 @@ def table(grades: Sequence[Grade], names: Sequence[str], language: str = "en") -
             continue
         wrong = [name for name, ok in zip(names, each.right, strict=True) if ok is False]
         open_ = [name for name, ok in zip(names, each.right, strict=True) if ok is None]
-        said = say(_(" or ")).join(say(f"course.mistake_{name}") for name in each.mistakes)
+        said = say(_(" or ")).join(say(MISTAKE_NAMES[name]) for name in each.mistakes)
         if wrong and not said:
             said = say(_("none of the usual ones"))
         if each.where and said:

@@ -30,6 +30,11 @@ PICTURE = 640
 #: the width.
 TALLEST, LOWEST, ROOM, ROW, SHARE = 110.0, 30.0, 196.0, 5.0, 0.8
 Files = dict[str, bytes]
+#: Axes and signs of answers.
+CONVENTION = _(
+    "x to the right, y up; angles and moments counter-clockwise positive; angles of a link's "
+    "x axis in degrees.",
+)
 
 
 def files_of(found: Variants, forms: Sequence[str] = (), language: str = "en") -> Files:
@@ -205,7 +210,7 @@ def prairielearn(found: Variants, language: str) -> Files:
     )
     page = (
         f"<pl-question-panel>\n<p>{braceless(escape(position_text(found, say)))} "
-        f"{escape(say('course.convention'))}</p>\n"
+        f"{escape(say(CONVENTION))}</p>\n"
         '<pl-figure file-name="{{params.picture}}"></pl-figure>\n'
         f"<table>{{{{#params.rows}}}}<tr><td>{{{{name}}}}</td><td>{{{{value}}}}</td></tr>{{{{/params.rows}}}}</table>\n"
         f"</pl-question-panel>\n{inputs}\n"
@@ -267,7 +272,7 @@ def moodle(found: Variants, language: str) -> Files:
         picture = base64.b64encode(drawing(found, each, language).encode()).decode()
         name = f"variant-{each.number}.svg"
         text = (
-            f"<p>{braceless(escape(position_text(found, say)))} {escape(say('course.convention'))}</p>"
+            f"<p>{braceless(escape(position_text(found, say)))} {escape(say(CONVENTION))}</p>"
             f'<p><img src="@@PLUGINFILE@@/{name}" alt={braceless(quoteattr(found.name))} width="{PICTURE}"/></p>'
             f"{braceless(_html_table(data_rows(found, each, say)))}"
             + "".join(
@@ -338,7 +343,7 @@ def item(found: Variants, each: Variant, language: str) -> str:
         for i, (_unused, answer) in enumerate(asked)
     )
     text = (
-        f"<p>{escape(position_text(found, say))} {escape(say('course.convention'))}</p>"
+        f"<p>{escape(position_text(found, say))} {escape(say(CONVENTION))}</p>"
         f'<p><img src="images/variant-{each.number}.svg" alt={quoteattr(found.name)}/></p>'
         f"{_html_table(data_rows(found, each, say))}{lines}"
     )

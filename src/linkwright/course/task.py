@@ -24,7 +24,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.units import DIMENSIONS, not_a_number
 from linkwright.words import _
-from linkwright.words.sentence import Sentence
 
 _SHARE: Schema = {"type": ["string", "number"]}
 SECTION = Keys({
@@ -123,10 +122,6 @@ class _Reading(SectionReading):
         assert at is not None
         return Task(self.mechanism, ranges, questions, at, tolerance)
 
-    def _wrong(self, key: str, sentence: str, **values: object) -> None:
-        """Notes what is wrong with a setting: the sentence ``course.SENTENCE``."""
-        self.note(key, Sentence(f"course.{sentence}", **values), sentence.replace("_", "-"))
-
     def _quantity(self, key: str, given: Any, dimension: str) -> float | None:
         try:
             if isinstance(given, Mapping | list | tuple):
@@ -139,7 +134,15 @@ class _Reading(SectionReading):
     def _tolerance(self, value: Any) -> float:
         found = _share(value)
         if not 0.0 < found <= 0.2:
-            self._wrong("tolerance", "bad_tolerance", text=flow(value))
+            self.note(
+                "tolerance",
+                _(
+                    '"{text}" is no tolerance; give a share up to 0.2, such as 0.01 or 1 %',
+                    code="course.bad_tolerance",
+                    text=flow(value),
+                ),
+                "bad-tolerance",
+            )
         return found
 
     def _ranges(self) -> dict[str, tuple[float, float]]:
@@ -149,7 +152,15 @@ class _Reading(SectionReading):
             sizes = {name: self.mechanism.dimension(name) for name in _usual_sizes(self.mechanism)}
             return {name: _by(SHARE, value) for name, value in sizes.items()}
         if not isinstance(given, Mapping):
-            self._wrong("vary", "bad_range", text=flow(given))
+            self.note(
+                "vary",
+                _(
+                    '"{text}" is no range; give a share (8 %) or two values ([0.3 m, 0.35 m])',
+                    code="course.bad_range",
+                    text=flow(given),
+                ),
+                "bad-range",
+            )
             return {}
         found = {}
         for address, limits in given.items():
@@ -175,7 +186,15 @@ class _Reading(SectionReading):
             low, high = _by(share, value)
         if -math.inf < low < high < math.inf:
             return low, high
-        self._wrong(key, "bad_range", text=flow(given))
+        self.note(
+            key,
+            _(
+                '"{text}" is no range; give a share (8 %) or two values ([0.3 m, 0.35 m])',
+                code="course.bad_range",
+                text=flow(given),
+            ),
+            "bad-range",
+        )
         return None
 
     def _questions(self, sheet: Sheet) -> tuple[Question, ...]:
@@ -185,7 +204,13 @@ class _Reading(SectionReading):
             return _usual_questions(sheet)
         names = {output.column: output for output in sheet.values}
         if not isinstance(given, list | tuple) or not given:
-            self._wrong("ask", "no_list", given=flow(given), hint=offered("", names))
+            told = _(
+                '"{given}" is no list of results; {hint}',
+                code="course.no_list",
+                given=flow(given),
+                hint=offered("", names),
+            )
+            self.note("ask", told, "no-list")
             return ()
         found = []
         for i, name in enumerate(given):
@@ -194,7 +219,13 @@ class _Reading(SectionReading):
                 if meant in sheet.values:
                     found.append(Question(meant))
                     continue
-            self._wrong(f"ask.{i}", "no_number", name=str(name), hint=offered(str(name), names))
+            told = _(
+                'there is no result "{name}" at this position; {hint}',
+                code="course.no_number",
+                name=str(name),
+                hint=offered(str(name), names),
+            )
+            self.note(f"ask.{i}", told, "no-number")
         return tuple(dict.fromkeys(found))
 
 

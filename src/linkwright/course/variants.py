@@ -27,7 +27,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import metrics
 from linkwright.metrics.transmission_angle import TransmissionAngle
 from linkwright.words import _
-from linkwright.words.sentence import Sentence
 
 FORMAT = 1
 #: Designs that are tried per variant, at most; digits of a changed dimension; positions of the cycle.
@@ -43,6 +42,29 @@ SPREAD = 4.0
 Failing = Literal["stuck", "flat", "unlike", "mistakes", "same"]
 #: Mistakes lead to answers that are so many tolerances apart, from the right ones and from each other.
 APART = 3.0
+#: What variants do that cannot be used, and what helps.
+TOO_FEW = {
+    "stuck": _(
+        "do not pass their cycle: give narrower limits in course.vary (it varies {vary}), or "
+        "name fewer dimensions there, and such as need not fit each other",
+    ),
+    "flat": _(
+        "transmit worse than the model: give narrower limits in course.vary (it varies {vary}), "
+        "or start from a machine with a larger transmission angle",
+    ),
+    "unlike": _(
+        "have answers of another sign or of quite another size than the model: move course.at to "
+        "a position where the results are not near zero, or ask for others in course.ask",
+    ),
+    "mistakes": _(
+        "show other mistakes than the model: give narrower limits in course.vary (it varies "
+        "{vary}), or move course.at",
+    ),
+    "same": _(
+        "have the same answers as others: name dimensions in course.vary on which the answers "
+        "depend (it varies {vary}), or give wider limits",
+    ),
+}
 
 
 @dataclass(frozen=True)
@@ -225,7 +247,7 @@ def _too_few(asked: Task, found: int, count: int, failed: Counter[str]) -> Linkw
             )
         )
     ((why, times),) = failed.most_common(1)
-    remedy = Sentence(f"course.too_few_{why}", vary=tuple(asked.ranges))
+    remedy = TOO_FEW[why].format(vary=tuple(asked.ranges))
     return LinkwrightError(
         _(
             "only {found} of {count} variants were found in {tried} tries; {times} of these {remedy}",

@@ -126,7 +126,7 @@ def _as_given(value: Any, kind: Field | None = None) -> Any:
 class Result(Plotted, ABC):
     """What was found: its numbers in blocks, the way to them in steps."""
 
-    area: ClassVar[str]
+    labels: ClassVar[Mapping[str, Message]]
 
     @property
     def title(self) -> str:
@@ -167,7 +167,7 @@ class Result(Plotted, ABC):
         say = speaker(language)
         lines = [self.title]
         for block in tidy(self.blocks(say)):
-            lines += ["", *block.lines(self.area, say, digits)]
+            lines += ["", *block.lines(self.labels, say, digits)]
         return "\n".join(lines)
 
     def data(self) -> dict[str, Any]:

@@ -16,16 +16,15 @@ from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Either
 from linkwright.registry import nearest
-from linkwright.words import _
-from linkwright.words.sentence import Sentence
+from linkwright.words import Message, _
 
 
 @dataclass(frozen=True)
 class Known(Either):
-    """A name of some known values, or a table; ``code``: of the finding for another name."""
+    """A name of some known values, or a table; ``other``: what is said of another name."""
 
     known: Mapping[str, Any]
-    code: str
+    other: Message
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         found = super().read(reader, node, place, given)
@@ -33,7 +32,13 @@ class Known(Either):
             return found
         if found in self.known:
             return self.known[found]
-        unknown_name(reader, node, place, self.code, found, list(self.known))
+        offer, listed = nearest(found, list(self.known)), tuple(self.known)
+        remedy = (
+            _("(known: {known})", known=listed)
+            if offer is None
+            else _('did you mean "{offer}"? (known: {known})', offer=offer, known=listed)
+        )
+        reader.error(node, place, self.other.format(name=found), remedy, "unknown-name")
         return None
 
     def shape(self) -> Schema:
@@ -131,18 +136,6 @@ def _likely(
             return expressions.parse_as(text, dimension, reader.kinds), units.DIMENSIONS[dimension]
     found = expressions.parse_any(text, reader.kinds)
     return found, found.dimension(reader.kinds)
-
-
-def unknown_name(reader: Reader, node: Node, place: Place, code: str, name: str, known: list[str]) -> None:
-    """The finding for a name that a table does not have, with the nearest that it has."""
-    offer = nearest(name, known)
-    listed = tuple(known)
-    remedy = (
-        _("(known: {known})", known=listed)
-        if offer is None
-        else _('did you mean "{offer}"? (known: {known})', offer=offer, known=listed)
-    )
-    reader.error(node, place, Sentence(code, name=name), remedy, "unknown-name")
 
 
 @dataclass(frozen=True)

@@ -88,7 +88,7 @@ def numbers_and_way(found: Result, say: Say, language: str, level: int) -> Itera
 def _results(found: Result, say: Say) -> Iterator[Block]:
     head = (say(_("name")), say(_("value")), say(_("unit")), say(_("remark")))
     for block in tidy(found.blocks(say)):
-        rows = [row.cells(found.area, say) for row in block.rows]
+        rows = [row.cells(found.labels, say) for row in block.rows]
         remarked = any(row[3] for row in rows)
         cells = tuple((_label(row[0]), *map(literal, row[1 : 4 if remarked else 3])) for row in rows)
         if cells:

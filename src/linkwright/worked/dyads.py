@@ -14,10 +14,24 @@ from linkwright.groups.rpp import RPP
 from linkwright.groups.rpr import RPR
 from linkwright.groups.rrp import RRP
 from linkwright.groups.rrr import RRR
-from linkwright.words import _
+from linkwright.words import Message, _
 from linkwright.worked.chains import Trail, attach, trail
 from linkwright.worked.placing import Placing
 from linkwright.worked.symbols import Book, Spot
+
+#: On which side a joint lies: with the root +, and with the root -.
+MODE_RPR = (
+    _("The block lies ahead of the foot of the perpendicular from {p}, seen along the guide: +ρ."),
+    _("The block lies behind the foot of the perpendicular from {p}, seen along the guide: -ρ."),
+)
+MODE_RRP = (
+    _("{b} lies ahead of the foot of the perpendicular from {p}, seen along the guide: +ρ."),
+    _("{b} lies behind the foot of the perpendicular from {p}, seen along the guide: -ρ."),
+)
+MODE_RRR = (
+    _("{b} lies on the left of the ray {p}→{q}: the root with +d⊥ = (-d_y, d_x)."),
+    _("{b} lies on the right of the ray {p}→{q}: the root with -d⊥ = (d_y, -d_x)."),
+)
 
 
 @dataclass(frozen=True)
@@ -85,9 +99,10 @@ class DyadWriter:
         rho = symbol("ρ", math.sqrt(max(value, 0.0)))
         return self.step.find(rho, root(square), unit)
 
-    def note_mode(self, key: str, *spots: Spot) -> None:
+    def note_mode(self, modes: tuple[Message, Message], *spots: Spot) -> None:
         p, q, b = (spot.label for spot in spots)
-        self.step.say(self.book.say(f"worked.{key}_{'plus' if self.mode > 0 else 'minus'}", p=p, q=q, b=b))
+        told = modes[0] if self.mode > 0 else modes[1]
+        self.step.say(self.book.say(told, p=p, q=q, b=b))
 
     def frame_chain(self, end: str, name: str) -> tuple[Pair, Trail]:
         """Where the cut would be with the slides at zero, for a chain of guides."""
@@ -129,7 +144,7 @@ def _rrr(dyad: RRR, write: DyadWriter) -> bool:
     d, dd = write.apart(p, q.place)
     t = step.define("t", dd + r1.squared - r2.squared, "m²")
     rho = write.root(FOUR * r1.squared * dd - t.squared, "m²")
-    write.note_mode("mode_rrr", p, q, tip)
+    write.note_mode(MODE_RRR, p, q, tip)
     side = d.perp.times(rho)
     turn = d.times(t) + side if mode > 0 else d.times(t) - side
     b = Pair(p.place.x + turn.x / (TWO * dd), p.place.y + turn.y / (TWO * dd))
@@ -151,7 +166,7 @@ def _rrp(dyad: RRP, write: DyadWriter) -> bool:
     h = step.define("h", n.cross(f), "m")
     along = step.define("f", n.dot(f), "m")
     rho = write.root(r.squared - h.squared, "m")
-    write.note_mode("mode_rrp", p, p, tip)
+    write.note_mode(MODE_RRP, p, p, tip)
     slide = write.book.slide(guide.joint)
     ahead = (mode > 0) == (guide.child == guide.connection.b)  # words are seen along the guide of the file
     write.placing.displacement(step, slide, along + rho if ahead else along - rho)
@@ -171,7 +186,7 @@ def _rpr(dyad: RPR, write: DyadWriter) -> bool:
     b = ZERO if ahead.is_zero else step.define("b", ahead, "m")
     d, dd = write.apart(p, tip.place)
     rho = write.root(dd - e.squared, "m")
-    write.note_mode("mode_rpr", p, tip, tip)
+    write.note_mode(MODE_RPR, p, tip, tip)
     reach = rho if mode > 0 else -rho
     slide = write.book.slide(guide.joint)
     write.placing.displacement(step, slide, reach - b)

@@ -16,6 +16,23 @@ from linkwright.worked.symbols import Book
 
 #: Marks of parts of an acceleration as they are printed above its letter.
 RAISED = {"n": "ⁿ", "t": "ᵗ", "k": "ᵏ", "d": "ᵈ"}
+#: What both ends at cut joints have in common: by whether of accelerations, and whether across a guide.
+CLOSURES = {
+    (False, False): _("Both ends at {joints} have the same velocity:"),
+    (False, True): _("Both ends at {joints} have the same velocity (for a guide: across it):"),
+    (True, False): _("Both ends at {joints} have the same acceleration:"),
+    (True, True): _(
+        "Both ends at {joints} have the same acceleration (for a guide: across it, with Coriolis' part):",
+    ),
+}
+#: Parts of an acceleration that are known.
+PARTS = {
+    "tangential": _("Tangential part α × r of {label}:"),
+    "centripetal": _("Centripetal part -ω² r of {label}:"),
+    "coriolis": _("Coriolis' part 2 ω s' n⊥ of {label}:"),
+    "driven_turn": _("Part of the driver's angular acceleration at {label}:"),
+    "driven_slide": _("Part of the driver's acceleration along {label}:"),
+}
 
 
 @dataclass
@@ -115,10 +132,9 @@ class RateWriter:
     ) -> None:
         joints = ", ".join(dict.fromkeys(c.cut.joint for c in cuts if not c.cut.higher))
         pairs = ", ".join(c.cut.joint for c in cuts if c.cut.higher)
-        key = "worked.acceleration_closure" if second else "worked.velocity_closure"
         across = any(closure.cut.slides for closure in cuts)
         if joints:
-            step.say(self.book.say(f"{key}_guide" if across else key, joints=joints))
+            step.say(self.book.say(CLOSURES[second, across], joints=joints))
         if pairs:
             step.say(
                 self.book.say(
@@ -163,7 +179,7 @@ class RateWriter:
             term = ZERO if formula.is_zero else symbol(plain, formula.value, look=look)
             if not term.is_zero and plain not in noted:
                 if not begun:
-                    step.say(self.book.say(f"worked.part_{part.kind}", label=part.label))
+                    step.say(self.book.say(PARTS[part.kind], label=part.label))
                 begun = True
                 step.find(term, formula, "m/s²")
             found.append(term)

@@ -63,8 +63,11 @@ class Reactions:
         """The steps of one group."""
         book = self.book
         links = ", ".join(f"{book.numbers[link]} {link}" for link in group.links)
-        key = "worked.forces_of_driven" if group.assur_class == 1 and group.drivers else "worked.forces_of"
-        title = book.say(key, signature=group.signature, links=links)
+        driven = group.assur_class == 1 and group.drivers
+        told = (
+            _("Forces of the driven link: {links}") if driven else _("Forces of group {signature}: {links}")
+        )
+        title = book.say(told, signature=group.signature, links=links)
         head = Step(f"{number}", title, group.name)
         if in_one_step(group):
             self._wheels(head, group)

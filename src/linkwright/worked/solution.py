@@ -241,10 +241,14 @@ class _Kinematics:
         step = Step("1", say(_("Input")))
         for name, driver in book.mechanism.drivers.items():
             turning = book.mechanism.joints[driver.joint].coordinate == "turn"
-            key = "worked.input_turn" if turning else "worked.input_slide"
+            told = (
+                _("{head}{link} turns against {relative} about {joint}.")
+                if turning
+                else _("{head}{link} slides on {relative} in {joint}.")
+            )
             head = f"{name}: " if len(book.mechanism.drivers) > 1 else ""
             relative = link_said(driver.relative_to, language_of(say))
-            step.say(say(key, head=head, link=driver.link, relative=relative, joint=driver.joint))
+            step.say(say(told, head=head, link=driver.link, relative=relative, joint=driver.joint))
             unit = "rad" if turning else "m"
             measures: tuple[str | Output, ...] = (
                 Output("input", name, slides=not turning), f"{unit}/s", f"{unit}/s²"
@@ -288,8 +292,8 @@ class _Kinematics:
 
     def _wheel_rates(self, group: Group, number: int) -> list[Step]:
         found = []
-        for second, word in ((False, "velocities"), (True, "accelerations")):
-            step = Step(f"{number}.{3 if second else 2}", self.book.say(f"worked.{word}"), group.name)
+        for second, title in ((False, _("Velocities")), (True, _("Accelerations"))):
+            step = Step(f"{number}.{3 if second else 2}", self.book.say(title), group.name)
             self.movers.driven_guides(step, group, second=second)
             self.rates.links(step, group, second=second, before=True)
             self.wheels.rates(step, group, second=second)
@@ -299,11 +303,12 @@ class _Kinematics:
         return found
 
     def _title(self, group: Group, links: str) -> str:
-        key = "worked.group_driven" if group.assur_class == 1 and group.drivers else "worked.group"
-        return self.book.say(key, signature=group.signature, links=links, order=group.assur_order)
+        driven = group.assur_class == 1 and group.drivers
+        told = _("Driven link: {links}") if driven else _("Group {signature}: {links}")
+        return self.book.say(told, signature=group.signature, links=links, order=group.assur_order)
 
     def _joints(self, group: Group) -> str:
         outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))
         inner = ", ".join(dict.fromkeys(c.joint for c in group.inner_joints))
-        key = "worked.joints" if inner else "worked.outer_only"
-        return self.book.say(key, outer=outer, inner=inner)
+        told = _("Outer joints {outer}; inner joints {inner}.") if inner else _("Joints {outer}.")
+        return self.book.say(told, outer=outer, inner=inner)

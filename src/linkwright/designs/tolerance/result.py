@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cached_property
 from typing import ClassVar
 
@@ -25,7 +26,7 @@ from linkwright.errors import LinkwrightError, ModelError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.by_name import wanted
 from linkwright.parts.base import Result, fault
-from linkwright.words import Say, _, pgettext
+from linkwright.words import Message, Say, _, pgettext
 
 #: Linear and Monte Carlo spread agree within this share.
 AGREE = 0.005
@@ -37,6 +38,21 @@ NEAR = 0.05
 EXTREMES = ("min", "max", "range", "peak", "argmin", "argmax")
 #: Shares of a normal distribution at ±3σ.
 QUANTILES = (0.00135, 0.99865)
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "nominal": _("nominal value"),
+    "largest_deviation": _("largest standard deviation"),
+    "shift": _("shift by pressed pins"),
+    "linear": _("standard deviation, linear"),
+    "monte_carlo": _("standard deviation, Monte Carlo"),
+    "mean": _("mean, Monte Carlo"),
+    "range": _("99.73 % of the machines"),
+    "worst": _("± worst case (all tolerances used up)"),
+    "yield": _("yield"),
+    "largest_monte_carlo": _("largest standard deviation, Monte Carlo"),
+    "widest": _("widest band of 99.73 % of the machines"),
+    "largest_shift": _("largest shift by pressed pins"),
+}
 
 
 @dataclass(frozen=True)
@@ -58,7 +74,7 @@ class Spread(Result):
     clearances shift the numbers (see ``linkwright.designs.tolerance.pressed_pins``) and do not spread them.
     """
 
-    area: ClassVar[str] = "tolerance"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     study: Tolerances
 
     def check(self) -> None:

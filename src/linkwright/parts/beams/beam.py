@@ -31,6 +31,20 @@ from linkwright.words import Message, Say, _
 SUPPORTS = ("fixed", "pinned", "roller", "guided", "spring")
 QUANTITIES = ("shear", "moment", "slope", "deflection")
 DIMENSIONS = {"shear": "force", "moment": "torque", "slope": "slope", "deflection": "length"}
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "stress": _("largest bending stress |M|/W"),
+    "safety": _("safety against the strength"),
+    "needed_modulus": _("needed section modulus"),
+}
+#: What goes along a beam, in words.
+QUANTITY_NAMES = {
+    "shear": _("shear force V"),
+    "moment": _("bending moment M"),
+    "slope": _("slope θ"),
+    "deflection": _("deflection w"),
+}
+EXTREMES = {"least": _("least"), "largest": _("largest")}
 
 
 @dataclass(frozen=True)
@@ -285,7 +299,7 @@ class BeamLine(Result):
     least and the largest.
     """
 
-    area: ClassVar[str] = "beam"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     beam: Beam
     line: ElasticLine
     sections: tuple[tuple[float, Section], ...]
@@ -383,7 +397,7 @@ class BeamLine(Result):
         extremes = []
         for quantity in QUANTITIES:
             for word, (x, value) in zip(("least", "largest"), self.extremes(quantity), strict=True):
-                label = f"{say(f'beam.{quantity}')}, {say(f'beam.{word}')}"
+                label = f"{say(QUANTITY_NAMES[quantity])}, {say(EXTREMES[word])}"
                 note = say(_("at x = {x}", x=shown(x, "length")))
                 extremes.append(Row(f"{word}_{quantity}", value, DIMENSIONS[quantity], label, note))
         found.append(Block("extremes", say(_("Extremes")), extremes))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cached_property
 from typing import ClassVar
 
@@ -30,10 +31,20 @@ from linkwright.parts.beams.balance import polynomial_text
 from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, require_modulus, section_field
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _
 
 #: Points of a link lie on a line within this share of its length.
 STRAIGHT = 1e-6
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "largest_moment": _("largest bending moment"),
+    "largest_normal": _("largest normal force"),
+    "largest_stress": _("largest stress |N|/A + |M|/W"),
+    "largest_deflection": _("largest deflection, from the line between the ends"),
+    "closure": _("gap of forces at the far end"),
+    "safety": _("safety against the strength"),
+    "needed_modulus": _("needed section modulus"),
+}
 
 
 @dataclass(frozen=True)
@@ -190,7 +201,7 @@ class LinkStress(Result):
     (n, k).
     """
 
-    area: ClassVar[str] = "beam"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     problem: LinkBending
     forces: Forces
 

@@ -8,6 +8,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Quantity, Text, given
 from linkwright.fields.tables import Table
 from linkwright.parts.fields import Known
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,6 @@ TABLE: Mapping[str, Material] = {
     )
 }
 MATERIAL = Known(
-    Text(), Table.of(Material), TABLE, "beam.no_material", required=True,
+    Text(), Table.of(Material), TABLE, _('there is no material "{name}"', code="beam.no_material"), required=True,
     doc=f"material: {', '.join(TABLE)}, or {{modulus: 210 GPa, strength: 235 MPa}}",
 )  # fmt: skip

@@ -118,7 +118,14 @@ class SectionField(Known):
 def section_field(doc: str = "cross section") -> SectionField:
     """The key of a cross section."""
     profiles = {name: profile(name) for name in IPE}
-    return SectionField(Text(), Table(FIELDS), profiles, "beam.no_profile", required=True, doc=doc)
+    return SectionField(
+        Text(),
+        Table(FIELDS),
+        profiles,
+        _('there is no profile "{name}"', code="beam.no_profile"),
+        required=True,
+        doc=doc,
+    )
 
 
 def _shaped(reader: Reader, node: Node, place: Place, found: dict[str, Any]) -> Section | None:

@@ -37,12 +37,23 @@ from linkwright.parts.programs.nonlinear import (
     solve_nonlinear,
 )
 from linkwright.parts.programs.problem import Model, Variable
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _
 
 #: A constraint is active within this share of the size of its sides.
 ACTIVE = 1e-6
 #: A variable beyond this multiple of its scale has run away.
 AWAY = 1e6
+#: How the best was found.
+WAYS = {
+    "linear": _("Linear program (simplex method): the optimum of all."),
+    "integer": _("Mixed-integer linear program (branch and cut): the optimum of all."),
+    "nonlinear": _(
+        "Nonlinear program (sequential quadratic programming): {agreed} of {starts} starts came "
+        "to this optimum; it is a local one, the best that was found.",
+    ),
+    "enumerated": _("All {count} combinations of the discrete values were tried: the optimum of all."),
+    "branched": _("Mixed nonlinear program (branch and bound over local optima): the best that was found."),
+}
 
 
 def _variable(**given: Any) -> Variable:
@@ -294,7 +305,7 @@ class Optimum(Result):
     ``gap``: how far the condition of Karush, Kuhn and Tucker is from holding, scaled.
     """
 
-    area: ClassVar[str] = "program"
+    labels: ClassVar[Mapping[str, Message]] = {}
     program: Program
     values: Floats
     way: str
@@ -389,12 +400,15 @@ class Optimum(Result):
         return self.program.variables[name].dimension
 
     def _method(self, say: Say) -> str:
-        return say(f"program.{self.way}", agreed=self.agreed[0], starts=self.agreed[1], count=self.combinations,
+        return say(WAYS[self.way], agreed=self.agreed[0], starts=self.agreed[1], count=self.combinations,
                    gap=f"{self.gap:.1e}")  # fmt: skip
 
     def _at_bound(self, name: str, say: Say) -> str:
         variable, value = self.program.variables[name], self.x[name]
-        for bound, word in ((variable.least, "program.at_lower"), (variable.most, "program.at_upper")):
+        for bound, word in (
+            (variable.least, _("at its lower bound")),
+            (variable.most, _("at its upper bound")),
+        ):
             if math.isfinite(bound) and abs(value - bound) <= ACTIVE * max(variable.size, abs(bound)):
                 return say(word)
         return ""
@@ -423,8 +437,16 @@ class Optimum(Result):
                 )
                 gain = f"{abs(price) * size / factor:.6g} {own}".rstrip()
                 best = say(_("minimum") if self.program.minimize else _("maximum"))
-                key = "program.price_rises" if price > 0 else "program.price_falls"
-                lines.append(say(key, name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain))
+                told = (
+                    _(
+                        "Raising the right side of {name} by {step} raises the {best} by {price} (shadow price)."
+                    )
+                    if price > 0
+                    else _(
+                        "Raising the right side of {name} by {step} lowers the {best} by {price} (shadow price)."
+                    )
+                )
+                lines.append(say(told, name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain))
         return tuple(lines)
 
     def _allowed(self, name: str, variable: Variable) -> str:
@@ -463,7 +485,12 @@ class Optimum(Result):
         step.items.append(Written(label + shown_text, (first, *set_sides[1:])))
 
     def steps(self, say: Say) -> list[Step]:
-        task, found, test = (Step(str(i + 1), say(f"program.step_{i + 1}")) for i in range(3))
+        task, found, test = (
+            Step(str(i), say(title))
+            for i, title in enumerate(
+                (_("The program"), _("The optimum"), _("Constraints at the optimum")), 1
+            )
+        )
         objective = self.program.model.objective
         self._law(task, f"{'min' if self.program.minimize else 'max'} f = {objective.text}")
         for c in self.program.subject_to:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
@@ -14,10 +15,19 @@ from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
 from linkwright.parts.base import Problem, Result, fault
-from linkwright.words import Say, _, pgettext
+from linkwright.words import Message, Say, _, pgettext
 
 #: Largest μ θ: e^(μθ) stays a number, with all of its digits.
 GRIP = 300.0
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "tight": _("tight side T1"),
+    "slack": _("slack side T2"),
+    "pull": _("T1 − T2"),
+    "ratio": _("ratio of tensions e^(μθ)"),
+    "torque": pgettext("statics", "torque"),
+    "power": _("power"),
+}
 
 
 @dataclass(frozen=True)
@@ -132,7 +142,7 @@ class Belt(Problem):
 class BeltTensions(Result):
     """Tensions ``tight`` T1 and ``slack`` T2, N, at the limit of slipping."""
 
-    area: ClassVar[str] = "statics"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     belt: Belt
     tight: float
     slack: float

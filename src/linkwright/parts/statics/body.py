@@ -26,7 +26,6 @@ from linkwright.parts.base import Problem, Result, fault
 from linkwright.parts.motions import plain_motions
 from linkwright.parts.statics.forces import COUPLES, DIRECTION, FORCES, Components, Force, ForceField, spatial
 from linkwright.words import Message, Say, _
-from linkwright.words.sentence import Sentence
 
 #: Singular values below this share of the largest count as zero.
 ZERO = 1e-10
@@ -279,8 +278,10 @@ def describe(motion: Floats, scale: float, planar: bool) -> Message:
     if planar:
         return _("turn about the point {place} m", code="statics.turns_plane", place=_vector(centre[:2]))
     axis = turn / np.abs(turn).max()
-    key = "statics.turns" if abs(along) < 1e-9 * scale else "statics.screws"
-    return Sentence(key, axis=_vector(axis), place=_vector(centre))
+    values = {"axis": _vector(axis), "place": _vector(centre)}
+    if abs(along) < 1e-9 * scale:
+        return _("turn about the axis along {axis} through {place} m", code="statics.turns", **values)
+    return _("screw along the axis {axis} through {place} m", code="statics.screws", **values)
 
 
 def _vector(vector: Floats) -> str:
@@ -294,7 +295,7 @@ class Reactions(Result):
     Σ F = 0 and Σ M = 0 (six equations in space, three in the plane) as one linear system.
     """
 
-    area: ClassVar[str] = "statics"
+    labels: ClassVar[Mapping[str, Message]] = {}
     body: RigidBody
 
     @cached_property

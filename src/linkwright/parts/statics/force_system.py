@@ -31,10 +31,18 @@ from linkwright.parts.statics.forces import (
     direction_angles,
     spatial,
 )  # fmt: skip
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _, pgettext
 
 #: Singular values, and sums that stay, below this share of the largest count as zero.
 SINGULAR = 1e-10
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "along": _("component along the line"),
+    "across": _("component across it"),
+    "pitch": _("pitch h"),
+    "couple": _("couple along R"),
+    "to_line": _("angle to the line"),
+}
 
 
 @dataclass(frozen=True)
@@ -148,7 +156,7 @@ class Resultant(Result):
     pitch h = R·M/R² and a point of the axis r0 + R × M/R² (Poinsot; Beer and Johnston, Vector Mechanics, ch. 3).
     """
 
-    area: ClassVar[str] = "statics"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     system: ForceSystem
 
     @cached_property
@@ -219,7 +227,10 @@ class Resultant(Result):
         return [*blocks, *asked_blocks(self.system, vectors, self.force, say)]
 
     def steps(self, say: Say) -> list[Step]:
-        sums, about, wrench = (Step(str(i + 1), say(f"statics.step_{i + 1}")) for i in range(3))
+        sums, about, wrench = (
+            Step(str(i), say(title))
+            for i, title in enumerate((_("Resultant"), _("Moment"), _("Reduction to a wrench")), 1)
+        )
         for name, each in self.system.forces.items():
             if each.size is not None:
                 unit = ", ".join(number(u) for u in each.unit)
@@ -424,7 +435,7 @@ class PointEquilibrium(Result):
     sum of the known forces turned round (Beer and Johnston, Vector Mechanics, ch. 2). A negative one acts against its
     direction."""
 
-    area: ClassVar[str] = "statics"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     system: ForceSystem
 
     @property
@@ -470,7 +481,17 @@ class PointEquilibrium(Result):
 
     def steps(self, say: Say) -> list[Step]:
         a, b = self.matrix
-        directions, sums, solved = (Step(str(i + 1), say(f"statics.point_{i + 1}")) for i in range(3))
+        directions, sums, solved = (
+            Step(str(i), say(title))
+            for i, title in enumerate(
+                (
+                    _("Directions and known forces"),
+                    _("Equilibrium of the point"),
+                    pgettext("statics", "Solution"),
+                ),
+                1,
+            )
+        )
         for name, each in self.system.forces.items():
             unit = ", ".join(number(float(c)) for c in each.unit[: len(b)])
             if each.unknown:

@@ -14,10 +14,20 @@ from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
 from linkwright.fields.tables import Named, Table
 from linkwright.parts.base import Problem, Result, fault, signed
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _
 
 #: What is left of the unbalances of a rotor that is balanced, as share of their sizes.
 ROUNDING = 1e-12
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "unbalance": _("unbalance U = Σ m·r"),
+    "counterweight": _("counterweight m_b"),
+    "mass_radius_arm": _("Σ m·r·z about the plane"),
+    "direction": _("direction of U"),
+    "seat": _("angle of the counterweight θ_b"),
+    "rotating_force": _("rotating force without it ω²·U"),
+    "rotating_couple": _("rotating couple ω²·Σ m·r·z"),
+}
 
 
 @dataclass(frozen=True)
@@ -105,7 +115,7 @@ class Rotor(Problem):
 class RotorBalance(Result):
     """Unbalances of the planes and the counterweights against them; ``left``: what one plane cannot balance."""
 
-    area: ClassVar[str] = "statics"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     rotor: Rotor
 
     def share(self, plane: str, at: float) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from typing import ClassVar
 
@@ -23,7 +24,6 @@ from linkwright.parts.statics.balance import Balance, structure_balance
 from linkwright.parts.statics.body import describe
 from linkwright.structure import StructureError, structure
 from linkwright.words import Message, Say, _, language_of
-from linkwright.words.sentence import Sentence
 
 #: Starts of the search for a position, and the gap below which the joints close.
 STARTS, CLOSED = 24, 1e-10
@@ -88,8 +88,12 @@ def _motion(system: ConstraintEquations, motion: Floats) -> tuple[Message, ...]:
         part = motion[3 * i : 3 * i + 3]
         if np.abs(part).max() > 1e-6:
             how = describe(np.where(np.abs(part) < 1e-9, 0.0, part), system.size, planar=True)
-            kind = "statics.link_slides" if how.code == "statics.slides" else "statics.link_turns"
-            found.append(Sentence(kind, link=link))
+            slides = how.code == "statics.slides"
+            found.append(
+                _("{link} slides", code="statics.link_slides", link=link)
+                if slides
+                else _("{link} turns", code="statics.link_turns", link=link)
+            )
     return tuple(found)
 
 
@@ -97,7 +101,7 @@ def _motion(system: ConstraintEquations, motion: Floats) -> tuple[Message, ...]:
 class StructureForces(Result):
     """Reactions at every joint of a structure; ``forces`` is the full result of the reaction solver."""
 
-    area: ClassVar[str] = "statics"
+    labels: ClassVar[Mapping[str, Message]] = {}
     forces: Forces
 
     @property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
@@ -14,7 +15,14 @@ from linkwright.equations.steps import Step
 from linkwright.errors import Finding
 from linkwright.fields.base import Quantity, given
 from linkwright.parts.base import Problem, Result, fault
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _, pgettext
+
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "raising": _("push that raises the load"),
+    "lowering": _("push that lets it sink"),
+    "efficiency": pgettext("statics", "efficiency"),
+}
 
 
 @dataclass(frozen=True)
@@ -95,7 +103,7 @@ class Wedge(Problem):
 class WedgeForces(Result):
     """``raising`` and ``lowering`` push on the wedge, N; a negative one is a pull: the wedge locks itself."""
 
-    area: ClassVar[str] = "statics"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     wedge: Wedge
 
     @property

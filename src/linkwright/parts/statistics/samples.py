@@ -36,12 +36,48 @@ from linkwright.parts.statistics.describe import (
     regression,
 )
 from linkwright.parts.statistics.hypotheses import AGAINST, TESTS, TOGETHER, Outcome
-from linkwright.words import Say, _, pgettext
+from linkwright.words import Message, Say, _, pgettext
 
 #: A probability below this one is not told apart from nothing.
 TINY = 1e-12
 #: Values that a fitted distribution needs at least.
 FIT_LEAST = 8
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "count": _("number n"),
+    "mean": _("mean x̄"),
+    "least": pgettext("statistics", "least"),
+    "median": _("median"),
+    "quartiles": _("quartiles"),
+    "largest": pgettext("statistics", "largest"),
+    "determination": _("determination R²"),
+    "residual": _("residual deviation s"),
+    "sigma": _("σ"),
+    "deviation": _("standard deviation s"),
+    "skewness": _("skewness"),
+    "kurtosis": _("excess kurtosis"),
+}
+#: Intervals, distributions and hypotheses in words.
+INTERVALS = {"mean": _("interval of the mean, {level}"), "deviation": _("interval of σ, {level}")}
+DISTRIBUTION_NAMES = {
+    "normal": _("normal"),
+    "lognormal": _("lognormal"),
+    "weibull": _("Weibull"),
+    "exponential": _("exponential"),
+    "uniform": _("uniform"),
+    "gamma": _("gamma"),
+    "gumbel": _("Gumbel"),
+}
+HYPOTHESES = {
+    "mean": _("the mean is the given value"),
+    "variance": _("the standard deviation is the given value"),
+    "normality": _("the values are normal"),
+    "two_means": _("both means are equal"),
+    "paired": _("the pairs differ by nothing on average"),
+    "two_variances": _("both variances are equal"),
+    "correlation": _("the samples are not correlated"),
+    "anova": _("all means are equal"),
+}
 
 
 @dataclass(frozen=True)
@@ -393,7 +429,7 @@ class Samples(Problem):
 class Statistics(Result):
     """Descriptions, fits, outcomes of tests, regressions and capabilities by name; SI."""
 
-    area: ClassVar[str] = "statistics"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     problem: Samples
 
     @cached_property
@@ -470,7 +506,7 @@ class Statistics(Result):
             level = f"{100 * self.problem.confidence:g} %"
             for key, interval in (("mean", mean_interval), ("deviation", deviation_interval)):
                 low, high = interval(self.problem.values(name), self.problem.confidence)
-                label = say(f"statistics.{key}_interval", level=level)
+                label = say(INTERVALS[key], level=level)
                 rows.append(Row(f"{key}_interval", low, label=label, scale=scale, end=high))
         rows += [Row("least", d.least, scale=scale), Row("median", d.quartiles[1], scale=scale)]
         rows.append(Row("quartiles", d.quartiles[0], scale=scale, end=d.quartiles[2]))
@@ -515,14 +551,16 @@ class Statistics(Result):
             distance = say(
                 _("largest distance of the distribution functions {distance}", distance=f"{fit.distance:.4f}")
             )
-            rows.append(Row(fit.name, fit.akaike, "", say(f"statistics.{fit.name}"), f"{note}; {distance}"))
+            rows.append(
+                Row(fit.name, fit.akaike, "", say(DISTRIBUTION_NAMES[fit.name]), f"{note}; {distance}")
+            )
         return rows
 
     def _test_rows(self, name: str, say: Say) -> list[Row]:
         outcome, test = self.tests[name], self.problem.tests[name]
         freedom = f"({', '.join(number(f) for f in outcome.freedom)})" if outcome.freedom else ""
         rejected = outcome.p < 1.0 - self.problem.confidence
-        hypothesis = say(f"statistics.h_{test.kind}")
+        hypothesis = say(HYPOTHESES[test.kind])
         verdict = say(
             (_("rejected: {hypothesis}") if rejected else _("not rejected: {hypothesis}")).format(
                 hypothesis=hypothesis
@@ -579,9 +617,7 @@ class Statistics(Result):
                 step.law(f"x̄ ± t·s/√(n) = {measured(self._interval(name, ends))}")
             found.append(step)
         for name, outcome in self.tests.items():
-            step = Step(
-                str(len(found) + 1), f"{name}: {say(f'statistics.h_{self.problem.tests[name].kind}')}"
-            )
+            step = Step(str(len(found) + 1), f"{name}: {say(HYPOTHESES[self.problem.tests[name].kind])}")
             step.put(outcome.symbol, outcome.formula, outcome.statistic)
             step.law(f"p {_probability(outcome.p)}")
             step.say(self._test_rows(name, say)[1].note)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import cached_property
 from typing import ClassVar
 
@@ -23,7 +24,21 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Result, fault
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _
+
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "displacement": _("displacement per cycle"),
+    "throw_number": _("throw number max(−a_n)/|g_n|"),
+    "needed_friction": _("least friction that keeps the load at rest"),
+}
+#: What the load does, in words.
+MODE_NAMES = {
+    "rest": _("rest"),
+    "forward": _("sliding forward"),
+    "backward": _("sliding back"),
+    "flight": _("flight"),
+}
 
 
 @dataclass(frozen=True)
@@ -153,7 +168,7 @@ class Transport(Result):
     s̈ = −f ∓ μ' N; throw where N would be negative; landing without bounce, its blow rubs.
     """
 
-    area: ClassVar[str] = "trajectory"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     conveyor: Conveyor
     motion: Transported
 
@@ -204,12 +219,12 @@ class Transport(Result):
         if math.isfinite(self.needed_friction):
             rows.append(Row("needed_friction", self.needed_friction))
         rows += [
-            Row(mode, share, label=say(f"trajectory.{mode}"), scale=PERCENT)
+            Row(mode, share, label=say(MODE_NAMES[mode]), scale=PERCENT)
             for mode, share in self.shares.items()
         ]
         kind = self._input_kind
         phases = [
-            Row(f"{i}_{phase.mode}", self._input(phase.start), kind, f"{i} {say(f'trajectory.{phase.mode}')}",
+            Row(f"{i}_{phase.mode}", self._input(phase.start), kind, f"{i} {say(MODE_NAMES[phase.mode])}",
                 end=self._input(phase.end))
             for i, phase in enumerate(self.motion.phases, 1)
         ]  # fmt: skip
@@ -244,16 +259,16 @@ class Transport(Result):
         )
         law.say(say(_("Per mass of the load: normal force n, friction f that rest would need.")))
         law.law("n = a_n − g_n; f = a_t − g_t")
-        law.say(f"{say('trajectory.rest')}:")
+        law.say(f"{say(MODE_NAMES['rest'])}:")
         law.law("|f| ≤ μ·n")
-        law.say(f"{say('trajectory.slide')}:")
+        law.say(f"{say(_('sliding'))}:")
         law.law("s̈ = −f ∓ μ'·n")
         law.put("g_n", "", trough.gravity[1], "acceleration")
         law.put("Γ", "max(−a_n)/|g_n|", self.throw_number)
         if math.isfinite(self.needed_friction):
             law.put("μ_min", "max(|f|/n)", self.needed_friction)
         for phase in self.motion.phases[:24]:
-            word = say(f"trajectory.{phase.mode}")
+            word = say(MODE_NAMES[phase.mode])
             ends = " … ".join(
                 shown(self._input(time), self._input_kind, 5) for time in (phase.start, phase.end)
             )

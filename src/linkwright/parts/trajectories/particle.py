@@ -21,12 +21,22 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem, Result, fault
 from linkwright.parts.mechanism_field import load_beside
 from linkwright.units import GRAVITY
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _, pgettext
 
 #: Accuracy of the integration with quadratic drag, and points of the curve.
 ACCURACY, POINTS = 1e-11, 401
 #: Times in which drag stops the particle, within the flight, above which its equation is stiff.
 STIFF = 1e4
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "speed": _("speed at the start"),
+    "angle": _("direction at the start"),
+    "duration": _("time of flight"),
+    "distance": pgettext("trajectory", "distance"),
+    "top": _("greatest height"),
+    "impact_speed": _("speed at the ground"),
+    "impact_angle": _("direction at the ground"),
+}
 
 
 @dataclass(frozen=True)
@@ -180,7 +190,7 @@ class Flight(Result):
     relative accuracy of 1e-11.
     """
 
-    area: ClassVar[str] = "trajectory"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     particle: Particle
 
     @property

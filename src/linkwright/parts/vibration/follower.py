@@ -27,10 +27,19 @@ from linkwright.laws.program_fields import LawField
 from linkwright.laws.residual import residual
 from linkwright.parts.base import Problem, Result, fault
 from linkwright.parts.vibration.linear import Linear, largest_between
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _
 
 #: Points of curves; distance from a break at which a law has the value of its side.
 POINTS, BESIDE = 801, 1e-13
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "own_frequency": _("natural frequency"),
+    "ratio": _("rise time over natural period n"),
+    "largest_gap": _("largest difference to the cam during the rise"),
+    "left_over": _("largest difference after the rise"),
+    "residual": _("residual amplitude without damping"),
+    "residual_share": _("its share of the lift"),
+}
 
 
 @dataclass(frozen=True)
@@ -160,7 +169,7 @@ class FollowerVibration(Result):
     velocity at the ends included; over n = T/T_n it is the residual spectrum of the law.
     """
 
-    area: ClassVar[str] = "vibration"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     problem: FollowerSpring
 
     @property

@@ -24,7 +24,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Result, fault
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.vibration.linear import largest_between
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _, pgettext
 
 #: Columns and dimensions of shaking force, motion and force on the ground, by axis.
 TITLES = {
@@ -43,6 +43,17 @@ TITLES = {
 }
 #: Harmonics below this share of the largest are not listed.
 SMALL = 1e-3
+#: Ways of a machine, and what is largest over the cycle: along an axis, and of its turning.
+WAYS = {
+    "x": pgettext("vibration", "x"),
+    "y": pgettext("vibration", "y"),
+    "turn": _("turning"),
+}
+LARGEST = {
+    "shaking": (_("shaking force along {axis}"), _("shaking moment about the mass centre")),
+    "machine": (_("motion of the machine along {axis}"), _("turning of the machine")),
+    "ground": (_("force on the ground along {axis}"), _("moment on the ground about the mass centre")),
+}
 
 
 @dataclass(frozen=True)
@@ -222,7 +233,7 @@ class Shaken(Result):
     ground gets (K + i kω C) X_k. ``harmonics`` F_k of Σ Re F_k e^(ikωt); ``moved``, ``passed`` in the same way.
     """
 
-    area: ClassVar[str] = "vibration"
+    labels: ClassVar[Mapping[str, Message]] = {}
     problem: Mounts
 
     @property
@@ -342,7 +353,7 @@ class Shaken(Result):
                     _(
                         "natural frequency, mode {mode} (mostly {axis})",
                         mode=k + 1,
-                        axis=say(f"vibration.way_{most[k]}"),
+                        axis=WAYS[most[k]],
                     )
                 ),
             )
@@ -355,7 +366,8 @@ class Shaken(Result):
         for i, axis in enumerate(self.axes):
             for (key, amplitudes), (_unused, dimension) in zip(curves.items(), TITLES[axis], strict=True):
                 largest = self._largest(amplitudes[:, i])
-                label = say(f"vibration.{key}_turn") if axis == "turn" else say(f"vibration.{key}", axis=axis)
+                straight, turning = LARGEST[key]
+                label = say(turning) if axis == "turn" else say(straight, axis=axis)
                 rows.append(Row(f"{key}_{axis}", largest, dimension, label))
         found = [Block("mounts", say(_("Largest values over the cycle")), rows)]
         listed = []
@@ -367,7 +379,7 @@ class Shaken(Result):
                     _(
                         "k = {order} ({hertz} Hz) {axis}",
                         order=k,
-                        axis=say(f"vibration.way_{axis}"),
+                        axis=WAYS[axis],
                         hertz=hertz,
                     )
                 )

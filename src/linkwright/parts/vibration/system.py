@@ -35,7 +35,7 @@ from linkwright.parts.vibration.excitation import (
 )
 from linkwright.parts.vibration.linear import Linear, largest_between, tuned
 from linkwright.units import DIMENSIONS, SMALLEST
-from linkwright.words import Say, _
+from linkwright.words import Message, Say, _
 
 GROUND = "ground"
 #: Curves of frequency and time have so many points.
@@ -44,6 +44,12 @@ POINTS = 801
 PER_PERIOD, MOST = 64, 40_000
 #: A mode without damping this near to the excitation is in resonance, relative.
 RESONANCE = 1e-9
+#: What the numbers are called.
+LABELS: Mapping[str, Message] = {
+    "transmissibility": _("transmissibility"),
+    "absorber_stiffness": _("stiffness of its spring"),
+    "absorber_damping": _("damping of its damper"),
+}
 
 
 @dataclass(frozen=True)
@@ -395,7 +401,7 @@ def _mixed(given: Mapping[str, Any], where: Mapping[str, str], turning: bool) ->
 class Vibration(Result):
     """Natural frequencies, modes and damping; amplitudes under the excitation; responses over frequency and time."""
 
-    area: ClassVar[str] = "vibration"
+    labels: ClassVar[Mapping[str, Message]] = LABELS
     system: VibratingSystem
 
     @property
