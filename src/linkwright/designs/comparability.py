@@ -7,7 +7,6 @@ from collections.abc import Callable, Hashable, Sequence
 from linkwright.designs.alternatives import Alternative
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
 
 #: Keys of a load that say where it acts, not how large it is.
 PLACES = ("on", "at", "between", "joint", "links", "direction", "in_link", "normal_to", "along", "against")
@@ -15,14 +14,26 @@ PLACES = ("on", "at", "between", "joint", "links", "direction", "in_link", "norm
 
 def unlike(alternatives: Sequence[Alternative]) -> tuple[str, ...]:
     """Sentences on loads, inputs and outputs in which the alternatives differ."""
-    tasks: dict[str, Callable[[Alternative], tuple[str, ...]]] = {
-        "loads": lambda each: _loads(each.mechanism),
-        "speeds": lambda each: _speeds(each.mechanism),
-        "outputs": lambda each: (each.output.dimension,),
+    tasks: dict[Message, Callable[[Alternative], tuple[str, ...]]] = {
+        _(
+            "! The alternatives carry different loads ({told}): torque, power, reactions and "
+            "flywheel compare unlike things.",
+            code="compare.unlike_loads",
+        ): lambda each: _loads(each.mechanism),
+        _(
+            "! The alternatives are driven at different speeds ({told}): rates, forces and powers "
+            "compare unlike things.",
+            code="compare.unlike_speeds",
+        ): lambda each: _speeds(each.mechanism),
+        _(
+            "! The outputs of the alternatives are of different kinds ({told}): their travels and "
+            "rates compare unlike things.",
+            code="compare.unlike_outputs",
+        ): lambda each: (each.output.dimension,),
     }
     return tuple(
-        Sentence(f"compare.unlike_{name}", told=[_told(each, read(each)) for each in alternatives])
-        for name, read in tasks.items()
+        said.format(told=[_told(each, read(each)) for each in alternatives])
+        for said, read in tasks.items()
         if len({_rounded(read(each)) for each in alternatives}) > 1
     )
 

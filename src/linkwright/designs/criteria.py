@@ -14,8 +14,19 @@ from linkwright.metrics.by_name import is_summary, measured, metric_named, metri
 from linkwright.metrics.flywheel import SIZED
 from linkwright.metrics.of_output import OWN
 from linkwright.registry import offered
-from linkwright.words import _, say
+from linkwright.words import _
 from linkwright.words.sentence import in_words
+
+#: Names of the numbers that only comparisons have.
+LABELS = {
+    "travel": _("travel of the output"),
+    "output_velocity": _("largest speed of the output"),
+    "output_acceleration": _("largest acceleration of the output"),
+    "pivot_reaction": _("peak reaction at the output's pivot"),
+    "flywheel": _("flywheel on the crank"),
+    "exact_flywheel": _("exact flywheel on the crank"),
+    "reached_fluctuation": _("speed fluctuation reached"),
+}
 
 
 @dataclass(frozen=True)
@@ -43,7 +54,7 @@ class Criterion:
     def label(self, language: str = "en", dimension: str = "") -> str:
         """Its name in words; a driver that slides has a force, by its ``dimension``."""
         if self.name in OWN:
-            return say(f"compare.{self.name}.label", language)
+            return LABELS[self.name].translate(language)
         if self.metric is None:
             return self.name
         title, subject = self.metric().label_in(language, dimension), self.name.partition(" ")[2]

@@ -125,13 +125,17 @@ def evaluation(comparison: Comparison, language: str = "en") -> str:
 def sentences(comparison: Comparison, language: str) -> list[str]:
     """Sentences about the motion, the pivot, the torque, the flywheel, and a verdict."""
     say = speaker(language)
-    subjects = {"motion": _motion}
+    subjects = {_("Motion: {parts}."): _motion}
     if any(each.loaded for each in comparison.alternatives):
-        subjects |= {"pivot": _pivot, "torque": _torque, "flywheels": _flywheel}
+        subjects |= {
+            _("Pivot reaction: {parts}."): _pivot,
+            _("Balancing torque: {parts}."): _torque,
+            _("Flywheel on the crank for a speed fluctuation of {fluctuation}: {parts}."): _flywheel,
+        }
     found = []
-    for name, part in subjects.items():
+    for subject, part in subjects.items():
         parts = say(_("; ")).join(part(each, say) for each in comparison.alternatives)
-        found.append(say(f"compare.{name}", parts=parts, fluctuation=f"{comparison.fluctuation:g}"))
+        found.append(say(subject, parts=parts, fluctuation=f"{comparison.fluctuation:g}"))
     return [*found, *_verdict(comparison, say)]
 
 
@@ -197,7 +201,15 @@ def _torque(each: Alternative, say: Say) -> str:
 def _flywheel(each: Alternative, say: Say) -> str:
     names = {"inertia": "flywheel", "energy": "energy_fluctuation", "power": "mean_power"}
     numbers = {word: _measured(each, name) for word, name in names.items()}
-    return say(f"compare.flywheel_{'of' if numbers['inertia'] else 'none'}", label=each.label, **numbers)
+    if not numbers["inertia"]:
+        return say(_("for {label} there is none to lay out", label=each.label))
+    return say(
+        _(
+            "{label} has an energy fluctuation of {energy} at a mean power of {power} and needs {inertia}",
+            label=each.label,
+            **numbers,
+        )
+    )
 
 
 def _verdict(comparison: Comparison, say: Say) -> list[str]:
@@ -218,8 +230,12 @@ def _verdict(comparison: Comparison, say: Say) -> list[str]:
     ]
     for rank in others:
         names = _best_in(comparison, rank, say)
-        key = "compare.other" if names else "compare.never"
-        lines.append(say(key, label=rank.label, score=f"{100 * rank.score:.0f}", names=names))
+        said = (
+            _("{label} ({score} of 100) is to be preferred where this matters most: {names}.")
+            if names
+            else _("{label} ({score} of 100) is best in none of the metrics.")
+        )
+        lines.append(say(said, label=rank.label, score=f"{100 * rank.score:.0f}", names=names))
     return lines
 
 

@@ -17,7 +17,13 @@ from linkwright.formula.summaries import summaries
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, _
-from linkwright.words.sentence import Sentence
+
+#: Where designs fail that fail at no group.
+PLACES = {
+    "barred": _("between two positions", code="study.between_positions"),
+    "unfit": _("at wheels off their distance", code="study.at_wheels"),
+}
+BY_LOADS = _("by loads or metrics", code="study.by_loads")
 
 
 @dataclass(frozen=True)
@@ -44,8 +50,7 @@ class Failure:
         """Where they fail: at a group, between two positions, at wheels, or by what is asked of them."""
         if self.group is not None:
             return _("at the group ({group})", group=tuple(self.group.split("+")))
-        places = {"barred": "between_positions", "unfit": "at_wheels"}
-        return Sentence(f"study.{places.get(self.kind, 'by_loads')}")
+        return PLACES.get(self.kind, BY_LOADS)
 
 
 def explained(

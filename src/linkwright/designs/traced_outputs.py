@@ -27,6 +27,7 @@ from linkwright.kinetostatics.named_outputs import Named, Quantity
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import TURNING
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
 
 #: The truth output that says which positions of a design are solved.
 VALID = "valid"
@@ -154,7 +155,14 @@ class Traced:
         q = self.nominal.input[good] if rotary else np.zeros(int(good.sum()))
         line = line_near(rotation[good], q)
         if line is None:
-            raise TurnsThrough("study.turns_unevenly", link=link)
+            raise TurnsThrough(
+                _(
+                    "{link!r} turns unevenly with the input, so its turns cannot be counted; use another "
+                    "output in the formula",
+                    code="study.turns_unevenly",
+                    link=link,
+                )
+            )
         return line
 
     def _middle(self, link: str) -> float:
@@ -167,7 +175,14 @@ class Traced:
         if high - low <= TURNING:
             return 0.5 * (low + high)
         if not self.turning:
-            raise TurnsThrough("study.turns_through", link=link)
+            raise TurnsThrough(
+                _(
+                    "{link!r} turns through, so its angle has no smallest and largest value; ask for "
+                    "{link}.angular_velocity instead",
+                    code="study.turns_through",
+                    link=link,
+                )
+            )
         around = np.sort(angle % (2 * np.pi))
         gaps = np.diff(np.append(around, around[0] + 2 * np.pi))
         widest = int(np.argmax(gaps))

@@ -219,7 +219,21 @@ def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: 
                 continue
             if not _same(mechanism, positions, moved):
                 wheels = mechanism.cycle is None and changed.drivers == mechanism.drivers
-                raise RequestError(f"study.moves_{'cycle' if wheels else 'positions'}", address=address)
+                raise RequestError(
+                    _(
+                        "{address} changes after how many turns all wheels are back, so that the cycles differ "
+                        "from design to design; write one for all into the file, such as cycle: {{turns: 1}}",
+                        code="study.moves_cycle",
+                        address=address,
+                    )
+                    if wheels
+                    else _(
+                        "{address} changes the drive's law or the cycle, so that the positions of the input "
+                        "differ from design to design; solve such designs one by one",
+                        code="study.moves_positions",
+                        address=address,
+                    )
+                )
 
 
 def _same(mechanism: Mechanism, a: Positions, b: Positions) -> bool:

@@ -57,9 +57,12 @@ class ForceLines:
             return
         say, write = self.listing.say, self.listing.write
         if not self.possible:
-            write("", f"# {say('dyads.listing_no_forces')}")
+            told = _(
+                "joint forces: not all groups have a function for them; lw.solve_forces(mechanism) has them"
+            )
+            write("", f"# {say(told)}")
             return
-        write("", f"# {say('dyads.listing_forces')}")
+        write("", f"# {say(_('joint forces, from the last group to the first'))}")
         if self.listing.plan.others:
             write("library = lw.solve_forces(motion)")
         for step in reversed(self.listing.plan.steps):

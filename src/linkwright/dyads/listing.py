@@ -46,8 +46,12 @@ class Listing(Script):
     # parts ------------------------------------------------------------------------------------
     def _head(self) -> Iterator[str]:
         """Title and imports; what the lines below do not use is not imported."""
-        yield f"# {self.say('dyads.listing_title', name=' '.join(self.mechanism.name.split()))}"
-        yield f"# {self.say('dyads.listing_units')}"
+        name = " ".join(self.mechanism.name.split())
+        units = _(
+            "Units: m, kg, s, N, rad; counter-clockwise positive. Points of links: along their line, left of it.",
+        )
+        yield f"# {self.say(_('{name}: solved group by group with linkwright.dyads', name=name))}"
+        yield f"# {self.say(units)}"
         yield from ("import numpy as np", "")
         if self.plan.others:
             yield "import linkwright as lw"
@@ -59,7 +63,7 @@ class Listing(Script):
             yield from CROSS
 
     def _data(self) -> None:
-        self.write("", f"# {self.say('dyads.listing_data')}")
+        self.write("", f"# {self.say(_('given'))}")
         for point in self.mechanism.frame.points:
             if any(self._touches(step, point) for step in self.plan.steps):
                 name = self.names.of("point", point)
@@ -193,7 +197,11 @@ class Listing(Script):
 
     # the table --------------------------------------------------------------------------------
     def _table(self) -> None:
-        self.write("", f"# {self.say('dyads.listing_table')}", "table = {}")
+        self.write(
+            "",
+            f"# {self.say(_('table: the columns of `linkwright export`; angles within half a turn'))}",
+            "table = {}",
+        )
         for driver in self.mechanism.drivers:
             head = Output("input", driver, slides=not self.motion.positions.rotary[driver]).heading
             self.write(f"table[{quoted(head)}] = {self.names.of('driver', driver)}")

@@ -22,7 +22,6 @@ from linkwright.files.reader import Reader
 from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
 from linkwright.words import _
-from linkwright.words.sentence import Sentence
 
 if TYPE_CHECKING:
     from linkwright.parts.base import Problem, Result
@@ -201,9 +200,21 @@ def _kind(reader: Reader, root: MappingNode) -> str | None:
             _("linkwright synthesize finds machines for it"),
         )
         return None
-    key = "model" if root.get("links") is not None else "no_kind"
-    remedy = Sentence(f"part.{key}_remedy", known=tuple(KINDS))
-    reader.error(root, "kind", Sentence(f"part.{key}"), remedy, "kind")
+    message, remedy = (
+        (
+            _(
+                "the file is the model of a machine; here a file with kind: is needed that says what is "
+                "calculated",
+            ),
+            _(
+                "write one; kinds about a machine, such as tolerance, name its file as mechanism: "
+                "(examples: linkwright gallery)",
+            ),
+        )
+        if root.get("links") is not None
+        else (_("the file does not say what is calculated"), _("add kind: (one of {known})"))
+    )
+    reader.error(root, "kind", message, remedy.format(known=tuple(KINDS)), "kind")
     return None
 
 

@@ -9,7 +9,6 @@ from functools import cache
 from linkwright.core.entry_points import modules_within
 from linkwright.words.contexts import CONTEXTS
 from linkwright.words.message import LANGUAGES, Message, _, ngettext, pgettext
-from linkwright.words.untranslated import WORDS as ALIKE
 
 __all__ = ["LANGUAGES", "Message", "Say", "_", "has", "language_of", "ngettext", "pgettext", "say"]
 
@@ -52,8 +51,8 @@ def catalogue(area: str) -> Mapping[str, str]:
         if error.name != name:
             raise
         raise KeyError(area) from None
-    shared = {key.removeprefix(f"{area}."): text for key, text in ALIKE.items() if key.startswith(f"{area}.")}
-    return {**module.WORDS, **shared}
+    words: Mapping[str, str] = module.WORDS
+    return words
 
 
 def areas() -> tuple[str, ...]:

@@ -91,7 +91,7 @@ def text(found: Optimum, language: str = "en") -> str:
 
 
 def _goals(found: Optimum, language: str) -> str:
-    words = {1.0: "optimize.least", -1.0: "optimize.most"}
+    words = {1.0: _("least {number}"), -1.0: _("greatest {number}")}
     said = (
         say(words[goal.sign], language, number=label(found, goal.text, language))
         for goal in found.problem.goals
@@ -110,7 +110,13 @@ def label(found: Optimum, text: str, language: str) -> str:
 def comparison(found: Optimum, choice: Choice, language: str) -> Table:
     """A row for every variable and number: name, start, design, change, bounds."""
     tell = speaker(language)
-    head = [tell(f"optimize.column.{name}") for name in ("what", "start", "found", "change", "bounds")]
+    head = [
+        tell(_("number")),
+        tell(_("start")),
+        tell(_("found")),
+        tell(_("change")),
+        tell(_("bounds")),
+    ]
     rows: list[list[str]] = []
     for variable, was in zip(found.problem.variables, found.problem.start, strict=True):
         now = choice.values[variable.address]

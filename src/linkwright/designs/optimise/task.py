@@ -17,7 +17,6 @@ from linkwright.designs.optimise.measures import Measures
 from linkwright.designs.optimise.problem import Demand, Problem
 from linkwright.errors import Finding, ModelError, QuantityError
 from linkwright.words import _
-from linkwright.words.sentence import Sentence
 
 #: A number, and 1 where it must not become larger, -1 where it must not become smaller.
 Side = tuple[str, float]
@@ -346,8 +345,23 @@ class Task:
                 "given": text,
                 "right": f"{number:.12g} {symbol}",
             }
-            key, code = ("unit", "wrong-dimension") if symbol else ("no_unit", "missing-unit")
-            raise QuantityError(Sentence(f"optimize.{key}", **said), code=code)
+            if symbol:
+                raise QuantityError(
+                    _(
+                        '"{text}" is {need}, and "{given}" is not; write its unit, as in {right}',
+                        code="optimize.unit",
+                        **said,
+                    ),
+                    code="wrong-dimension",
+                )
+            raise QuantityError(
+                _(
+                    '"{text}" is {need}, and "{given}" is not; write a number without a unit',
+                    code="optimize.no_unit",
+                    **said,
+                ),
+                code="missing-unit",
+            )
         return number * factor
 
 
