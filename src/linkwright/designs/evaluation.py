@@ -10,7 +10,7 @@ from linkwright.designs.alternatives import EFFORTS, Alternative
 from linkwright.designs.compare import Comparison, Rank, Row
 from linkwright.designs.criteria import criterion
 from linkwright.errors import speaker
-from linkwright.words import Say, _
+from linkwright.words import Say, _, language_of
 from linkwright.words.sentence import in_language
 
 #: Share of a cycle beside a change point at which the direction of an infinite reaction is told.
@@ -61,7 +61,7 @@ def table(comparison: Comparison, say: Say) -> Table:
         marks = [f" {MARK}" if index in row.best else "  " for index in range(len(row.values))]
         values = zip(row.values, marks, strict=True)
         cells = ("—  " if v is None else Amount(v.value, v.dimension, 5, mark=mark) for v, mark in values)
-        rows.append([row.criterion.label(say(_("en"))), *cells])
+        rows.append([row.criterion.label(language_of(say)), *cells])
     return Table([say(_("design number")), *comparison.labels], rows, notes=comparison.notes)
 
 
@@ -108,7 +108,7 @@ def _against(comparison: Comparison, row: Row, index: int, say: Say) -> str:
             if ratio < float("inf")
             else _("{name}: {mine}, against {theirs} of {other}")
         ).format(
-            name=row.criterion.label(say(_("en"))),
+            name=row.criterion.label(language_of(say)),
             mine=told(mine.value, mine.dimension),
             theirs=told(theirs.value, theirs.dimension),
             other=comparison.labels[winner],
@@ -241,5 +241,5 @@ def _verdict(comparison: Comparison, say: Say) -> list[str]:
 
 def _best_in(comparison: Comparison, rank: Rank, say: Say) -> str:
     """The criteria in which an alternative is best."""
-    best = [row.criterion.label(say(_("en"))) for row in comparison.judged if rank.index in row.best]
+    best = [row.criterion.label(language_of(say)) for row in comparison.judged if rank.index in row.best]
     return say(_(", ")).join(best)
