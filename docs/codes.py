@@ -15,11 +15,9 @@ from linkwright.words import areas, catalogue
 SOURCE = Path(linkwright.__file__).parent
 #: Where the code stands among the arguments of calls that note a finding.
 PLACES = {"Saying": 0,
-    "Finding": 5, "finding": 3, "error": 4, "remark": 2, "Remark": 4, "_remarks": 3, "_refuse": 3,
+    "Finding": 5, "finding": 3, "error": 4, "remark": 3, "Remark": 4, "_remarks": 4, "_refuse": 3,
     "add": 3, "_wrong": 2, "wrong": 2, "say": 3, "ExpressionError": 4, "note": 2,
 }  # fmt: skip
-#: Files whose calls ``wrong(PLACE, KEY)`` have the code in the key of their sentence.
-BY_KEY = ("report/settings.py", "course/task.py")
 SHORT = re.compile(r"[a-z]+(?:-[a-z]+)*")
 
 #: What the codes of findings about files mean, in English and Chinese.
@@ -206,10 +204,10 @@ def texts(node: ast.AST | None) -> Iterator[str]:
 @cache
 def of_findings() -> frozenset[str]:
     """The codes of findings about files."""
-    return frozenset(code for path, node in nodes() for code in _noted(node, path) if SHORT.fullmatch(code))
+    return frozenset(code for _path, node in nodes() for code in _noted(node) if SHORT.fullmatch(code))
 
 
-def _noted(node: ast.AST, path: str) -> Iterator[str]:
+def _noted(node: ast.AST) -> Iterator[str]:
     match node:
         case ast.Call(args=given, keywords=named):
             place = PLACES.get(called(node), 99)
@@ -217,7 +215,7 @@ def _noted(node: ast.AST, path: str) -> Iterator[str]:
                 yield from texts(given[-1])
             elif len(given) > place:
                 yield from texts(given[place])
-            elif path in BY_KEY and called(node) in ("wrong", "_wrong") and len(given) == 2:
+            elif called(node) in ("wrong", "_wrong") and len(given) == 2:
                 yield from (text.replace("_", "-") for text in texts(given[1]))
             yield from (text for each in named if each.arg == "code" for text in texts(each.value))
         case ast.Assign(targets=[target], value=value) if "code" in map(_name, ast.walk(target)):

@@ -51,7 +51,7 @@ def textual(node: ast.AST) -> bool:
         case ast.Call(func=ast.Attribute(value=message, attr="format")):
             return textual(message)
         case ast.Call(func=ast.Name(id="_" | "pgettext" | "ngettext"), keywords=given):
-            return "code" not in [each.arg for each in given]
+            return not {"code", "cause"} & {each.arg for each in given}
         case ast.Call(func=function):
             return named(function) in SAID or isinstance(function, ast.Call)
     return False
@@ -72,8 +72,7 @@ def textual(node: ast.AST) -> bool:
         ('RequestError(_("nothing is asked", code="study.nothing"))', False),
         ('UsageError(say("cli.bad_language", name=name))', True),
         ('UsageError(speaker(language)("cli.bad_language"))', True),
-        ('UsageError("cli.bad_language", name=name)', False),
-        ('CycleError(f"motion.{key}", name=name)', False),
+        ('UsageError(_("{name}: {cause}", name="--at", cause=error))', False),
         ('raise ValueError("the rows have other lengths")', False),
     ],
 )
