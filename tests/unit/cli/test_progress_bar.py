@@ -6,17 +6,18 @@ import pytest
 
 from linkwright.cli.progress import progress
 from linkwright.errors import speaker
+from linkwright.words import _
 
 
 def test_progress_shows_on_a_terminal_only(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with progress(speaker("en"), "animate.drawing") as report:
+    with progress(speaker("en"), _("drawing")) as report:
         assert report is None
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
 
     def interrupted() -> None:
-        with progress(speaker("en"), "animate.drawing") as report:
+        with progress(speaker("en"), _("drawing")) as report:
             assert report is not None
             report(5, 10)
             report(10, 10)
