@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TypeGuard
 
 import linkwright
-from linkwright.words import areas, catalogue
 
 SOURCE = Path(linkwright.__file__).parent
 #: Where the code stands among the arguments of calls that note a finding.
@@ -177,12 +176,6 @@ def nodes() -> tuple[tuple[str, ast.AST], ...]:
     )
 
 
-@cache
-def catalogued() -> frozenset[str]:
-    """All keys of the catalogue."""
-    return frozenset(f"{area}.{name}" for area in areas() for name in catalogue(area))
-
-
 def called(node: ast.Call) -> str:
     """The name of a function that is called."""
     return getattr(node.func, "id", getattr(node.func, "attr", ""))
@@ -233,10 +226,6 @@ def _name(node: ast.AST) -> str:
 def of_calculations() -> dict[str, str]:
     """The codes of findings about calculations and motion programs, with their English sentences."""
     found = {}
-    for key in sorted(catalogued()):
-        area, _dot, name = key.partition(".")
-        if f"{key}_remedy" in catalogued():
-            found[name] = catalogue(area)[name]
     for _path, node in nodes():
         match node:
             case ast.Call(args=[ast.Constant(value=str(code)), _key, ast.Call(args=given), _remedy]):
@@ -257,7 +246,6 @@ def of_errors() -> dict[str, list[str]]:
 
 
 def _codes_within(node: ast.AST) -> Iterator[str]:
-    yield from (key for key in texts(node) if key in catalogued())
     for each in ast.walk(node):
         if isinstance(each, ast.keyword) and each.arg == "code":
             yield from texts(each.value)

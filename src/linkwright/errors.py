@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from typing import Literal
 
 from linkwright.core.dataclass import dataclass
-from linkwright.words import LANGUAGES, Say, _, has, say
-from linkwright.words.sentence import Sentence, code_of, in_language, values_of
+from linkwright.words import LANGUAGES, Say, _, say
+from linkwright.words.sentence import code_of, in_language, values_of
 
 Severity = Literal["error", "warning", "note"]
 
-_KEY = re.compile(r"[a-z_]+\.[\w.]+")
 #: Codes of findings that say that there is no such file.
 NO_FILE = frozenset({"no-file", "not-a-file"})
 
@@ -70,14 +68,13 @@ def with_remedy(message: str, remedy: str) -> str:
 class LinkwrightError(Exception):
     """Base of every error that the user can do something about.
 
-    ``message``: a key of the catalogue, with its values, or a sentence. ``str(error)`` is English, and
+    ``message``: a sentence. ``str(error)`` is English, and
     ``error.say("zh")`` says the same in Chinese. ``error.code`` is a short stable word for programs and tests, and
     ``error.values`` what the message is about: the wording may change, these do not.
     """
 
-    def __init__(self, message: str = "", /, **values: object) -> None:
-        known = values or (_KEY.fullmatch(message) and has(message))
-        super().__init__(Sentence(message, **values) if known else message)
+    def __init__(self, message: str = "", /) -> None:
+        super().__init__(message)
 
     def __str__(self) -> str:
         return self.say()

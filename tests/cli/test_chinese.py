@@ -12,8 +12,8 @@ from tests.cli.tables import cells
 from tests.every import every
 
 import linkwright as lw
-from linkwright import gallery, words
-from linkwright.words import Message
+from linkwright import gallery
+from linkwright.words import Message, _
 
 CHINESE = re.compile("[一-鿿]")
 LATIN = re.compile(r"[A-Za-z][A-Za-z']{2,}")
@@ -60,7 +60,7 @@ def test_frame_and_driver_have_their_words() -> None:
     english, chinese = shown(*asked), said(*asked)
     for noun in ("frame", "driver"):
         assert re.search(rf"\b{noun}\b", english) and not re.search(rf"\b{noun}\b", chinese)
-        assert words.say(f"nouns.{noun}", "zh") in chinese
+        assert _(noun).translate("zh") in chinese
 
 
 def test_the_driver_without_a_name_has_its_word() -> None:

@@ -39,13 +39,10 @@ def uncoded(node: ast.AST) -> bool:
 
 
 def textual(node: ast.AST) -> bool:
-    """Whether an error's message is a text and no key of the catalogue or sentence."""
+    """Whether an error's message is a text, or a sentence without a code of its own or of its cause."""
     match node:
-        case ast.Constant(value=value):
-            return value not in codes.catalogued()
-        case ast.JoinedStr(values=parts):
-            begun = parts[0].value if isinstance(parts[0], ast.Constant) else ""
-            return not any(key.startswith(str(begun)) for key in codes.catalogued()) or not begun
+        case ast.Constant() | ast.JoinedStr():
+            return True
         case ast.IfExp(body=one, orelse=other):
             return textual(one) or textual(other)
         case ast.Call(func=ast.Attribute(value=message, attr="format")):

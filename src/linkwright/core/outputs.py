@@ -167,7 +167,8 @@ class RelativeAngle:
         return f"{self.b}|{self.a}"
 
 
-_QUANTITIES = {
+#: What outputs are in words, by their kind.
+QUANTITIES = {
     "angle": _("angle of {name}"),
     "angular_velocity": _("angular velocity of {name}"),
     "angular_acceleration": _("angular acceleration of {name}"),
@@ -283,7 +284,7 @@ class Output:
         key = self.kind
         if key == "effort" and alone:
             key = "input_force" if self.slides else "input_torque"
-        said = _QUANTITIES[key].format(name=self.owner, on=self.on)
+        said = QUANTITIES[key].format(name=self.owner, on=self.on)
         return _COMPONENTS[self.component].format(quantity=said) if self.component else said
 
     @property

@@ -7,9 +7,8 @@ import re
 from collections.abc import Mapping, Sequence
 
 from linkwright.core.dataclass import dataclass
-from linkwright.words import LANGUAGES, message_of
 from linkwright.words.characters import one_line
-from linkwright.words.message import Message, _
+from linkwright.words.message import LANGUAGES, Message, _
 
 _OWN_NAMES = re.compile(
     r"(?<![\w.-])(?:frame|driver)(?![\w-])|\b(?:max|min)(?=→)|(?<=→)(?:max|min)\b|(?<= )(?:max|min)$"
@@ -26,11 +25,6 @@ class Gloss:
     def say(self, language: str = "en") -> str:
         """The text in a language."""
         return self.english if language == "en" else self.other.say(language)
-
-
-def Sentence(key: str, /, **values: object) -> Message:
-    """The message of a key."""
-    return message_of(key, **values)
 
 
 class Worded(str):
@@ -63,7 +57,7 @@ def in_language(text: str, language: str) -> str:
     return text.say(language) if isinstance(text, Message | Worded) else text
 
 
-_OWN = {
+NAMES = {
     "frame": _("frame"),
     "driver": _("driver"),
     "max": _("max"),
@@ -87,7 +81,7 @@ def in_words(subject: str, language: str) -> str:
     """A subject with the names that the program itself gives (frame, driver, max→min) in a language."""
     if language == "en":
         return subject
-    told = _OWN_NAMES.sub(lambda found: _OWN[found[0]].translate(language), subject)
+    told = _OWN_NAMES.sub(lambda found: NAMES[found[0]].translate(language), subject)
     joint, on, link = told.partition(" on ")
     return _("{joint} on {link}", joint=joint, link=link).translate(language) if on else told
 

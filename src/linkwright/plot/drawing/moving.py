@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import QUANTITIES, Output
 from linkwright.core.quantity import significant
 from linkwright.pictures.drawing import Box
 from linkwright.pictures.picture import Line, SvgNode, Text, name_runs
@@ -18,7 +18,7 @@ from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.plot.diagrams.axes import unit_of
 from linkwright.plot.drawing.scene import Scene
 from linkwright.plot.drawing.vectors import Torques, Vectors
-from linkwright.words import _, has
+from linkwright.words import _
 
 
 def animate_element(attribute: str, values: Sequence[str], seconds: float) -> Element:
@@ -166,7 +166,7 @@ def panel(
 
 def _caption(output: Output, values: Floats, ends: tuple[float, float], language: str, *, alone: bool) -> str:
     """The quantity with its unit, and its ends."""
-    said = output.sentence(alone=alone).say(language) if has(f"quantity.{output.kind}") else output.column
+    said = output.sentence(alone=alone).say(language) if output.kind in QUANTITIES else output.column
     unit = unit_of(output.dimension, [values])
     low, high = (significant(end * unit.factor) for end in ends)
     return _("{quantity}: {low} … {high}", quantity=unit.label(said), low=low, high=high).translate(language)

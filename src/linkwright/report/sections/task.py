@@ -12,12 +12,13 @@ import numpy as np
 from linkwright.core.quantity import number
 from linkwright.drivers.base import LABELS as DRIVER_LAWS
 from linkwright.files.write import to_data
+from linkwright.joints.base import PAIRS
 from linkwright.laws.base import LABELS
 from linkwright.report.document import Block, Paragraph, Table, literal
 from linkwright.report.key_names import MODEL_KEYS, VALUES
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
-from linkwright.words import Message, Say, _, has, pgettext
+from linkwright.words import Message, Say, _, pgettext
 
 #: Entries of a list that is printed whole.
 LONGEST = 12
@@ -122,7 +123,7 @@ def kind_of(value: Any, say: Say) -> str:
     kind = str(value.get("kind", "")) or next((law for law in LAWS if law in value), "")
     if kind in KINDS:
         return say(KINDS[kind])
-    return say(f"nouns.pair_{kind}") if has(f"nouns.pair_{kind}") else kind or "–"
+    return say(PAIRS[kind]) if kind in PAIRS else kind or "–"
 
 
 def given(value: Any, say: Say) -> str:
