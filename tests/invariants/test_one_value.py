@@ -200,10 +200,10 @@ def test_a_motor_of_the_mean_power_says_that_it_needs_its_flywheel(
     peak = float((fine.input_torque * 3 * math.pi).max()) * 1.5 / 0.8
     assert running.data()["motor_power_without_flywheel"]["value"] == pytest.approx(peak, rel=1e-4)
     assert running.data()["motor_power"]["value"] < 0.05 * peak
-    assert [each.key for each in running.remarks] == ["running.needs_flywheel"]
+    assert [each.code for each in running.remarks] == ["running.needs_flywheel"]
     even = steady_running(forces, fluctuation=50.0)
     assert not even.exact_flywheel
-    assert [each.key for each in even.remarks] == ["running.evened_by_itself"]
+    assert [each.code for each in even.remarks] == ["running.evened_by_itself"]
     assert main(["machine", "gallery:jaw_crusher_sixbar", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["motor_power_without_flywheel"]["value"] > found["motor_power"]["value"]
