@@ -104,11 +104,13 @@ def _notes(analysis: Analysis, ok: Flags) -> tuple[Message, ...]:
         _(
             "{name!r} reaches {reached} of {count} positions; numbers of the whole cycle, such "
             "as means, are left out",
+            code="metrics.part_reached",
         )
         if analysis.closed
         else _(
             "{name!r} reaches {reached} of {count} positions; means are those of the time until "
             "it comes out of reach, and numbers that grow without bound there have none",
+            code="metrics.part_of_way_reached",
         )
     )
     return (said.format(name=name, reached=int(ok.sum()), count=len(ok)),)
