@@ -62,7 +62,7 @@ class ForceLines:
             )
             write("", f"# {say(told)}")
             return
-        write("", f"# {say(_('joint forces, from the last group to the first'))}")
+        write("", "# " + say(_("joint forces, from the last group to the first")))
         if self.listing.plan.others:
             write("library = lw.solve_forces(motion)")
         for step in reversed(self.listing.plan.steps):

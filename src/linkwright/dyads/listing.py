@@ -50,7 +50,7 @@ class Listing(Script):
         units = _(
             "Units: m, kg, s, N, rad; counter-clockwise positive. Points of links: along their line, left of it.",
         )
-        yield f"# {self.say(_('{name}: solved group by group with linkwright.dyads', name=name))}"
+        yield "# " + self.say(_("{name}: solved group by group with linkwright.dyads", name=name))
         yield f"# {self.say(units)}"
         yield from ("import numpy as np", "")
         if self.plan.others:
@@ -63,7 +63,7 @@ class Listing(Script):
             yield from CROSS
 
     def _data(self) -> None:
-        self.write("", f"# {self.say(_('given'))}")
+        self.write("", "# " + self.say(_("given")))
         for point in self.mechanism.frame.points:
             if any(self._touches(step, point) for step in self.plan.steps):
                 name = self.names.of("point", point)
@@ -199,7 +199,7 @@ class Listing(Script):
     def _table(self) -> None:
         self.write(
             "",
-            f"# {self.say(_('table: the columns of `linkwright export`; angles within half a turn'))}",
+            "# " + self.say(_("table: the columns of `linkwright export`; angles within half a turn")),
             "table = {}",
         )
         for driver in self.mechanism.drivers:

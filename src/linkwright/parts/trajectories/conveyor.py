@@ -261,7 +261,7 @@ class Transport(Result):
         law.law("n = a_n − g_n; f = a_t − g_t")
         law.say(f"{say(MODE_NAMES['rest'])}:")
         law.law("|f| ≤ μ·n")
-        law.say(f"{say(_('sliding'))}:")
+        law.say(say(_("sliding")) + ":")
         law.law("s̈ = −f ∓ μ'·n")
         law.put("g_n", "", trough.gravity[1], "acceleration")
         law.put("Γ", "max(−a_n)/|g_n|", self.throw_number)

@@ -86,6 +86,6 @@ def _program(case: Case, program: MotionProgram, lift_unit: str) -> Table:
     )  # fmt: skip
     head = (
         say(_("no.")), say(_("from $\\varphi$ / °")), say(_("to $\\varphi$ / °")),
-        f"{say(_('lift from'))} / {lift_unit}", f"{say(_('lift to'))} / {lift_unit}", say(_("law")),
+        say(_("lift from")) + f" / {lift_unit}", say(_("lift to")) + f" / {lift_unit}", say(_("law")),
     )  # fmt: skip
     return Table(say(_("Motion program")), head, rows, ">>>>><")

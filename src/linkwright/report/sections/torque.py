@@ -46,8 +46,8 @@ def blocks(case: Case) -> Iterator[Block]:
         key, first = leading(case)
         body = tuple((*first[k], printed[0][k], printed[1][k], gaps[k]) for k in range(len(rows)))
         head = (
-            *key, f"{say(_('from joint forces'))} / {unit}",
-            f"{say(_('from powers'))} / {unit}", f"{say(_('difference'))} / {unit}",
+            *key, say(_("from joint forces")) + f" / {unit}",
+            say(_("from powers")) + f" / {unit}", say(_("difference")) + f" / {unit}",
         )  # fmt: skip
         yield Table(
             say(_("Driving effort from the joint forces and from the powers")),
