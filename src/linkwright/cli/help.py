@@ -35,8 +35,8 @@ def overview(session: Session) -> None:
     session.show(
         "\n".join(
             [
-                f"{say(_('usage: '))}{say(_('linkwright COMMAND [options]'))}\n",
-                f"{say(_('Linkwright: analysis and design of planar machines.'))}\n",
+                say(_("usage: ")) + say(_("linkwright COMMAND [options]")) + "\n",
+                say(_("Linkwright: analysis and design of planar machines.")) + "\n",
                 _section(say(_("commands")), rows(names)),
                 _section(say(_("options")), rows(options)),
                 _section(

@@ -39,7 +39,7 @@ def progress(say: Say, what: Message) -> Iterator[Progress | None]:
             begun = now
         before, spent = done, now - begun
         if done and spent > KNOWN:
-            bar += f"  {say(_('about {time} left', time=_time(spent * (total - done) / done)))}"
+            bar += "  " + say(_("about {time} left", time=_time(spent * (total - done) / done)))
         stream.write(CLEAR + (bar if done < total else ""))  # results may be shown at once
         stream.flush()
 

@@ -75,7 +75,7 @@ def _of_all(source: Source, request: Request) -> Panel:
     for number, (label, values) in enumerate(sizes.items()):
         exact = source.extremes(signals[label], "forces")
         curves.append(Curve(label, values, "max" if label == marked else "", *look(number), extremes=exact))
-    return Panel(f"{request.say(_('joint force'))} F", "force", tuple(curves))
+    return Panel(request.say(_("joint force")) + " F", "force", tuple(curves))
 
 
 def _of_one(source: Source, request: Request) -> list[Panel]:
@@ -96,7 +96,7 @@ def _of_one(source: Source, request: Request) -> list[Panel]:
     total = Curve("", np.hypot(force[:, 0], force[:, 1]), "max", extremes=exact_size)
     title = say(_("components")) if axes == "frame" else say(_("components in {link}", link=axes))
     return [
-        Panel(f"{say(_('joint force'))} F", "force", (total,)),
+        Panel(say(_("joint force")) + " F", "force", (total,)),
         Panel(title, "force", tuple(parts)),
     ]
 
@@ -120,8 +120,8 @@ class Shaking(OverInput):
         turning = source.extremes(lambda f: f.shaking_moment, "forces")
         moment = Curve("", source.closed(forces.shaking_moment), extremes=turning)
         return [
-            Panel(f"{say(_('shaking force'))} F", "force", curves),
-            Panel(f"{say(_('shaking moment'))} M", "torque", (moment,)),
+            Panel(say(_("shaking force")) + " F", "force", curves),
+            Panel(say(_("shaking moment")) + " M", "torque", (moment,)),
         ]
 
 

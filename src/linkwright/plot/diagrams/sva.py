@@ -171,17 +171,17 @@ class Angles(OverInput):
         ]
         return [
             Panel(
-                say(_("angle from the start θ − θ₀")) if change else f"{say(_('angle'))} θ",
+                say(_("angle from the start θ − θ₀")) if change else say(_("angle")) + " θ",
                 "angle",
                 _curves(source, links, angle, "angle"),
             ),
             Panel(
-                f"{say(_('angular velocity'))} ω",
+                say(_("angular velocity")) + " ω",
                 "angular_velocity",
                 _curves(source, links, omega, "angular_velocity"),
             ),
             Panel(
-                f"{say(_('angular acceleration'))} α",
+                say(_("angular acceleration")) + " α",
                 "angular_acceleration",
                 _curves(source, links, alpha, "angular_acceleration"),
             ),

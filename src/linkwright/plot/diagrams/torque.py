@@ -75,7 +75,7 @@ class Power(OverInput):
         power = source.forces.power
         curve = Curve("", source.closed(power), extremes=source.extremes(_total, "forces"))
         mean = Analysis.of(source.forces).mean_of(_total)
-        return [with_mean(f"{request.say(_('power'))} P", "power", curve, mean, request)]
+        return [with_mean(request.say(_("power")) + " P", "power", curve, mean, request)]
 
 
 def _total(forces: Forces) -> Floats:
@@ -102,14 +102,14 @@ class Energy(OverInput):
         steady = reduced.torque + 0.5 * reduced.slope * reduced.speed**2
         torque = reduced.direction * np.append(steady, steady[0])
         mean = reduced.direction * reduced.load.mean
-        title = f"{say(_('input torque'))} T"
+        title = say(_("input torque")) + " T"
         curve = Curve("", torque, x=place, extremes=_of_torque(reduced))
         change = say(
             _("energy fluctuation ΔE = {value}", value=unit_of("energy", [found.energy]).text(found.value))
         )
         return [
             with_mean(title, "torque", curve, mean, request, fill=True),
-            Panel(f"{say(_('energy'))} E", "energy", (Curve(change, found.energy),)),
+            Panel(say(_("energy")) + " E", "energy", (Curve(change, found.energy),)),
         ]
 
 
@@ -143,7 +143,7 @@ class Speed(OverInput):
     def panels(self, source: Source, request: Request) -> list[Panel]:
         running = source.once(f"running {request.fluctuation}", lambda: source.running(request.fluctuation))
         say, mean = request.say, running.equivalent.speed
-        title = f"{say(_('speed of the input'))} ω"
+        title = say(_("speed of the input")) + " ω"
         level = Level(say(_("mean {value}", value=f"{significant(mean)} rad/s")), mean)
         first = _curve(
             running, running.exact_speed, running.exact_flywheel, say(_("with flywheel")), COLOURS[0]

@@ -123,7 +123,7 @@ def _table(found: Sketch, body: FreeBody, say: Say, y: float) -> float:
     """Components, sizes and directions of forces, and couples, below a height; where the table ends."""
     if body.forces:
         unit, factor = _force_unit(body.forces)
-        head = (f"Fx / {unit}", f"Fy / {unit}", f"F / {unit}", f"{say(pgettext('free_bodies', 'angle'))} / °")
+        head = (f"Fx / {unit}", f"Fy / {unit}", f"F / {unit}", say(pgettext("free_bodies", "angle")) + " / °")
         y = _head(found, y, head)
         place = _places(max(each.size for each in body.forces) * factor)
         for each in body.forces:

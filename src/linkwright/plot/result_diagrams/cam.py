@@ -112,10 +112,10 @@ def draw_cam_profile(result: CamDesign, request: Request) -> Figure:
 def _coloured(result: CamDesign, request: Request) -> tuple[np.ndarray, str]:
     """What the profile is coloured by, and its name with unit."""
     if result.pressure is not None:
-        return 1e-6 * result.pressure, f"{request.say(_('contact pressure p'))} (MPa)"
+        return 1e-6 * result.pressure, request.say(_("contact pressure p")) + " (MPa)"
     if result.loaded and result.cam.barrel_radius is None:
-        return result.contact_force, f"{request.say(_('contact force N'))} (N)"
-    return np.degrees(result.contact.pressure_angle), f"{request.say(_('pressure angle α'))} (°)"
+        return result.contact_force, request.say(_("contact force N")) + " (N)"
+    return np.degrees(result.contact.pressure_angle), request.say(_("pressure angle α")) + " (°)"
 
 
 @result_diagram("cam_vibration", CamDesign, usual=False)
