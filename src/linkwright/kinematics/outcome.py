@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import field
-from functools import partial
-
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
-from linkwright.words import Message
+from linkwright.words import _
 from linkwright.words.sentence import in_language
 
 
@@ -16,7 +13,7 @@ class Outcome:
     """Of one position: whether it is solved, and if not, the group that fails and why (in English)."""
 
     ok: bool
-    sentence: str = field(default_factory=partial(Message, "outcome.assembled"))
+    sentence: str = _("assembled", code="outcome.assembled")
     group: str | None = None
     kind: str = "ok"
 
