@@ -108,7 +108,7 @@ def _remarks(design: CamDesign, say: Say) -> list[str]:
         places = [shown(each, "angle") for each in program.places_of_jumps(order)]
         if places:
             found.append(
-                say(jumps, places=", ".join([*places[:MANY], *(["…"] if len(places) > MANY else [])]))
+                say(jumps.format(places=", ".join([*places[:MANY], *(["…"] if len(places) > MANY else [])])))
             )
     return found
 

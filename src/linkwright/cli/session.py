@@ -90,7 +90,8 @@ class Session:
 
     def tell_error(self, sentence: str) -> None:
         """Prints an error to the standard error."""
-        self.tell(self.say(_("{head}: {sentence}", head=self.alarm(self.say(_("error"))), sentence=sentence)))
+        head = self.alarm(self.say(_("error")))
+        self.tell(self.say(_("{head}: {sentence}", head=head, sentence=sentence)))
 
     @property
     def room(self) -> int | None:

@@ -225,6 +225,7 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
             continue
         effort = partial(Forces.driver_effort, name=key)
         high, low = _places(solved, [(effort, "max"), (effort, "min")], degrees)
+        at = _("at {place}")
         said = say(
             _(
                 "{name}: from {low} {unit} {low_at} to {high} {unit} {high_at}",
@@ -232,8 +233,8 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
                 high=number(high.value),
                 low=number(low.value),
                 unit=unit,
-                high_at=say(_("at {place}", place=high.input)),
-                low_at=say(_("at {place}", place=low.input)),
+                high_at=at.format(place=high.input),
+                low_at=at.format(place=low.input),
             )
         )
         if solved.between and solved.motion.positions.closed:

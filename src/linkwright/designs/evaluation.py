@@ -135,7 +135,7 @@ def sentences(comparison: Comparison, language: str) -> list[str]:
     found = []
     for subject, part in subjects.items():
         parts = say(_("; ")).join(part(each, say) for each in comparison.alternatives)
-        found.append(say(subject, parts=parts, fluctuation=f"{comparison.fluctuation:g}"))
+        found.append(say(subject.format(parts=parts, fluctuation=f"{comparison.fluctuation:g}")))
     return [*found, *_verdict(comparison, say)]
 
 
@@ -235,7 +235,7 @@ def _verdict(comparison: Comparison, say: Say) -> list[str]:
             if names
             else _("{label} ({score} of 100) is best in none of the metrics.")
         )
-        lines.append(say(said, label=rank.label, score=f"{100 * rank.score:.0f}", names=names))
+        lines.append(say(said.format(label=rank.label, score=f"{100 * rank.score:.0f}", names=names)))
     return lines
 
 

@@ -338,7 +338,7 @@ class Numbers:
         """How a block is called in a sentence: ``Table 3.1``."""
         block, say = self.blocks[index], self.document.say
         kind = type(block).__name__.lower()
-        return say(NAMES[kind], number=self.of.get(index, ""))
+        return say(NAMES[kind].format(number=self.of.get(index, "")))
 
 
 def _numbered_sources(blocks: Sequence[Block]) -> dict[str, int]:

@@ -233,7 +233,7 @@ def title_said(found: Synthesis, tell: Say) -> str:
         if len(found) == 1
         else _("Synthesis: {task}, {count} candidates")
     )
-    return tell(title, task=name_said(found.task, tell), count=len(found))
+    return tell(title.format(task=name_said(found.task, tell), count=len(found)))
 
 
 def _report(found: Synthesis, language: str, width: int | None) -> list[str]:

@@ -8,12 +8,12 @@ from linkwright.words.message import LANGUAGES, Message, _, ngettext, pgettext
 
 __all__ = ["LANGUAGES", "Message", "Say", "_", "language_of", "ngettext", "pgettext", "say"]
 
-Say = Callable[..., str]
+Say = Callable[[Message], str]
 
 
-def say(message: Message, /, language: str = "en", **values: object) -> str:
-    """A message in a language, with values; raises KeyError for a language that does not exist."""
-    return (message.format(**values) if values else message).translate(language)
+def say(message: Message, /, language: str = "en") -> str:
+    """A message in a language; raises KeyError for one that does not exist."""
+    return message.translate(language)
 
 
 def language_of(speaks: Say) -> str:

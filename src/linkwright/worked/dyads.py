@@ -102,7 +102,7 @@ class DyadWriter:
     def note_mode(self, modes: tuple[Message, Message], *spots: Spot) -> None:
         p, q, b = (spot.label for spot in spots)
         told = modes[0] if self.mode > 0 else modes[1]
-        self.step.say(self.book.say(told, p=p, q=q, b=b))
+        self.step.say(self.book.say(told.format(p=p, q=q, b=b)))
 
     def frame_chain(self, end: str, name: str) -> tuple[Pair, Trail]:
         """Where the cut would be with the slides at zero, for a chain of guides."""

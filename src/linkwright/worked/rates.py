@@ -134,7 +134,7 @@ class RateWriter:
         pairs = ", ".join(c.cut.joint for c in cuts if c.cut.higher)
         across = any(closure.cut.slides for closure in cuts)
         if joints:
-            step.say(self.book.say(CLOSURES[second, across], joints=joints))
+            step.say(self.book.say(CLOSURES[second, across].format(joints=joints)))
         if pairs:
             step.say(
                 self.book.say(
@@ -179,7 +179,7 @@ class RateWriter:
             term = ZERO if formula.is_zero else symbol(plain, formula.value, look=look)
             if not term.is_zero and plain not in noted:
                 if not begun:
-                    step.say(self.book.say(PARTS[part.kind], label=part.label))
+                    step.say(self.book.say(PARTS[part.kind].format(label=part.label)))
                 begun = True
                 step.find(term, formula, "m/s²")
             found.append(term)

@@ -67,7 +67,7 @@ class Reactions:
         told = (
             _("Forces of the driven link: {links}") if driven else _("Forces of group {signature}: {links}")
         )
-        title = book.say(told, signature=group.signature, links=links)
+        title = book.say(told.format(signature=group.signature, links=links))
         head = Step(f"{number}", title, group.name)
         if in_one_step(group):
             self._wheels(head, group)

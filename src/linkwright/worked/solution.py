@@ -248,7 +248,7 @@ class _Kinematics:
             )
             head = f"{name}: " if len(book.mechanism.drivers) > 1 else ""
             relative = link_said(driver.relative_to, language_of(say))
-            step.say(say(told, head=head, link=driver.link, relative=relative, joint=driver.joint))
+            step.say(say(told.format(head=head, link=driver.link, relative=relative, joint=driver.joint)))
             unit = "rad" if turning else "m"
             measures: tuple[str | Output, ...] = (
                 Output("input", name, slides=not turning), f"{unit}/s", f"{unit}/s²"
@@ -305,10 +305,10 @@ class _Kinematics:
     def _title(self, group: Group, links: str) -> str:
         driven = group.assur_class == 1 and group.drivers
         told = _("Driven link: {links}") if driven else _("Group {signature}: {links}")
-        return self.book.say(told, signature=group.signature, links=links, order=group.assur_order)
+        return self.book.say(told.format(signature=group.signature, links=links, order=group.assur_order))
 
     def _joints(self, group: Group) -> str:
         outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))
         inner = ", ".join(dict.fromkeys(c.joint for c in group.inner_joints))
         told = _("Outer joints {outer}; inner joints {inner}.") if inner else _("Joints {outer}.")
-        return self.book.say(told, outer=outer, inner=inner)
+        return self.book.say(told.format(outer=outer, inner=inner))

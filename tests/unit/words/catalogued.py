@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
+from itertools import zip_longest
 from unittest.mock import patch
 
 from babel.messages.pofile import read_po
@@ -21,7 +22,9 @@ def sentences(language: str) -> dict[str, str]:
     return {
         f"{each.context or ''}|{english}": english if language == "en" else text
         for each in known
-        for english, text in zip(_forms(each.id), _forms(each.string), strict=False)
+        for english, text in zip_longest(
+            _forms(each.id), _forms(each.string), fillvalue=_forms(each.string)[-1]
+        )
     }
 
 

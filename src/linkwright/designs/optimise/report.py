@@ -10,7 +10,7 @@ from linkwright.core.table import Cell, Table
 from linkwright.designs.criteria import Criterion
 from linkwright.designs.optimise.optimum import Choice, Optimum
 from linkwright.errors import speaker
-from linkwright.words import Say, _, say
+from linkwright.words import Say, _
 from linkwright.words.titles import title_said
 
 #: Designs of a front that are listed.
@@ -93,7 +93,7 @@ def text(found: Optimum, language: str = "en") -> str:
 def _goals(found: Optimum, language: str) -> str:
     words = {1.0: _("least {number}"), -1.0: _("greatest {number}")}
     said = (
-        say(words[goal.sign], language, number=label(found, goal.text, language))
+        words[goal.sign].format(number=label(found, goal.text, language)).translate(language)
         for goal in found.problem.goals
     )
     return _("; ").translate(language).join(said)

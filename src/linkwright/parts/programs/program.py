@@ -400,8 +400,11 @@ class Optimum(Result):
         return self.program.variables[name].dimension
 
     def _method(self, say: Say) -> str:
-        return say(WAYS[self.way], agreed=self.agreed[0], starts=self.agreed[1], count=self.combinations,
-                   gap=f"{self.gap:.1e}")  # fmt: skip
+        return say(
+            WAYS[self.way].format(
+                agreed=self.agreed[0], starts=self.agreed[1], count=self.combinations, gap=f"{self.gap:.1e}"
+            )
+        )
 
     def _at_bound(self, name: str, say: Say) -> str:
         variable, value = self.program.variables[name], self.x[name]
@@ -446,7 +449,7 @@ class Optimum(Result):
                         "Raising the right side of {name} by {step} lowers the {best} by {price} (shadow price)."
                     )
                 )
-                lines.append(say(told, name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain))
+                lines.append(say(told.format(name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain)))
         return tuple(lines)
 
     def _allowed(self, name: str, variable: Variable) -> str:

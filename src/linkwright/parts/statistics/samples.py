@@ -506,7 +506,7 @@ class Statistics(Result):
             level = f"{100 * self.problem.confidence:g} %"
             for key, interval in (("mean", mean_interval), ("deviation", deviation_interval)):
                 low, high = interval(self.problem.values(name), self.problem.confidence)
-                label = say(INTERVALS[key], level=level)
+                label = say(INTERVALS[key].format(level=level))
                 rows.append(Row(f"{key}_interval", low, label=label, scale=scale, end=high))
         rows += [Row("least", d.least, scale=scale), Row("median", d.quartiles[1], scale=scale)]
         rows.append(Row("quartiles", d.quartiles[0], scale=scale, end=d.quartiles[2]))

@@ -367,7 +367,7 @@ class Shaken(Result):
             for (key, amplitudes), (_unused, dimension) in zip(curves.items(), TITLES[axis], strict=True):
                 largest = self._largest(amplitudes[:, i])
                 straight, turning = LARGEST[key]
-                label = say(turning) if axis == "turn" else say(straight, axis=axis)
+                label = say(turning) if axis == "turn" else say(straight.format(axis=axis))
                 rows.append(Row(f"{key}_{axis}", largest, dimension, label))
         found = [Block("mounts", say(_("Largest values over the cycle")), rows)]
         listed = []

@@ -208,7 +208,7 @@ class _Writer:
         lines = [self._heading(group)]
         lines += self._driven_within(group)
         key = _("from {outer} to {inner}") if inner else _("on {outer}")
-        lines.append(self.say(key, outer=self._listed(outer), inner=self._listed(inner)))
+        lines.append(self.say(key.format(outer=self._listed(outer), inner=self._listed(inner))))
         call = self._call(group, "k")
         if not call:
             lines += self._closure(group)
@@ -226,7 +226,7 @@ class _Writer:
                 if step.turns
                 else _("driven link {link} slides along {joint}")
             )
-            lines.append(say(key, link=self._numbered([step.child]), joint=step.joint))
+            lines.append(say(key.format(link=self._numbered([step.child]), joint=step.joint)))
             lines.append(self._law(step.driver))
         found = [each for each in self._points_of(group.links) if each not in {s.joint for s in group.tree}]
         if found:
@@ -296,7 +296,7 @@ class _Writer:
         ]
         if heavy:
             key = _("mass centres of links {links}") if len(heavy) > 1 else _("mass centre of link {links}")
-            parts.append(self.say(key, links=self._listed(heavy)))
+            parts.append(self.say(key.format(links=self._listed(heavy))))
         if parts:
             yield Node(
                 "call",
@@ -316,7 +316,7 @@ class _Writer:
             parts.append(say(_("inertia forces −m·a and couples −J·α")))
         if mechanism.loads:
             key = _("loads {names}") if len(mechanism.loads) > 1 else _("load {names}")
-            parts.append(say(key, names=self._listed(mechanism.loads)))
+            parts.append(say(key.format(names=self._listed(mechanism.loads))))
         rubbing = self._rubbing()
         if rubbing:
             parts.append(say(_("friction of {joints}", joints=self._listed(rubbing))))
@@ -388,7 +388,7 @@ class _Writer:
             parts.append(say(_("joint forces")))
             parts += dict.fromkeys("M_d" if turns else "F_d" for turns in self._efforts())
         key = _("Print position i: {parts}") if mechanism.drivers else _("Print: {parts}")
-        return Node("data", (say(key, parts=say(_("; ")).join(parts)),))
+        return Node("data", (say(key.format(parts=say(_("; ")).join(parts))),))
 
     def _efforts(self) -> list[bool]:
         joints = self.mechanism.joints
@@ -401,14 +401,14 @@ class _Writer:
             if self._step is None
             else _("i = i + 1; {symbol} = {symbol} + Δ{symbol}")
         )
-        yield Node("process", (say(key, symbol=symbol),), name=NEXT)
+        yield Node("process", (say(key.format(symbol=symbol)),), name=NEXT)
         yield Node("decision", (say(_("i > N?")),), jump=LOOP, down=say(_("yes")), across=say(_("no")))
         yield Node("data", (say(_("Peak values, limit positions, diagrams")),))
 
     # names ------------------------------------------------------------------------------------
     def _heading(self, group: Group) -> str:
         key = _("{signature}: links {links}") if len(group.links) > 1 else _("{signature}: link {links}")
-        return self.say(key, signature=group.signature, links=self._numbered(group.links))
+        return self.say(key.format(signature=group.signature, links=self._numbered(group.links)))
 
     def _numbered(self, links: Sequence[str]) -> str:
         return self.say(_(", ")).join(

@@ -167,7 +167,7 @@ def draw_coupler_curve(result: CouplerCurve, request: Request) -> Figure:
     doubles = [spot for spot, _unused in result.double_points]
     cusps = [spot for spot, _unused in result.cusps]
     if request.marks:
-        for name, spots, sign in (("double_point", doubles, "o"), ("cusp", cusps, "D")):
+        for name, spots, sign in ((_("double point"), doubles, "o"), (_("cusp"), cusps, "D")):
             if spots:
                 (dots,) = axes.plot(*(np.array(spots).T * unit.factor), sign, color=COLOURS[1], markersize=7,
                                     fillstyle="none", markeredgewidth=1.4)  # fmt: skip

@@ -109,7 +109,7 @@ class _Conclusion:
                 if row.metric == "stroke"
                 else _("The swing angle of {subject} is {value}.")
             )
-            yield say(moved, subject=literal(row.subject), value=_value(row))
+            yield say(moved.format(subject=literal(row.subject), value=_value(row)))
         for row in self._rows("quick_return_ratio")[:MOST]:
             ratio = (
                 _(
@@ -119,7 +119,7 @@ class _Conclusion:
                 if abs(row.value - 1.0) > 1e-6
                 else _("Both strokes of {subject} take the same time (quick-return ratio K = 1).")
             )
-            yield say(ratio, subject=literal(row.subject), ratio=_value(row))
+            yield say(ratio.format(subject=literal(row.subject), ratio=_value(row)))
         for output in main_outputs(self.case.motion)[:MOST]:
             yield from self._rates(output)
         if not self.case.motion.whole:
@@ -172,7 +172,7 @@ class _Conclusion:
                     "the recommended limit of {limit}."
                 )
             )
-            yield say(kept, **_told(row), limit=typeset(shown(row.limit, row.dimension)))
+            yield say(kept.format(**_told(row), limit=typeset(shown(row.limit, row.dimension))))
         if (row := _lowest(self._rows("singularity"))) is not None:
             yield say(
                 (
@@ -229,7 +229,7 @@ class _Conclusion:
                 if top.at is None or not self.moves
                 else _("The largest joint force is {value} (joint {joints}, at q = {at}).")
             )
-            yield say(largest, value=_value(top), joints=joints, at=_at(top))
+            yield say(largest.format(value=_value(top), joints=joints, at=_at(top)))
         if not self.moves:
             return
         for row in self._rows("peak_input_torque"):
@@ -252,12 +252,13 @@ class _Conclusion:
         small = abs(mean) <= NOTHING * abs(peak.value)
         torque, force = SUPPLIED if len(self.case.mechanism.drivers) > 1 else SUPPLIED_ALONE
         yield self.say(
-            torque if peak.dimension == "torque" else force,
-            driver=literal(in_words(peak.subject, self.case.language)),
-            peak=_value(peak),
-            at=_at(peak),
-            mean=typeset(shown(0.0 if small else mean, peak.dimension)),
-            rms=_value(roots[0]),
+            (torque if peak.dimension == "torque" else force).format(
+                driver=literal(in_words(peak.subject, self.case.language)),
+                peak=_value(peak),
+                at=_at(peak),
+                mean=typeset(shown(0.0 if small else mean, peak.dimension)),
+                rms=_value(roots[0]),
+            )
         )
         if not small and abs(peak.value) > WORTH * abs(mean):
             ratio = abs(peak.value / mean)

@@ -31,7 +31,7 @@ def blocks(case: Case) -> Iterator[Block]:
             "rrrf …).",
         )
     )
-    yield Paragraph(say(said, figure="[[flow]]"))
+    yield Paragraph(say(said.format(figure="[[flow]]")))
     caption = say(_("Flow chart of the solution"))
     pages = flow_chart_pages(nodes, caption)
     for number, svg in enumerate(pages, 1):

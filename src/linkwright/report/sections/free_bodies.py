@@ -39,7 +39,7 @@ def blocks(case: Case) -> Iterator[Block]:
             "exerts on link 2.",
         )
     )
-    yield Paragraph(say(said, figure="[[free-bodies]]", place=place))
+    yield Paragraph(say(said.format(figure="[[free-bodies]]", place=place)))
     if idle := idle_loads(forces, index):
         yield Paragraph(
             literal(say(_("Not acting at this position: {names}.", names=", ".join(idle)))), "note"

@@ -139,11 +139,10 @@ def written(value: Any, say: Say, key: str = "") -> str:
             say(_("{name}: {value}", name=MODEL_KEYS.get(name, name), value=told))
             for name, told in ((name, written(each, say, name)) for name, each in value.items())
         ]
-        return (
-            say(_("({parts})", parts=say(pgettext("given", ", ")).join(parts)))
-            if key
-            else say(_("; ")).join(parts)
-        )
+        if not key:
+            return say(_("; ")).join(parts)
+        listed = say(pgettext("given", ", ")).join(parts)
+        return say(_("({parts})", parts=listed))
     if isinstance(value, list | tuple):
         shown = [written(each, say, key) for each in value]
         if len(shown) > LONGEST:

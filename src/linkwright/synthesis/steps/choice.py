@@ -93,7 +93,7 @@ def _reason(w: Writer) -> str:
     if found.task in DETERMINED:
         return w.say(_("The demands determine the linkage; there is nothing to choose."))
     if found.task not in RANKED:
-        return w.say(REASONS[found.task], angle=angle, ratio=f"{best.link_ratio:.3g}")
+        return w.say(REASONS[found.task].format(angle=angle, ratio=f"{best.link_ratio:.3g}"))
     if getattr(found.derivation, "method", "") == "equation":
         return w.say(
             _(

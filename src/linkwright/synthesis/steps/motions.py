@@ -19,7 +19,7 @@ from linkwright.synthesis.motion_generation.families import POWERS
 from linkwright.synthesis.motion_generation.generate import MotionDerivation
 from linkwright.synthesis.steps.four_bars import coordinates, examine
 from linkwright.synthesis.steps.writing import Writer, decimals, degrees, matrix, numbers, product, small
-from linkwright.words import _, pgettext
+from linkwright.words import Message, _, pgettext
 
 #: Most poses of which every pole is printed.
 MOST_POLES = 5
@@ -47,7 +47,7 @@ def motion(w: Writer, d: MotionDerivation) -> None:
         examine(w, w.found.best)
 
 
-def _family(d: MotionDerivation, dyads: int) -> str:
+def _family(d: MotionDerivation, dyads: int) -> Message:
     if np.isnan(d.phi).any():
         return _("Some angles are free; they are unknowns beside pins and pivots.")
     if len(d.p) == 2:
