@@ -55,7 +55,7 @@ def test_every_follower_is_drawn(follower: str, turn: str, tmp_path: Path) -> No
     for one, other in every(list(itertools.combinations(clouds, 2)), least=1000):
         apart = (one.min(axis=0) > other.max(axis=0) - 0.05) | (other.min(axis=0) > one.max(axis=0) - 0.05)
         assert apart.any()
-    thick = [each for each in sheet.picture.items if getattr(each, "closed", False) and each.pen == "thick"]
+    thick = [each for each in sheet.picture.items if getattr(each, "closed", False) and each.style == "thick"]
     outline = max(thick, key=lambda each: len(each.points)).points
     design: lw.CamDesign = parts.load(path).solve()
     exact = 1e3 * design.profile(1440)

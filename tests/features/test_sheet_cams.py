@@ -55,7 +55,7 @@ def circles(sheet: lw.Sheet, radius: float) -> Any:
 
 def profile(sheet: lw.Sheet) -> Any:
     """The longest closed thick outline."""
-    thick = [each for each in sheet.picture.items if getattr(each, "closed", False) and each.pen == "thick"]
+    thick = [each for each in sheet.picture.items if getattr(each, "closed", False) and each.style == "thick"]
     return max(thick, key=lambda each: len(each.points)).points
 
 
