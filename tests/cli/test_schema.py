@@ -107,8 +107,10 @@ def test_the_schema_fits_every_calculation_of_the_gallery_and_no_misspelt_one(
 
 def test_a_file_with_a_task_alone_is_known(printed: dict[str, Any]) -> None:
     shape = printed
-    task = {"format": 1, "synthesis": {"task": "toggle"}}
+    demands = {"task": "toggle", "force_ratio": 30, "distance": "250 mm", "stroke": "140 mm"}
+    task = {"format": 1, "synthesis": demands}
     assert faults(task, shape) == [] and faults({**task, "sythesis": {}}, shape) != []
+    assert faults({"format": 1, "synthesis": {"task": "toggle"}}, shape) != []
     assert faults({"format": 1}, shape) != []
 
 

@@ -357,7 +357,7 @@ def test_saving_is_whole_or_not_at_all(
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("os.replace", broken)
-    with refused("file.cannot_write", RequestError, path=target):
+    with refused("file.cannot_write", RequestError, path=str(target)):
         draw(crusher, position=9).save(target, force=True)
     assert target.read_text(encoding="utf-8") == draw(crusher).svg
     assert [file.name for file in tmp_path.iterdir()] == ["crusher.svg"]

@@ -149,7 +149,7 @@ def test_a_design_that_becomes_a_parallelogram_stays_one(steps: int) -> None:
     motion = prepared.solve({"crank.length": 1.0}, failures="mark").motion
     turn = motion.link("rocker").angle - motion.link("crank").angle
     assert np.nanmax(np.abs(turn)) < 2e-9
-    assert len([note for note in motion.notes if getattr(note, "key", None) == "cycle.change"]) == 2
+    assert len([note for note in motion.notes if getattr(note, "code", None) == "cycle.change"]) == 2
 
 
 def test_designs_of_a_sweep_that_cannot_pass_between_two_positions_fail() -> None:

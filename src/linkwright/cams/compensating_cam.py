@@ -89,7 +89,7 @@ class CompensatingCam:
             "output": str(self.output),
             "zone": list(self.zone),
             "before": self.before,
-            _("with the cam by"): self.after,
+            "after": self.after,
             "angles": self.angles.tolist(),
             "lifts": self.lifts.tolist(),
         }

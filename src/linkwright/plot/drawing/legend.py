@@ -25,6 +25,7 @@ LEAST = 300.0
 FAMILIES = {
     "force": _("joint forces"),
     "load": _("loads"),
+    "driver": _("drivers"),
     "velocity": _("velocities"),
     "acceleration": _("accelerations"),
 }
