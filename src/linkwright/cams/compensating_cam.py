@@ -129,7 +129,7 @@ def compensating_cam(
     """
     require(machine, Mechanism)
     cam, meant = _cam(machine, joint), output_meant(machine, output)
-    if meant.kind not in (*PLACES, *NAMED) or (meant.kind == "position" and not meant.component):
+    if meant.kind not in (*PLACES, *NAMED) or meant.is_point:
         raise RequestError(
             _(
                 '"{name}" cannot be kept constant; give an output that the model names, a point\'s '

@@ -241,6 +241,11 @@ class Output:
         return KINDS[self.kind].of in ("point", "link", "guide", "group", "motion")
 
     @property
+    def is_point(self) -> bool:
+        """Whether it is where a point is, not one of its coordinates."""
+        return KINDS[self.kind].form == "place" and not self.component
+
+    @property
     def of_course(self) -> bool:
         """Whether only the course of a motion gives its value: programs do not count turns from place to place."""
         return self.kind == "angle" or self.kind in NAMED

@@ -101,7 +101,7 @@ class Charts:
         """A row of displacement, velocity and acceleration for every main output."""
         for output in main_outputs(self.results.motion)[:4]:
             subject = {"angle": "links", "position": "points"}.get(output.kind, "joints")
-            axes = "xy" if output.kind == "position" else ("",)
+            axes = "xy" if output.is_point else ("",)
             kinds = [[replace(each, component=axis).quantity for axis in axes] for each in output.course]
             yield [
                 chart

@@ -230,7 +230,15 @@ class PlainReader:
         if text is None or text in choices:
             return text
         remedy = listed(text, choices, "one_of")
-        self.finding(node, place, _('"{text}" is not known here'), "unknown-word", remedy, text=text)
+        self.finding(
+            node,
+            place,
+            _('"{text}" is not known here'),
+            "unknown-word",
+            remedy,
+            general="unknown_word",
+            text=text,
+        )
         return None
 
     def of_kind(

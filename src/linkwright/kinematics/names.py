@@ -170,7 +170,7 @@ def _output(mechanism: Mechanism, text: str) -> Output | None:
     if len(words) == 3 and words[1] == "on":
         return _over_column(mechanism, text, *words[::2])
     place = place_named(text, mechanism)
-    if place is not None and place.kind != "position":
+    if place is not None and KINDS[place.kind].form != "place":
         return replace(place, written="")
     return _part(mechanism, text)
 
@@ -274,7 +274,7 @@ def _phrase(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Outp
     known = {"link": {**mechanism.links, **mechanism.guides}, "load": mechanism.loads}.get(KINDS[kind].of)
     if len(rest) != 1 or (known is not None and rest[0] not in known):
         return None
-    if kind == "velocity_ratio":
+    if KINDS[kind].of == "link":
         place = output_meant(mechanism, rest[0])
         measured = RATIO[place.dimension, "length" if first and _slides(mechanism, first) else "angle"]
         return Output(kind, place.owner, measured=measured)

@@ -55,7 +55,7 @@ def improvements(motion: Motion, metrics: MetricsTable) -> list[Improvement]:
         row for row in (_transmission(metrics), _effort(metrics, len(mechanism.links))) if row is not None
     ]
     lengths = [name for name in mechanism.dimensions() if name.endswith(".length") or ".lengths." in name]
-    if not rows or not lengths or output.kind == "position":
+    if not rows or not lengths or output.is_point:
         return []
     travel = f"{output.name} range"
     slopes = _slopes(mechanism, [row.metric for row in rows], travel, lengths)

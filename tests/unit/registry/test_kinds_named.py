@@ -31,7 +31,7 @@ ROOMS: Mapping[str, Registry] = {
 SOLVING = ("structure", "kinematics", "engine", "groups")
 #: What is left, by file: how often a kind is asked for or imported, and why.
 LEFT: Mapping[str, tuple[int, str]] = {
-    "cams/compensating_cam.py": (3, "finds the lift of a cam joint"),
+    "cams/compensating_cam.py": (2, "finds the lift of a cam joint"),
     "dyads/calls.py": (7, "calls of the teaching subprograms, of which each is about kinds of its own"),
     "dyads/listed_forces.py": (4, "which loads and joints a listing can write"),
     "dyads/listing.py": (4, "which laws and joints a listing can write"),
@@ -49,6 +49,8 @@ LEFT: Mapping[str, tuple[int, str]] = {
         "a law of its own, by a table, for pins that follow their reactions",
     ),
     "file_check.py": (1, "judges closeness to singular positions by the metric's rule"),
+    "machine/running.py": (1, "says how near its motion comes to a singular position"),
+    "course/variants.py": (1, "which transmission angles are good: the metric's limit"),
     "cli/solve_remarks.py": (1, "says how near a solution is to a singular position"),
     "export/modelica/laws.py": (3, "the texts of laws, by type"),
     "mechanism/cam_shape.py": (1, "the profile of a cam joint"),

@@ -61,7 +61,7 @@ class PhaseMark:
 
 def limit_marks(source: Source, output: Output | None) -> list[LimitMark]:
     """Limit positions of an output; none for points, or where the motion follows no law in time."""
-    if output is None or (output.kind == "position" and not output.component):
+    if output is None or output.is_point:
         return []
     try:
         found = limit_positions(source.motion, output)

@@ -107,7 +107,7 @@ def _worth_marks(source: Source, curve: Floats) -> bool:
 
 def _point(source: Source, name: str) -> str:
     found = output_or_point(source.mechanism, name)
-    if found.kind != "position" or found.component:
+    if not found.is_point:
         raise RequestError(
             _(
                 '"{name}" is no point of a moving link, so it has no path; name a point, such as jaw.D',

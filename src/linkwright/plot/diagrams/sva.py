@@ -84,7 +84,7 @@ def _panels(source: Source, output: Output, say: Say) -> list[Panel]:
         return _of_named(source, output)
     if output.kind not in PLACES:
         return [_of_result(source, output)]
-    if output.kind == "position" and not output.component:
+    if output.is_point:
         return _of_point(source, output.owner, say)
     named = ANGULAR if output.kind == "angle" else STRAIGHT
     found = []
