@@ -58,6 +58,8 @@ def spread_over(
     Chunks have ``size``, with ``least`` fewer to the end. The first exception is raised, once all threads have left
     off; chunks not begun by then are left out.
     """
+    if not count:
+        return
     if count <= (least or size) or (threads <= 1 and count <= size):
         work(0, count)
         return
