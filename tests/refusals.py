@@ -11,11 +11,10 @@ from io import StringIO
 from pathlib import Path
 
 import pytest
+from tests.unit.files.reading import found_in
 
 from linkwright import Finding, LinkwrightError, ModelError
 from linkwright.cli import main
-from linkwright.files.model_file import read_text
-from linkwright.files.source import read_source
 
 
 @contextmanager
@@ -42,10 +41,7 @@ def findings(text: str, name: str = "<text>") -> list[Finding]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "model.yaml")
         path.write_bytes(text.encode("utf-8"))
-        return [
-            replace(each, where=name + each.where.removeprefix(path.name))
-            for each in read_text(*read_source(path))[1]
-        ]
+        return [replace(each, where=name + each.where.removeprefix(path.name)) for each in found_in(path)]
 
 
 def checked(path: Path) -> tuple[int, list[Finding]]:

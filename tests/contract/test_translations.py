@@ -9,9 +9,9 @@ import pytest
 from babel.messages.extract import extract_from_dir
 from tests.every import every
 from tests.unit.words.catalogued import sentences
+from tests.unit.words.pseudo import CLOSE, OPEN, PSEUDO, pseudo, pseudo_locale
 from tests.words.printing import commands, printed
 from tests.words.provoking import remarks
-from tests.words.pseudo import CLOSE, OPEN, PSEUDO, pseudo, pseudo_locale
 
 import linkwright as lw
 from linkwright.words import Message, _

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from tests import store
 from tests.refusals import refused
+from tests.unit.files.reading import found_in
 
 from linkwright.errors import LinkwrightError, ModelError, RequestError
 from linkwright.file_check import check
 from linkwright.files.build import Model
-from linkwright.files.model_file import gallery_names, load, loads, read_document, read_text
+from linkwright.files.model_file import gallery_names, load, loads, read_document
 from linkwright.files.schema import json_schema
-from linkwright.files.source import read_source
 from linkwright.files.write import dump
 
 BLOCK = """\
@@ -51,7 +51,7 @@ def test_every_model_of_the_gallery_reads_back_the_same(name: str) -> None:
 
 @pytest.mark.parametrize("name", gallery_names())
 def test_the_gallery_has_no_findings(name: str) -> None:
-    assert read_text(*read_source(f"gallery:{name}"))[1] == []
+    assert found_in(f"gallery:{name}") == []
     assert [str(each) for each in check(f"gallery:{name}") if each.severity != "note"] == []
 
 

@@ -9,11 +9,10 @@ from pathlib import Path
 
 from tests import damage
 from tests.state.rows import Entries, refusal
+from tests.unit.files.reading import found_in
 
 import linkwright as lw
 from linkwright import gallery, parts
-from linkwright.files.model_file import read_text
-from linkwright.files.source import read_source
 
 #: Batches of accidents, and how many in each; every so many characters a file is cut.
 BATCHES, ACCIDENTS, STEP = 24, 60, 149
@@ -50,7 +49,7 @@ def of_task(path: Path) -> Iterable[lw.Finding]:
 def of_model(path: Path) -> Iterable[lw.Finding]:
     """What reading a model finds; its cycle is not turned."""
     try:
-        return read_text(*read_source(path))[1]
+        return found_in(path)
     except lw.ModelError as error:
         return error.findings
 
