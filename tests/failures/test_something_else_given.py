@@ -69,12 +69,12 @@ OF_FILES: dict[str, Callable[..., object]] = {
 
 #: Codes of refusals of those that take no machine, or a text or the name of a file as well.
 OTHERWISE = {
-    "load": 'the name of a model file is needed, not {told}; write lw.load("machine.yaml")',
-    "check": 'the name of a model file is needed, not {told}; write lw.load("machine.yaml")',
-    "read_document": 'the name of a model file is needed, not {told}; write lw.load("machine.yaml")',
-    "loads": "the text of a model is needed, not {told}; files are read by lw.load",
-    "synthesize": 'there is no task "{task}"; known: {known}',
-    "grade": "{path}: this is no answer key; give the key.json that the command variants wrote",
+    "load": "given_instead.no_file_name",
+    "check": "given_instead.no_file_name",
+    "read_document": "given_instead.no_file_name",
+    "loads": "given_instead.no_text",
+    "synthesize": "synthesize.task",
+    "grade": "course.no_key",
 }
 
 
@@ -87,7 +87,7 @@ def test_the_name_of_a_file_is_pointed_to_load(name: str) -> None:
         (Path("press.yaml"), 'lw.load("press.yaml")'),
         (TEXT, "lw.loads(text)"),
     ):
-        with refused("given_instead.needed", RequestError, code=wrapped.format(code)):
+        with refused("given_instead.needed", RequestError, example=wrapped.format(code)):
             function(given)
 
 
@@ -101,14 +101,14 @@ def test_anything_else_is_refused(name: str, given: object) -> None:
 
 @pytest.mark.parametrize("name", OF_MECHANISMS)
 def test_a_model_is_to_be_built_first(name: str) -> None:
-    with refused("given_instead.needed", kind="Model", code="model.build()"):
+    with refused("given_instead.needed", kind="Model", example="model.build()"):
         OF_MECHANISMS[name](lw.Model("crank"))
 
 
 @pytest.mark.parametrize("name", OF_RESULTS)
 def test_a_mechanism_is_to_be_solved_first(name: str) -> None:
     code = f"{SOLVED[name]}(mechanism)"
-    with refused("given_instead.needed", kind="Mechanism", code=code):
+    with refused("given_instead.needed", kind="Mechanism", example=code):
         OF_RESULTS[name](MECHANISM)
 
 
@@ -118,7 +118,7 @@ def test_what_a_result_holds_is_named() -> None:
         (lw.draw, FORCES, "forces.motion"),
         (OF_RESULTS["steady_running"], MOTION, "lw.solve_forces(motion)"),
     ):
-        with refused("given_instead.needed", code=code):
+        with refused("given_instead.needed", example=code):
             function(given)
 
 
@@ -140,5 +140,5 @@ def test_changes_are_a_mapping() -> None:
     prepared = lw.prepare(MECHANISM, vary="crank.length", steps=4)
     assert prepared.vary == ("crank.length",)
     for function in (prepared.solve, MECHANISM.with_dimensions, lambda given: lw.study(MECHANISM, given)):
-        with refused("given_instead.needed", text="crank.length", code='{"crank.length": 0.1}'):
+        with refused("given_instead.needed", text="crank.length", example='{"crank.length": 0.1}'):
             function("crank.length")

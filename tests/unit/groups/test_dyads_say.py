@@ -34,5 +34,5 @@ def test_a_dyad_names_its_end_and_what_is_missing(
     assert dyad.at_end(facts).key == end
     if reason is not None:
         said = dyad.explain(facts)
-        assert said.key == reason
+        assert said.code == reason
         agrees(said.values, values)
