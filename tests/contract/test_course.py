@@ -138,7 +138,7 @@ def test_rows_that_cannot_be_graded_are_told_and_the_others_graded(found: lw.Var
     bad = [{**good, "variant": "99"}, good, {**good, names[0]: "twelve"}, {**good, names[1]: "1.234,5"}]
     grades = lw.grade(key, bad)
     told = [
-        (each.fault.key, each.fault.values["line"], each.fault.values["text"])
+        (each.fault.code, each.fault.values["line"], each.fault.values["text"])
         for each in grades
         if each.fault
     ]

@@ -15,7 +15,7 @@ def test_says_in_which_position_and_by_how_much():
     with refused("dyads.apart", lw.PositionError, index="1", count=2, of=3, signature="RRR") as caught:
         rrr((0, 0), [(0.3, 0), (0.6, 0), (0.7, 0)], (0.25, 0.25))
     assert caught.value.failed == (1, 2)
-    assert "outcome.rrr_far" in str(caught.value.values["reason"].key)
+    assert "outcome.rrr_far" in str(caught.value.values["reason"].code)
     assert caught.value.values["missing"] == "0.1 m"
 
 
@@ -34,7 +34,7 @@ def test_says_in_which_position_and_by_how_much():
 def test_why_a_dyad_is_not_assembled(solve, reason, missing):
     with refused("dyads.apart_alone", lw.PositionError) as caught:
         solve()
-    assert caught.value.values["reason"].key == reason
+    assert caught.value.values["reason"].code == reason
     if missing:
         assert caught.value.values["missing"] == missing
     assert caught.value.say("zh") != str(caught.value)

@@ -92,7 +92,11 @@ def test_the_line_of_a_section_that_is_missing_or_indented_is_one_finding(
         assert {each.code for each in findings(broken)} == {"syntax"}
     else:
         (found,) = findings(broken)
-        message = "model.of_another_section" if indent is None else "model.section_within"
+        message = (
+            'in "{within}" stands what belongs in "{section}": {names}'
+            if indent is None
+            else 'the section "{section}" stands within "{within}"'
+        )
         said([found], "misplaced", message=message, section=section, within=within)
 
 

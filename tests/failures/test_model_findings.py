@@ -274,7 +274,7 @@ ONE_CHANGE = [
         {"message": 'the alias "*{name}" stands inside its own anchor', "name": "l"},
     ),
     ("name: four-bar", "expected: " + "[" * 60 + "]" * 60, "2:51", "", "depth", {"most": 40}),
-    ("  crank:", "\tcrank:", "5:1", "", "tab", {"sign": "\t", "code": "U+0009"}),
+    ("  crank:", "\tcrank:", "5:1", "", "tab", {"sign": "\t", "character": "U+0009"}),
     ("[O1, A]", "[O1, A", "5:38", "", "syntax", {"sign": "}"}),
     ("four-bar", '"four-bar', "2:7", "", "syntax", {"sign": '"'}),
     ("four-bar", "four: bar", "2:11", "", "syntax", {"sign": ":"}),

@@ -22,7 +22,7 @@ driver: {turn: crank, about: O1, speed: 10 rad/s}
 WIDE = "\u3000"
 #: What is changed, into what, where the finding is; its key, code and values.
 OF_YAML = [
-    ("    length: 1 m", "\tlength: 1 m", "8:1", "", "tab", {"sign": "\t", "code": "U+0009"}),
+    ("    length: 1 m", "\tlength: 1 m", "8:1", "", "tab", {"sign": "\t", "character": "U+0009"}),
     (
         "    length: 1 m",
         "    length:1 m",
@@ -146,14 +146,14 @@ OF_YAML = [
         "name",
         {"message": '"{text}" cannot be the name of a {what}', "half": ",", "wide": "，"},
     ),
-    ("    length: 1 m", f"{WIDE}{WIDE}length: 1 m", "8:1", "", "blank", {"code": "U+3000"}),
+    ("    length: 1 m", f"{WIDE}{WIDE}length: 1 m", "8:1", "", "blank", {"character": "U+3000"}),
     (
         "    length: 1 m",
         f"    length:{WIDE}1 m",
         "8:5",
         "",
         "syntax",
-        {"message": 'the blank after the colon of "{key_}" is no space ({character})', "code": "U+3000"},
+        {"message": 'the blank after the colon of "{key_}" is no space ({character})', "character": "U+3000"},
     ),
     (
         "length: 1 m",
@@ -257,7 +257,7 @@ OF_YAML = [
         "8:5",
         "",
         "syntax",
-        {"message": 'a line cannot begin with "{sign}"', "code": "U+002F", "sign": "//"},
+        {"message": 'a line cannot begin with "{sign}"', "character": "U+002F", "sign": "//"},
     ),
 ]
 

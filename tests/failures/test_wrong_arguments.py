@@ -67,7 +67,7 @@ CALLS: list[tuple[Callable[[], object], str, dict[str, object]]] = [
     (lambda: forces().reaction(3), "names.no_such", {"noun": "joint", "name": 3}),
     (lambda: FOUR_BAR.with_dimensions({3: 1.0}), "model.no_dimension", {"address": 3}),
     (lambda: lw.metrics(motion(), [3]), "names.no_such", {"noun": "metric", "name": 3}),
-    (lambda: lw.limit_positions(motion(), None), "motion.no_output", {"text": "None"}),
+    (lambda: lw.limit_positions(motion(), None), "study.no_such_output", {"name": "None"}),
     (lambda: sweep(outputs=None), "study.no_output_name", {"given": "None"}),
     (
         lambda: sweep(outputs=[("rocker.angle", "max", "min")]),
@@ -138,7 +138,7 @@ CALLS: list[tuple[Callable[[], object], str, dict[str, object]]] = [
     (
         lambda: lw.compare([FOUR_BAR, FOUR_BAR], weights=[1.0]),
         "given_instead.needed",
-        {"code": '{"crank.length": 0.1}', "kind": "list"},
+        {"example": '{"crank.length": 0.1}', "kind": "list"},
     ),
     (
         lambda: lw.balance(FOUR_BAR, radius="100 mm"),

@@ -14,18 +14,19 @@ from dataclasses import field, replace
 from functools import cached_property
 from html import escape
 from itertools import count
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import MISSING, number, shown_unit, with_unit
+from linkwright.formula.late_import import numpy as np
 from linkwright.units import Dimension, si_symbol, si_unit
 from linkwright.words import Message, Say
 from linkwright.words.characters import aligned, aligned_within, cell_text
 from linkwright.words.sentence import in_language
+
+if TYPE_CHECKING:
+    from linkwright.core.arrays import Floats
 
 #: Beside the largest of its kind anything below this share is nothing but rounding.
 ROUNDING = 1e-12
@@ -321,6 +322,8 @@ class Column:
 
     @cached_property
     def _largest(self) -> float:
+        from linkwright.core.arrays import largest
+
         return largest(self.values)
 
     @cached_property

@@ -31,7 +31,7 @@ def test_a_dyad_names_its_end_and_what_is_missing(
     signature: str, facts: Mapping[str, float], end: str, reason: str | None, values: Mapping[str, str]
 ) -> None:
     dyad = DYADS[signature]()
-    assert dyad.at_end(facts).key == end
+    assert dyad.at_end(facts).code == end
     if reason is not None:
         said = dyad.explain(facts)
         assert said.code == reason

@@ -152,7 +152,7 @@ def test_in_sweeps_it_is_an_outcome(monkeypatch: pytest.MonkeyPatch) -> None:
             prepared.solve({"prepared_rod.length": 0.75})
     assert not found.ok.any() and np.isnan(found["reaction Q on swept_lever max"]).all()
     (failure,) = found.failures()
-    assert (failure.count, failure.example.key) == (4, "forces.unbalanced")
+    assert (failure.count, failure.example.code) == (4, "forces.unbalanced")
 
 
 def test_a_power_that_is_not_the_drivers_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:

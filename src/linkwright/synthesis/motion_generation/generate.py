@@ -220,7 +220,7 @@ def _guided(
         raise SynthesisError(MOTION_NO_PAIRS)
     if all(each.defects for each in chosen):
         flaws = tuple(DEFECTS[name] for name in chosen[0].defects)
-        raise SynthesisError(MOTION_NO_MOVABLE.format(why=flaws), result)
+        raise SynthesisError(MOTION_NO_MOVABLE.format(why=flaws, defects=chosen[0].defects), result)
     if len(p) > 5:
         result = replace(result, notes=(MOTION_FITTED.format(poses=len(p)),))
     return result
@@ -375,7 +375,7 @@ def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesi
         )
     if chosen[0].defects:
         flaws = tuple(DEFECTS[name] for name in chosen[0].defects)
-        raise SynthesisError(MOTION_NO_MOVABLE.format(why=flaws), result)
+        raise SynthesisError(MOTION_NO_MOVABLE.format(why=flaws, defects=chosen[0].defects), result)
     return result
 
 

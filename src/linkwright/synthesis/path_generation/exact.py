@@ -139,6 +139,7 @@ def _nine(z: Complexes, found: NinePoints, count: int, seed: int) -> Synthesis:
                 code="synthesize.path.no_movable",
                 real=len(u),
                 why=why,
+                defects=made[0].defects,
             ),
             result,
         )
