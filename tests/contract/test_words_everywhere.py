@@ -76,7 +76,7 @@ def test_no_english_sentence_stands_where_an_error_is_raised() -> None:
 
 #: One term for one thing: that of Chinese textbooks of the theory of machines, and what is not written instead.
 ONE_TERM = {"平衡力矩": ("输入力矩",), "运动副反力": ("约束反力",), "设计指标": ("设计参数",)}
-CHINESE = [*ROOT.glob("locale/zh/*/*.po"), *(ROOT.parents[1] / "docs/zh").rglob("*.md")]
+CHINESE = [*ROOT.glob("locale/zh/*/*.po"), *(Path(__file__).resolve().parents[2] / "docs/zh").rglob("*.md")]
 
 
 def test_one_chinese_term_for_one_thing() -> None:

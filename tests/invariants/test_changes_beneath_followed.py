@@ -56,7 +56,7 @@ def test_note_motion_and_range_agree() -> None:
     assert (note.code, note.values["links"]) == ("cycle.end", ("coupler", "rocker"))
     reach = lw.input_range(mechanism)
     assert reach.low is not None and reach.low.value == pytest.approx(0.0, abs=1e-7)
-    assert reach.low.how.key == "range.change" and reach.low.group.values["links"] == ("coupler", "rocker")
+    assert reach.low.how.code == "range.change" and reach.low.group.values["links"] == ("coupler", "rocker")
     turned = np.mod(motion.input[motion.ok] - 0.6 + pi, 2 * pi) - pi + 0.6
     assert turned.min() == pytest.approx(0.0, abs=2 * pi / 361) and turned.min() > 0.0
     refused = [outcome.sentence for outcome in motion.outcomes if not outcome.ok]

@@ -55,7 +55,7 @@ def test_designs_whose_stroke_has_tied_limits_have_no_ratio_and_the_others_keep_
     for failures, code in ((swept.failures(), "metrics.no_value"), (study.failures, "study.no_value_for")):
         (failure,) = failures
         assert failure.designs.tolist() == [2]
-        assert failure.example.key == code and failure.example.values["subject"] == "guide"
+        assert failure.example.code == code and failure.example.values["subject"] == "guide"
 
 
 def test_alternatives_are_compared_although_one_lacks_a_number() -> None:

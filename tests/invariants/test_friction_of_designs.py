@@ -217,7 +217,7 @@ def test_a_wedge_takes_the_force_of_statics_until_it_locks() -> None:
     expected = [lifting(5 * 9.81, mu, mu).real for mu in coefficients[:3]]
     assert found.ok.tolist() == [True, True, True, False]
     assert found["driver.effort", "max"][:3] == pytest.approx(expected, rel=1e-11)
-    assert found.unloaded[3].key == "forces.self_locking"
+    assert found.unloaded[3].code == "forces.self_locking"
 
 
 def yoke_torque(slot: complex, bed: complex, mass: complex) -> complex:

@@ -133,7 +133,7 @@ def test_overlap_of_tips_is_found_exactly_where_teeth_run_into_each_other(seed: 
         (first, second), M, profile_shift=shifts, internal=True, addendum=float(random.uniform(0.5, 0.9))
     )
     assert abs(pair.tip_overlap) > 1e-3, "too near to the limit for so few positions"
-    keys = {getattr(each, "key", "") for each in pair.findings}
+    keys = {getattr(each, "code", "") for each in pair.findings}
     touching = bool(keys & {"gears.tips_overlap", "gears.fillet_touched", "gears.no_clearance"})
     assert (penetration(pair, 12, 60) > DEEPEST) == touching == (seed in (3, 20, 22, 25, 29, 34))
 
@@ -168,7 +168,11 @@ def test_rack_is_a_gear_of_very_many_teeth() -> None:
 @pytest.mark.parametrize(
     ("make", "code", "values"),
     [
-        (lambda: lw.Gear(3, M), "gears.out_of_range", {"name": "teeth", "value": 3, "low": 4, "high": 2000}),
+        (
+            lambda: lw.Gear(3, M),
+            "gears.out_of_range",
+            {"name": "teeth", "value": "3", "low": "4", "high": "2000"},
+        ),
         (lambda: lw.Gear(12, M, 1.2), "gears.pointed", {"tip": 49.2}),
         (
             lambda: lw.Gear(30, M, internal=True),
@@ -197,7 +201,7 @@ def test_what_cannot_be_made_says_why(make: object, code: str, values: dict[str,
 
 def test_findings_and_pictures(tmp_path: Path) -> None:
     undercut = lw.gear_pair((8, 20), M)
-    assert [each.key for each in undercut.findings] == ["gears.undercut", "gears.gap"]
+    assert [each.code for each in undercut.findings] == ["gears.undercut", "gears.gap"]
     drawing = undercut.draw(0.1)
     assert drawing.notes == tuple(map(str, undercut.findings))
     assert all(note in drawing.svg for note in drawing.notes)

@@ -23,10 +23,14 @@ CHANGE_POINTS = {"change_point_fourbar", "truss", "two_bars_equilibrium"}
 
 
 def outputs(mechanism: lw.Mechanism) -> list[str]:
+    """Links, but blocks on the frame, whose names mean their displacement; guides, mass centres."""
     guides = [name for name, joint in mechanism.joints.items() if joint.kind == "prismatic"]
+    blocks = {
+        link for name in guides if "frame" in (joined := mechanism.joints[name].joined) for link in joined
+    }
     points = [f"{link}.{point}.{axis}" for link in mechanism.links for point in ("centre",) for axis in "xy"]
     known = [text for text in points if text.split(".")[1] in mechanism.links[text.split(".")[0]].points]
-    return [*mechanism.links, *guides, *known]
+    return [*(name for name in mechanism.links if name not in blocks), *guides, *known]
 
 
 def rates_at(mechanism: lw.Mechanism, output: str, found: tuple[LimitPosition, ...]) -> np.ndarray:

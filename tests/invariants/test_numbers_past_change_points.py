@@ -54,7 +54,7 @@ def test_a_load_that_the_change_point_cannot_carry_has_infinite_reactions(steps:
     for pin in ("O1", "O2", "A", "B"):
         row = table["peak_reaction", pin]
         assert row.value == inf
-        assert [(each.key, each.values["at"]) for each in row.warnings] == [("unbounded", "180°")]
+        assert [(each.key, each.message.values["at"]) for each in row.warnings] == [("unbounded", "180°")]
         assert row.at == pytest.approx(pi, abs=1e-6) and row.warnings
         assert table["rms_reaction", pin].value == inf
     for name, value in (("peak_input_torque", 10.0), ("rms_input_torque", 10.0), ("mean_power", -50.0)):

@@ -94,7 +94,7 @@ def test_a_pendulum_that_would_take_for_ever_is_said_to_stop() -> None:
     assert pendulum_speeds(0.05, pi / 6)[0] < 1e-12
     machine = lw.loads(PENDULUM.format(speed=5, torque=-7))
     found = lw.sweep(machine, {"crank.inertia": [0.05]}, outputs=["slowest_speed"])
-    assert np.isnan(found["slowest_speed"][0]) and found.unloaded[0].key == STOPS
+    assert np.isnan(found["slowest_speed"][0]) and found.unloaded[0].code == STOPS
 
 
 def heavier(name: str, inertia: float) -> lw.Mechanism:
@@ -256,11 +256,11 @@ def test_designs_that_stop_say_so_and_the_others_go_on() -> None:
         )
         assert np.isnan(found["speed_fluctuation"]).tolist() == [True, False, False]
         assert np.isfinite(found["peak_reaction O3"]).all()
-        assert list(found.unloaded) == [0] and found.unloaded[0].key == STOPS
+        assert list(found.unloaded) == [0] and found.unloaded[0].code == STOPS
         many = lw.study(crusher, {"crank.inertia": np.linspace(0.0, 60.0, 13)}, metrics=OWN[:2])
         assert np.isnan(many["slowest_speed"]).tolist() == [True] + [False] * 12
         assert many["speed_fluctuation"][12] == pytest.approx(found["speed_fluctuation"][2], rel=1e-12)
-        assert STOPS in [note.values["cause"].key for note in many.notes]
+        assert STOPS in [note.values["cause"].code for note in many.notes]
     stopping = stored("jaw_crusher_fourbar")
     with refused("running.would_stop", name="speed_fluctuation"):
         metrics(loaded("jaw_crusher_fourbar"), "speed_fluctuation")

@@ -39,7 +39,7 @@ def test_gears_that_are_too_far_apart_have_no_contact_ratio() -> None:
     """Tips of 44 and 64 mm meet at 54 mm; the path of contact is gone before."""
     for distance in (54.01e-3, 60e-3):
         pair = lw.GearPair(lw.Gear(20, 2e-3), lw.Gear(30, 2e-3), distance)
-        assert pair.contact_ratio == 0 and pair.findings[0].key == "gears.no_contact"
+        assert pair.contact_ratio == 0 and pair.findings[0].code == "gears.no_contact"
 
 
 def test_thickness_of_a_tooth_is_told_on_its_involute_only() -> None:

@@ -85,7 +85,7 @@ def test_a_plate_on_a_guide_sweeps_its_rectangle_longer_by_the_stroke() -> None:
     assert area(machine, "plate", 13) == pytest.approx((0.5 + 0.6) * 0.4, rel=1e-12)
     table = metrics(lw.solve_motion(machine, steps=13), "swept_area")
     (box,) = table["swept_area"][0].remarks
-    assert (box.key, box.values) == ("swept_area.box", {"width": "2100 mm", "height": "700 mm"})
+    assert (box.key, box.message.values) == ("swept_area.box", {"width": "2100 mm", "height": "700 mm"})
     place = np.exp(1j * np.linspace(0.0, 2.0 * pi, 20_001))
     disc = np.stack([0.3 * place.real, 0.3 * place.imag], axis=1)
     corners = [(0.7, 0.0), (0.7, 0.4), (1.8, 0.4), (1.8, 0.0), (0.0, 0.0)]

@@ -192,20 +192,18 @@ def test_rounding_beside_the_largest_is_zero() -> None:
 
 
 def test_samples_come_back_in_their_own_unit() -> None:
-    (block,) = [b for b in solved("spring_rate").blocks(speaker("en")) if b.key == "regression.rate"]
-    rows = {row.key: row.cells("statistics", speaker("en")) for row in block.rows}
+    found = solved("spring_rate")
+    (block,) = [b for b in found.blocks(speaker("en")) if b.key == "regression.rate"]
+    rows = {row.key: row.cells(found.labels, speaker("en")) for row in block.rows}
     assert rows["b_1"][2] == "N" and rows["b_deflection"][1:3] == ["12.4617", "N/mm"]
     assert rows["residual"][2] == "N"
-    assert solved("spring_rate").data()["regression.rate"]["b(deflection)"]["value"] == pytest.approx(
-        12461.67, rel=1e-6
-    )
+    assert found.data()["regression.rate"]["b(deflection)"]["value"] == pytest.approx(12461.67, rel=1e-6)
 
 
 def test_distances_of_throws_are_in_metres() -> None:
+    found = solved("thrown_ball")
     rows = {
-        row.key: row.cells("trajectory", speaker("en"))
-        for b in solved("thrown_ball").blocks(speaker("en"))
-        for row in b.rows
+        row.key: row.cells(found.labels, speaker("en")) for b in found.blocks(speaker("en")) for row in b.rows
     }
     assert rows["distance"][2] == rows["top"][2] == "m" and float(rows["distance"][1]) < 170
 
