@@ -226,27 +226,48 @@ def _name(node: ast.AST) -> str:
 def of_calculations() -> dict[str, str]:
     """The codes of findings about calculations and motion programs, with their English sentences."""
     found = {}
-    for _path, node in nodes():
+    for path, node in nodes():
         match node:
-            case ast.Call(args=[ast.Constant(value=str(code)), _key, ast.Call(args=given), _remedy]):
-                if called(node) in ("fault", "_fault"):
-                    found[code] = next(texts(given[-1]))
+            case ast.Call(args=[ast.Constant(value=str(code)), _key, sentence, _remedy]):
+                if called(node) == "fault" and isinstance(message := _resolved(sentence, path), ast.Call):
+                    found[code] = next(texts(message.args[-1]))
     return found
+
+
+@cache
+def _constants() -> dict[tuple[str, str], ast.expr]:
+    """What is assigned to names of capitals, by module and name; of public names by the name alone as well."""
+    found: dict[tuple[str, str], ast.expr] = {}
+    for path, node in nodes():
+        match node:
+            case ast.Assign(targets=[ast.Name(id=name)], value=value) if name.isupper():
+                found[path, name] = value
+                if not name.startswith("_"):
+                    found["", name] = value
+    return found
+
+
+def _resolved(node: ast.AST, path: str) -> ast.AST:
+    """The message that a constant stands for; other expressions as they are."""
+    name = _name(node)
+    return _constants().get((path, name), _constants().get(("", name), node)) if name else node
 
 
 # errors -----------------------------------------------------------------------------------------
 def of_errors() -> dict[str, list[str]]:
     """Codes of errors that are raised as they stand here, by their areas."""
     found: dict[str, set[str]] = {area: set() for area in AREAS}
-    for _, node in nodes():
-        for key in _codes_within(node.args[0]) if _raises(node) and node.args else ():
+    for path, node in nodes():
+        for key in _codes_within(node.args[0], path) if _raises(node) and node.args else ():
             if key.partition(".")[0] in AREAS:
                 found[key.partition(".")[0]].add(key)
     return {area: sorted(each) for area, each in sorted(found.items())}
 
 
-def _codes_within(node: ast.AST) -> Iterator[str]:
+def _codes_within(node: ast.AST, path: str) -> Iterator[str]:
     for each in ast.walk(node):
+        if isinstance(each, ast.Name) and (message := _resolved(each, path)) is not each:
+            yield from _codes_within(message, path)
         if isinstance(each, ast.keyword) and each.arg == "code":
             yield from texts(each.value)
 

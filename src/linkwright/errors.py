@@ -8,7 +8,7 @@ from functools import partial
 from typing import Literal
 
 from linkwright.core.dataclass import dataclass
-from linkwright.words import LANGUAGES, Say, _, say
+from linkwright.words import LANGUAGES, Message, Say, _, say
 from linkwright.words.sentence import code_of, in_language, values_of
 
 Severity = Literal["error", "warning", "note"]
@@ -63,6 +63,12 @@ class Finding:
 def with_remedy(message: str, remedy: str) -> str:
     """What is the matter and what to do about it as one sentence."""
     return _("{message}; {remedy}", message=message, remedy=remedy) if remedy else message
+
+
+def fault(code: str, key: str, message: Message, remedy: Message, **values: object) -> Finding:
+    """An error at a key of what was given, with the values of its texts; numbers among them have six digits."""
+    said = {name: f"{value:.6g}" if isinstance(value, float) else value for name, value in values.items()}
+    return Finding("error", "", key, message.format(**said), remedy.format(**said), code)
 
 
 class LinkwrightError(Exception):

@@ -27,6 +27,9 @@ _CANNOT_MAKE = _(
 )
 
 
+_EXISTS = _('"{path}" exists; choose another name, or replace it with {remedy}', code="file.exists")
+
+
 def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "force=True") -> None:
     """Raise RequestError where a file could not be written, before any work is done.
 
@@ -46,14 +49,7 @@ def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "force=
     except (OSError, ValueError) as problem:
         raise _refused(target, problem) from None
     if not force:
-        raise RequestError(
-            _(
-                '"{path}" exists; choose another name, or replace it with {remedy}',
-                code="file.exists",
-                path=target,
-                remedy=remedy,
-            )
-        )
+        raise RequestError(_EXISTS.format(path=target, remedy=remedy))
 
 
 def refuse_folder(path: str | Path) -> None:
@@ -105,14 +101,7 @@ def write_whole(
         else:
             _replace(Path(os.path.realpath(target)), content, force, _PRIVATE if private else _USUAL)
     except FileExistsError:
-        raise RequestError(
-            _(
-                '"{path}" exists; choose another name, or replace it with {remedy}',
-                code="file.exists",
-                path=target,
-                remedy=remedy,
-            )
-        ) from None
+        raise RequestError(_EXISTS.format(path=target, remedy=remedy)) from None
     except (OSError, ValueError) as problem:
         raise _refused(target, problem) from None
     return target

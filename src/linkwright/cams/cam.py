@@ -19,8 +19,7 @@ from linkwright.cams.sizes import chosen
 from linkwright.cams.undercut import undercuts
 from linkwright.core.dataclass import dataclass
 from linkwright.core.search import first_largest
-from linkwright.errors import Finding, ModelError
-from linkwright.parts.base import fault
+from linkwright.errors import Finding, ModelError, fault
 from linkwright.words import _
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.cams.compensation import BEYOND, compensating_lift
+from linkwright.cams.compensation import BEYOND, BEYOND_ANGLES, compensating_lift
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
@@ -28,6 +28,12 @@ from linkwright.words import _
 _STEPS, _CORRECTIONS, _NO_EFFECT = 1440, 6, 1e-6
 #: A trial lift: share of the machine's size of a follower that slides; rad of one that swings.
 _TRIAL = 1e-3
+
+
+_NOT_ONE_TURN = _(
+    "the cam has to turn once in a closed cycle that is passed as a whole with its follower at rest",
+    code="cams.compensation_cycle",
+)
 
 
 @dataclass(frozen=True)
@@ -173,23 +179,11 @@ class _Search:
         self.trial = _TRIAL * machine.size if guided else _TRIAL
         still = self._motion(LiftCurve(np.array([0.0, math.tau]), np.array([[0.0]])))
         if not still.positions.closed or not still.ok.all():
-            raise RequestError(
-                _(
-                    "the cam has to turn once in a closed cycle that is passed as a whole with its "
-                    "follower at rest",
-                    code="cams.compensation_cycle",
-                )
-            )
+            raise RequestError(_NOT_ONE_TURN)
         turned = self._turned(still)
         turns = round(float(turned[-1] - turned[0]) / math.tau)
         if abs(turns) != 1:
-            raise RequestError(
-                _(
-                    "the cam has to turn once in a closed cycle that is passed as a whole with its "
-                    "follower at rest",
-                    code="cams.compensation_cycle",
-                )
-            )
+            raise RequestError(_NOT_ONE_TURN)
         self.backwards = turns < 0
         self.angles = self._twice(turned, math.tau * turns)
         self.input, self.values = self._of(still)
@@ -258,13 +252,7 @@ class _Search:
         low, high = sorted(zone)
         inside = np.flatnonzero((self.input >= low - 1e-9) & (self.input <= high + 1e-9))
         if len(inside) < 3 or self.angles[inside[-1]] - self.angles[inside[0]] > 0.95 * math.tau:
-            raise RequestError(
-                _(
-                    "the zone with what lies beyond it on both sides is not within the angles given, or "
-                    "nearly a whole turn; give a smaller zone",
-                    code="cams.compensation_zone",
-                )
-            )
+            raise RequestError(BEYOND_ANGLES)
         return int(inside[0]), int(inside[-1])
 
     def _quietest(self, span: float) -> tuple[int, int]:
@@ -272,13 +260,7 @@ class _Search:
         half, step = self.steps, abs(float(self.input[1] - self.input[0]))
         count = round(span / step)
         if not 2 <= count < 0.95 * half:
-            raise RequestError(
-                _(
-                    "the zone with what lies beyond it on both sides is not within the angles given, or "
-                    "nearly a whole turn; give a smaller zone",
-                    code="cams.compensation_zone",
-                )
-            )
+            raise RequestError(BEYOND_ANGLES)
         ways = [float(np.ptp(self.values[k : k + count + 1])) for k in range(half)]
         first = int(np.argmin(ways))
         return first, first + count

@@ -17,6 +17,13 @@ _TURN = 2 * math.pi
 BEYOND, _PLACES = math.radians(8.0), 180
 
 
+BEYOND_ANGLES = _(
+    "the zone with what lies beyond it on both sides is not within the angles given, or "
+    "nearly a whole turn; give a smaller zone",
+    code="cams.compensation_zone",
+)
+
+
 def compensating_lift(
     angles: ArrayLike,
     wanted: ArrayLike,
@@ -47,13 +54,7 @@ def compensating_lift(
             )
         )
     if not low < high < low + 0.95 * _TURN or x[0] > low or x[-1] < high:
-        raise RequestError(
-            _(
-                "the zone with what lies beyond it on both sides is not within the angles given, or "
-                "nearly a whole turn; give a smaller zone",
-                code="cams.compensation_zone",
-            )
-        )
+        raise RequestError(BEYOND_ANGLES)
     near = slice(max(int(np.searchsorted(x, low)) - 8, 0), int(np.searchsorted(x, high)) + 8)
     spline = make_interp_spline(x[near], y[near], k=7 if len(x[near]) > 16 else 5)
     away = _Return(

@@ -9,14 +9,13 @@ from typing import Any
 from linkwright.cams.follower import Follower, LiftQuantity, lift_of
 from linkwright.cams.loading import CamLoading, CamMaterial, CamSpring
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import ModelError
+from linkwright.errors import ModelError, fault
 from linkwright.fields.base import Field, Quantities, Quantity, Word, given
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Listed, Table, Whole
 from linkwright.laws.program_fields import RATES, ProgramField
 from linkwright.laws.smoothest import ORDERS, FoundProgram, Window
-from linkwright.parts.base import fault
 from linkwright.words import _
 
 

@@ -69,6 +69,11 @@ LABELS: Mapping[str, Message] = {
 }
 
 
+NO_FOLLOWER = _(
+    "the vibration needs elasticity and mass of the follower; give both", code="cams.no_elasticity"
+)
+
+
 @dataclass(frozen=True, repr=False)
 class CamDesign(Result):
     """A cam whose sizes are settled: ``cam`` has base circle, offset and roller, ``cam.loaded`` the spring.
@@ -363,12 +368,7 @@ class CamDesign(Result):
         Raises RequestError without ``elasticity`` and mass, and for a program that is not made of segments.
         """
         if self.cam.elasticity is None or not self.loading.mass:
-            raise RequestError(
-                _(
-                    "the vibration needs elasticity and mass of the follower; give both",
-                    code="cams.no_elasticity",
-                )
-            )
+            raise RequestError(NO_FOLLOWER)
         if not isinstance(self.cam.program, MotionProgram):
             raise RequestError(
                 _(
@@ -381,12 +381,7 @@ class CamDesign(Result):
     def steady_deviation(self, speeds: Floats) -> Floats:
         """Largest distance of the follower's mass from what the cam asks (n,) at speeds (n,), in steady turning."""
         if self.cam.elasticity is None or not self.loading.mass:
-            raise RequestError(
-                _(
-                    "the vibration needs elasticity and mass of the follower; give both",
-                    code="cams.no_elasticity",
-                )
-            )
+            raise RequestError(NO_FOLLOWER)
         damping = self.cam.elasticity.damping_ratio
         return steady_deviation(
             self.cam.program, self.own_frequency, damping, np.asarray(speeds, dtype=float)

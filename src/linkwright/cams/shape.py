@@ -15,10 +15,10 @@ from linkwright.cams.follower import Follower
 from linkwright.cams.loading import CamLoading, CamMaterial
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import Finding
+from linkwright.errors import Finding, fault
 from linkwright.fields.base import GivenByFile
 from linkwright.laws.program import Program
-from linkwright.parts.base import Problem, fault
+from linkwright.parts.base import Problem
 from linkwright.words import _
 
 

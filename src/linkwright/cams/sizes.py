@@ -14,9 +14,8 @@ from linkwright.cams.result import CamDesign
 from linkwright.cams.shape import CamShape
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import ModelError
+from linkwright.errors import ModelError, fault
 from linkwright.laws.program import Program
-from linkwright.parts.base import fault
 from linkwright.words import _
 
 #: Base radii that are tried: first and last over the size of the lift, ratio of neighbours; offsets that are tried.

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 PICTURES = (".svg", ".pdf", ".png")
 
 
+ENDING_SAYS = _('"{path}": the ending says what is written; end the name in {endings}', code="cli.bad_suffix")
+
+
 def refuse_existing(path: Path, *, force: bool) -> None:
     """Raises RequestError where a file could not be written later, before any work is done."""
     whole_files.refuse_target(path, force=force, remedy="--force")
@@ -52,14 +55,7 @@ def refuse_output(name: str | None, endings: Sequence[str], *, force: bool) -> N
         return
     path = Path(name)
     if path.suffix.lower() not in endings:
-        raise UsageError(
-            _(
-                '"{path}": the ending says what is written; end the name in {endings}',
-                code="cli.bad_suffix",
-                path=path,
-                endings=tuple(endings),
-            )
-        )
+        raise UsageError(ENDING_SAYS.format(path=path, endings=tuple(endings)))
     refuse_existing(path, force=force)
 
 

@@ -31,6 +31,13 @@ SHAPE_KEYS = {
 TRIED = 3601
 
 
+_BAD_SCALE = _(
+    '--scale: "{text}" does not give both scales; write torque and angle per mm above '
+    'zero, such as "5 N·m/mm, 1 deg/mm"',
+    code="machine.bad_scale",
+)
+
+
 @dataclass(frozen=True)
 class Wanted:
     """What is asked of motor and flywheel; ``speed`` rad/s and ``inertia`` kg·m² that are there already.
@@ -146,24 +153,10 @@ def _scales(text: str | None) -> tuple[float, float]:
         per_mm = {units.times(torque, units.DIMENSIONS["length"], -1): "torque"}
         per_mm[units.times(angle, units.DIMENSIONS["length"], -1)] = "angle"
         if dimension not in per_mm or not value > 0:
-            raise UsageError(
-                _(
-                    '--scale: "{text}" does not give both scales; write torque and angle per mm above '
-                    'zero, such as "5 N·m/mm, 1 deg/mm"',
-                    code="machine.bad_scale",
-                    text=text,
-                )
-            )
+            raise UsageError(_BAD_SCALE.format(text=text))
         found[per_mm[dimension]] = 1e-3 * value
     if len(found) != 2:
-        raise UsageError(
-            _(
-                '--scale: "{text}" does not give both scales; write torque and angle per mm above '
-                'zero, such as "5 N·m/mm, 1 deg/mm"',
-                code="machine.bad_scale",
-                text=text,
-            )
-        )
+        raise UsageError(_BAD_SCALE.format(text=text))
     return found["torque"], found["angle"]
 
 
@@ -171,14 +164,7 @@ def _any_quantity(part: str, text: str) -> tuple[float, units.Dimension]:
     plain = units.tidy(part)
     found = units.NUMBER.match(plain)
     if found is None or not plain[found.end() :].strip():
-        raise UsageError(
-            _(
-                '--scale: "{text}" does not give both scales; write torque and angle per mm above '
-                'zero, such as "5 N·m/mm, 1 deg/mm"',
-                code="machine.bad_scale",
-                text=text,
-            )
-        )
+        raise UsageError(_BAD_SCALE.format(text=text))
     with about("--scale", UsageError):
         factor, dimension = units.unit(plain[found.end() :].strip())
     return float(found.group()) * factor, dimension

@@ -133,6 +133,27 @@ class Options:
             help=_("font files, or folders of them, used before the system's"),
         )
 
+    def places(self) -> None:
+        """Positions by their inputs or their times."""
+        self(
+            "--at",
+            "INPUTS",
+            nargs="+",
+            help=_(
+                'inputs of the first driver in the order wanted: "0 deg, 30 deg", 0..-360deg:15 '
+                '(from..to:step), limit positions: "rocker min, rocker max", limits; several '
+                'drivers: "NAME=…; NAME=…"',
+            ),
+        )
+        self(
+            "--times",
+            "TIMES",
+            nargs="+",
+            help=_(
+                'times in the order wanted: "0 s, 0.1 s", "0..2 s:0.1", limit positions: limits, "boom max"',
+            ),
+        )
+
     def cluster(self) -> None:
         """Where the work is done."""
         self(

@@ -58,7 +58,7 @@ def kept(
     state: str | None, name: str, asked: Iterable[object], session: Session
 ) -> Iterator[Progress | None]:
     """``kept_in`` of a command, with a bar; an interruption names the file that is left."""
-    from linkwright.designs.finished_parts import Interrupted, kept_in
+    from linkwright.designs.finished_parts import RESUME, Interrupted, kept_in
 
     try:
         with (
@@ -67,11 +67,7 @@ def kept(
         ):
             yield report
     except Interrupted as stopped:
-        session.tell(
-            session.say(
-                _("Interrupted; run the same command with --state {path} to go on.", path=stopped.state)
-            )
-        )
+        session.tell(session.say(RESUME.format(path=stopped.state)))
         raise
 
 

@@ -32,6 +32,12 @@ MISTAKE_NAMES = {
 }
 
 
+_NO_COLUMN = _(
+    'the answers have no column "{name}"; its first line names the columns as answers.csv does',
+    code="course.no_column",
+)
+
+
 @dataclass(frozen=True)
 class Grade:
     """One sheet: which answers are right (None: not answered), and the mistakes that explain all wrong ones.
@@ -116,12 +122,7 @@ def _rows(
                     name=name,
                 )
                 if name in columns
-                else _(
-                    'the answers have no column "{name}"; its first line names the columns as answers.csv '
-                    "does",
-                    code="course.no_column",
-                    name=name,
-                )
+                else _NO_COLUMN.format(name=name)
             )
     return rows
 
@@ -142,13 +143,7 @@ def _graded(key: Mapping[str, Any], row: Mapping[str, str], line: int) -> Grade:
     questions, tolerance = key["questions"], float(key["tolerance"])
     missing = [each["name"] for each in questions if each["name"] not in row]
     if missing:
-        raise RequestError(
-            _(
-                'the answers have no column "{name}"; its first line names the columns as answers.csv does',
-                code="course.no_column",
-                name=missing[0],
-            )
-        )
+        raise RequestError(_NO_COLUMN.format(name=missing[0]))
     given = [_number(row[each["name"]], line, each["name"]) for each in questions]
     units = [each["unit"] for each in questions]
     right = tuple(

@@ -19,17 +19,16 @@ from linkwright.words.sentence import reason_of
 LARGEST = 1e300
 
 
+_NO_KEY = _(
+    "{path}: this is no answer key; give the key.json that the command variants wrote", code="course.no_key"
+)
+
+
 def read_key(given: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
     """A key from its data or its path; raises RequestError where it cannot be read or is not whole."""
     found, path = (given, "key") if isinstance(given, Mapping) else (_read(given), str(given))
     if not isinstance(found, Mapping) or found.get("format") != FORMAT or "variants" not in found:
-        raise RequestError(
-            _(
-                "{path}: this is no answer key; give the key.json that the command variants wrote",
-                code="course.no_key",
-                path=path,
-            )
-        )
+        raise RequestError(_NO_KEY.format(path=path))
     place = next(_faults(found), None)
     if place is not None:
         raise RequestError(
@@ -46,13 +45,7 @@ def read_key(given: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
 
 def _read(path: str | Path) -> Any:
     if not isinstance(path, str | PathLike):
-        raise RequestError(
-            _(
-                "{path}: this is no answer key; give the key.json that the command variants wrote",
-                code="course.no_key",
-                path=told(path),
-            )
-        )
+        raise RequestError(_NO_KEY.format(path=told(path)))
     try:
         return json.loads(Path(path).read_text("utf-8"))
     except (OSError, ValueError, RecursionError) as error:

@@ -33,7 +33,7 @@ Files = dict[str, bytes]
 #: Axes and signs of answers.
 CONVENTION = _(
     "x to the right, y up; angles and moments counter-clockwise positive; angles of a link's "
-    "x axis in degrees.",
+    "x axis in degrees."
 )
 
 
@@ -141,18 +141,7 @@ def sheets(found: Variants, language: str) -> Files:
         page: list[Block] = [] if each.number == 1 else [Source("#pagebreak()")]
         page.append(Heading(say(_("Variant {number}", number=each.number)), number=False))
         page.append(Paragraph(say(_("Name: ……………………………………  Number: ………………………"))))
-        page.append(
-            Paragraph(
-                literal(position_text(found, say))
-                + " "
-                + say(
-                    _(
-                        "x to the right, y up; angles and moments counter-clockwise positive; angles of a "
-                        "link's x axis in degrees.",
-                    )
-                )
-            )
-        )
+        page.append(Paragraph(literal(position_text(found, say)) + " " + say(CONVENTION)))
         rows = tuple((literal(a), literal(b)) for a, b in data_rows(found, each, say))
         left = ROOM - ROW * (len(rows) + len(found.task.questions))
         tallest = min(max(left, LOWEST), TALLEST)

@@ -55,6 +55,11 @@ ROUNDED = 1e-9
 NOTHING = 1e-9
 
 
+_NO_RANGE = _(
+    '"{text}" is no range; give a share (8 %) or two values ([0.3 m, 0.35 m])', code="course.bad_range"
+)
+
+
 @dataclass(frozen=True)
 class Question:
     """One number that is asked for: one of the machine's outputs."""
@@ -154,11 +159,7 @@ class _Reading(SectionReading):
         if not isinstance(given, Mapping):
             self.note(
                 "vary",
-                _(
-                    '"{text}" is no range; give a share (8 %) or two values ([0.3 m, 0.35 m])',
-                    code="course.bad_range",
-                    text=flow(given),
-                ),
+                _NO_RANGE.format(text=flow(given)),
                 "bad-range",
             )
             return {}
@@ -188,11 +189,7 @@ class _Reading(SectionReading):
             return low, high
         self.note(
             key,
-            _(
-                '"{text}" is no range; give a share (8 %) or two values ([0.3 m, 0.35 m])',
-                code="course.bad_range",
-                text=flow(given),
-            ),
+            _NO_RANGE.format(text=flow(given)),
             "bad-range",
         )
         return None

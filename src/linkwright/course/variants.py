@@ -20,6 +20,7 @@ from linkwright.core.given import require, whole
 from linkwright.core.progress import Progress, current_progress
 from linkwright.course.mistakes import Consequence, Sheet
 from linkwright.course.task import Question, Task, task
+from linkwright.designs.sampling import BAD_SEED
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.model_file import load
 from linkwright.kinematics.solve import solve_motion
@@ -204,13 +205,7 @@ def variants(
             _("{count} variants cannot be made; give 1 to 1000", code="course.bad_count", count=count)
         )
     if seed < 0:
-        raise RequestError(
-            _(
-                "the seed is {seed}; give a whole number that is not negative",
-                code="study.bad_seed",
-                seed=seed,
-            )
-        )
+        raise RequestError(BAD_SEED.format(seed=seed))
     asked = task(machine if isinstance(machine, Mechanism) else load(str(machine)))
     rng = np.random.default_rng(seed)
     model = _solved(asked, 0, {}, asked.mechanism)

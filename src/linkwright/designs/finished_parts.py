@@ -32,19 +32,14 @@ WORTH = 1e7
 _current: ContextVar[Kept | None] = ContextVar("kept", default=None)
 
 
+RESUME = _("Interrupted; run the same command with --state {path} to go on.", code="study.interrupted")
+
+
 class Interrupted(KeyboardInterrupt):
     """Work was interrupted; ``state`` is the file from which it goes on."""
 
     def __init__(self, state: Path) -> None:
-        super().__init__(
-            str(
-                _(
-                    "Interrupted; run the same command with --state {path} to go on.",
-                    code="study.interrupted",
-                    path=state,
-                )
-            )
-        )
+        super().__init__(str(RESUME.format(path=state)))
         self.state = state
 
     def __reduce__(self) -> tuple[type[Interrupted], tuple[Path]]:

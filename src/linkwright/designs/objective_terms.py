@@ -11,7 +11,13 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.errors import RequestError
+from linkwright.metrics.by_name import NO_OUTPUTS, NO_TEXT
 from linkwright.words import _
+
+_BAD_TARGET = _(
+    "the target of a path error is a list of points [x, y] in m, and all targets have as many points",
+    code="study.objective_target",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,18 +44,10 @@ def weighted(terms: Terms) -> dict[str | PathError, float]:
     else:
         found = {terms: 1.0}
     if not found:
-        raise RequestError(
-            _('no outputs are asked for; name some, such as "driver.effort rms"', code="study.no_outputs")
-        )
+        raise RequestError(NO_OUTPUTS)
     for term in found:
         if not isinstance(term, str | PathError):
-            raise RequestError(
-                _(
-                    'an output is asked for by a text such as "driver.effort rms", not by {given}',
-                    code="study.no_output_name",
-                    given=repr(term)[:60],
-                )
-            )
+            raise RequestError(NO_TEXT.format(given=repr(term)[:60]))
     return found
 
 
@@ -58,21 +56,9 @@ def number_of_points(terms: Iterable[str | PathError]) -> int | None:
     are none."""
     targets = [_points(term.target) for term in terms if isinstance(term, PathError)]
     if any(target.ndim != 2 or target.shape[1] != 2 or not len(target) for target in targets):
-        raise RequestError(
-            _(
-                "the target of a path error is a list of points [x, y] in m, and all targets have as "
-                "many points",
-                code="study.objective_target",
-            )
-        )
+        raise RequestError(_BAD_TARGET)
     if len({len(target) for target in targets}) > 1:
-        raise RequestError(
-            _(
-                "the target of a path error is a list of points [x, y] in m, and all targets have as "
-                "many points",
-                code="study.objective_target",
-            )
-        )
+        raise RequestError(_BAD_TARGET)
     if not all(np.isfinite(target).all() for target in targets):
         raise RequestError(
             _(
@@ -88,10 +74,4 @@ def _points(target: ArrayLike) -> Floats:
     try:
         return np.asarray(target, dtype=float)
     except (TypeError, ValueError):
-        raise RequestError(
-            _(
-                "the target of a path error is a list of points [x, y] in m, and all targets have as "
-                "many points",
-                code="study.objective_target",
-            )
-        ) from None
+        raise RequestError(_BAD_TARGET) from None

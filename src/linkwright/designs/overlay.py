@@ -13,7 +13,7 @@ from linkwright.designs.alternatives import Alternative
 
 @dataclass(frozen=True)
 class Overlay:
-    """One quantity of all alternatives: ``name`` (a key of the catalogue ``compare.curve``), its dimension; per label
+    """One quantity of all alternatives: ``name`` (a key of the labels of curves), its dimension; per label
     the input passed since the cycle's begin (n,) (rad or m, in its direction of motion) and the values (n,), SI.
 
     A hodograph has the two components of a force instead.

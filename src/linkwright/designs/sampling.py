@@ -16,6 +16,9 @@ from linkwright.words import _
 MOST = 1_000_000
 
 
+BAD_SEED = _("the seed is {seed}; give a whole number that is not negative", code="study.bad_seed")
+
+
 def grid(ranges: Sequence[Range]) -> dict[str, Floats]:
     """Every combination of the values; the last range varies fastest."""
     count = 1
@@ -58,13 +61,7 @@ def sobol(ranges: Sequence[Range], samples: int, seed: int, sampling: str) -> di
             )
         )
     if seed < 0:
-        raise RequestError(
-            _(
-                "the seed is {seed}; give a whole number that is not negative",
-                code="study.bad_seed",
-                seed=seed,
-            )
-        )
+        raise RequestError(BAD_SEED.format(seed=seed))
     try:
         from scipy.stats import qmc
     except ImportError as error:

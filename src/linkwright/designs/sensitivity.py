@@ -27,6 +27,7 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.friction_stage import MOST
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics.by_name import NO_OUTPUTS
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -203,9 +204,7 @@ def sensitivity(
     refuse_misfits(mechanism, dimensions)
     asked = [split(each) for each in one_or_more(of)]
     if not asked:
-        raise RequestError(
-            _('no outputs are asked for; name some, such as "driver.effort rms"', code="study.no_outputs")
-        )
+        raise RequestError(NO_OUTPUTS)
     traced = Traced(mechanism, dimensions, positions, turning=True)
     if not traced.nominal.whole:
         raise traced.nominal.refusal()

@@ -21,6 +21,13 @@ if TYPE_CHECKING:
     Array = Floats
 
 
+BEYOND_LAW = _(
+    "the driver's table covers {first:g} s to {last:g} s, but the motion asks for "
+    "{begin:g} s to {end:g} s; shorten the cycle or extend the table",
+    code="loads.table_range",
+)
+
+
 class Law(ABC):
     """A joint coordinate as a function of time; ``rotary`` laws are in rad, the others in m.
 

@@ -8,11 +8,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
-from linkwright.drivers.base import LAWS, Law, repeated
+from linkwright.drivers.base import BEYOND_LAW, LAWS, Law, repeated
 from linkwright.errors import LinkwrightError
 from linkwright.fields.base import Field, Quantity
 from linkwright.laws.program_fields import ProgramField
-from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array
@@ -39,13 +38,7 @@ class ProgramLaw(Law):
             slack = 1e-9 * last
             if np.any(t < -slack) or np.any(t > last + slack):
                 values = {"first": first, "last": last, "begin": np.min(t), "end": np.max(t)}
-                raise LinkwrightError(
-                    _(
-                        "the driver's table covers {first:g} s to {last:g} s, but the motion asks for "
-                        "{begin:g} s to {end:g} s; shorten the cycle or extend the table",
-                        code="loads.table_range",
-                    ).format(**values)
-                )
+                raise LinkwrightError(BEYOND_LAW.format(**values))
             t = np.clip(t, 0.0, np.nextafter(last, 0.0))
         q, rate, second, _unused = self.program.curves(t)
         return q, rate, second

@@ -7,10 +7,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from linkwright.core.dataclass import dataclass
-from linkwright.drivers.base import LAWS, Law, repeated
+from linkwright.drivers.base import BEYOND_LAW, LAWS, Law, repeated
 from linkwright.errors import LinkwrightError
 from linkwright.fields.base import Field, TimeTable, TimeTableValues
-from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.core.spline import Spline
@@ -40,17 +39,7 @@ class TableLaw(Law):
         first, last = self.span()
         slack = 1e-9 * (last - first)
         if np.any(t < first - slack) or np.any(t > last + slack):
-            raise LinkwrightError(
-                _(
-                    "the driver's table covers {first:g} s to {last:g} s, but the motion asks for "
-                    "{begin:g} s to {end:g} s; shorten the cycle or extend the table",
-                    code="loads.table_range",
-                    first=first,
-                    last=last,
-                    begin=np.min(t),
-                    end=np.max(t),
-                )
-            )
+            raise LinkwrightError(BEYOND_LAW.format(first=first, last=last, begin=np.min(t), end=np.max(t)))
         inside = np.clip(t, first, last)
         return self._linear(inside) if self.interpolation == "linear" else self._spline(inside)
 

@@ -20,6 +20,10 @@ from linkwright.registry import Registry, nearest, offered
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import Message, _
 
+_ENDING = _(
+    '{path}: no format is written to files with the ending "{suffix}"; {hint}', code="export.no_ending"
+)
+
 
 @dataclass(frozen=True)
 class Format:
@@ -106,13 +110,7 @@ def chosen_format(path: Path, name: str | None) -> str:
         return by_suffix[suffix]
     if suffix in ENDINGS[:2]:
         raise RequestError(
-            _(
-                '{path}: no format is written to files with the ending "{suffix}"; {hint}',
-                code="export.no_ending",
-                path=path,
-                suffix=suffix,
-                hint=_("lw.dump gives the text of a model in Python"),
-            )
+            _ENDING.format(path=path, suffix=suffix, hint=_("lw.dump gives the text of a model in Python"))
         )
     names, near = tuple(sorted(by_suffix)), nearest(suffix[1:], [each[1:] for each in by_suffix])
     hint = (
@@ -120,15 +118,7 @@ def chosen_format(path: Path, name: str | None) -> str:
         if near
         else _("use {names}, or say which format", names=names)
     )
-    raise RequestError(
-        _(
-            '{path}: no format is written to files with the ending "{suffix}"; {hint}',
-            code="export.no_ending",
-            path=path,
-            suffix=suffix,
-            hint=hint,
-        )
-    )
+    raise RequestError(_ENDING.format(path=path, suffix=suffix, hint=hint))
 
 
 def check_options(name: str, form: Format, options: dict[str, Any]) -> None:

@@ -21,6 +21,7 @@ from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.designs.cluster import connected, current, in_turn
 from linkwright.designs.designs import sweep
 from linkwright.designs.ranges import Range
+from linkwright.designs.sampling import BAD_SEED
 from linkwright.designs.varied_dimensions import varied_ranges
 from linkwright.errors import RequestError
 from linkwright.export.export import package
@@ -276,13 +277,7 @@ def _plan(
     count = samples if sampling == "sobol" else int(np.prod([float(len(each.values)) for each in ranges]))
     part = whole("part", part)
     if seed < 0:
-        raise RequestError(
-            _(
-                "the seed is {seed}; give a whole number that is not negative",
-                code="study.bad_seed",
-                seed=seed,
-            )
-        )
+        raise RequestError(BAD_SEED.format(seed=seed))
     if not 1 <= count <= MOST:
         raise RequestError(
             _(

@@ -10,7 +10,7 @@ from typing import Any
 from linkwright.fields.nodes import Remark
 from linkwright.words import Message, _, pgettext
 
-#: What the reader's complaints mean: keys of the catalogue ``yaml``, the remedy under KEY_do.
+#: What the reader's complaints mean, by keys of ``_PROBLEMS``.
 _MEANINGS: tuple[tuple[str, str], ...] = (
     ("mapping values are not allowed", "colon"),
     ("could not find expected ':'", "no_colon"),

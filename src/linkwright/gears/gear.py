@@ -32,6 +32,13 @@ TOOTH = {
 }  # fmt: skip
 
 
+_NO_INVOLUTE = _(
+    "no involute is left below the tip circle of {tip:.6g} mm; give more teeth, a larger "
+    "profile shift or a larger addendum",
+    code="gears.no_flank",
+)
+
+
 @dataclass(frozen=True)
 class Gear:
     """A spur gear with involute teeth, cut by a rack tool; ``internal``: a ring with teeth inside.
@@ -76,14 +83,7 @@ class Gear:
                     )
                 )
         elif not self.root_diameter < self.tip_diameter or self.tip_diameter <= self.base_diameter:
-            raise RequestError(
-                _(
-                    "no involute is left below the tip circle of {tip:.6g} mm; give more teeth, a larger "
-                    "profile shift or a larger addendum",
-                    code="gears.no_flank",
-                    tip=1e3 * self.tip_diameter,
-                )
-            )
+            raise RequestError(_NO_INVOLUTE.format(tip=1e3 * self.tip_diameter))
         if self._thickness(0.5 * self.tip_diameter) <= 0:
             raise RequestError(
                 _(
@@ -94,14 +94,7 @@ class Gear:
                 )
             )
         if self.root_diameter <= 0:
-            raise RequestError(
-                _(
-                    "no involute is left below the tip circle of {tip:.6g} mm; give more teeth, a larger "
-                    "profile shift or a larger addendum",
-                    code="gears.no_flank",
-                    tip=1e3 * self.tip_diameter,
-                )
-            )
+            raise RequestError(_NO_INVOLUTE.format(tip=1e3 * self.tip_diameter))
 
     @property
     def outward(self) -> int:
@@ -322,14 +315,7 @@ def tool_space(gear: Gear) -> ToothSpace:
         last = _crossing(gear, tip)
     form = float(tip.foot(np.array([last]))[0][0])
     if form >= 0.5 * gear.tip_diameter:
-        raise RequestError(
-            _(
-                "no involute is left below the tip circle of {tip:.6g} mm; give more teeth, a larger "
-                "profile shift or a larger addendum",
-                code="gears.no_flank",
-                tip=1e3 * gear.tip_diameter,
-            )
-        )
+        raise RequestError(_NO_INVOLUTE.format(tip=1e3 * gear.tip_diameter))
     return ToothSpace(max(form, 0.5 * gear.base_diameter), tip, last)
 
 

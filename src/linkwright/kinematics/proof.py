@@ -47,6 +47,13 @@ LONGEST, FLOOR, PATIENCE = 0.5, 1e-7, 2000
 WANTED, LARGEST, ROUNDING, SAME = 0.5, 0.95, 4e-16, 1e-9
 
 
+_NO_PROOF = _(
+    "nothing can be proved of a motion with the joint {joint!r}: proofs know pins, "
+    "guides, welds, and pairs of wheels, racks, belts and chains",
+    code="proof.kind",
+)
+
+
 @dataclass(frozen=True)
 class Proof:
     """Which steps of a motion are proved to keep its assembly while the drivers move in a straight line.
@@ -127,14 +134,7 @@ class _Loops:
         groups, joints = upstream(motion.structure, self.mechanism), self.mechanism.joints
         for joint in (joints[each.joint] for group in groups for each in group.joints):
             if not (joint.higher or isinstance(joint, TurningJoint | SlidingJoint | RigidJoint)):
-                raise LinkwrightError(
-                    _(
-                        "nothing can be proved of a motion with the joint {joint!r}: proofs know pins, "
-                        "guides, welds, and pairs of wheels, racks, belts and chains",
-                        code="proof.kind",
-                        joint=joint.name,
-                    )
-                )
+                raise LinkwrightError(_NO_PROOF.format(joint=joint.name))
         for step in (step for group in groups for step in group.tree):
             self._hang(joints[step.joint], step)
         cuts = [(joints[cut.joint], cut) for group in groups for cut in group.cuts]
@@ -188,14 +188,7 @@ class _Loops:
         try:
             turns, slides, rest = joint.sums(self.mechanism)
         except LackingError:
-            raise LinkwrightError(
-                _(
-                    "nothing can be proved of a motion with the joint {joint!r}: proofs know pins, "
-                    "guides, welds, and pairs of wheels, racks, belts and chains",
-                    code="proof.kind",
-                    joint=joint.name,
-                )
-            ) from None
+            raise LinkwrightError(_NO_PROOF.format(joint=joint.name)) from None
         driven = {each.joint: name for name, each in self.mechanism.drivers.items()}
         terms = {("drive", driven[k]) if k in driven else ("slide", k): f for k, f in slides.items()}
         for link, factor in turns.items():

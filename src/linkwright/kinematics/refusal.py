@@ -10,6 +10,11 @@ from linkwright.kinematics.outcome import Outcome, PositionError
 from linkwright.kinematics.reach_sentences import input_at, way_stopped
 from linkwright.words import _
 
+_CHANGE = _(
+    "change the dimensions, the assembly or the range of the input (cycle: {{from: …, "
+    "to: …}}), or ask for marked outcomes"
+)
+
 
 def _not_passed(motion: Motion) -> PositionError:
     """The error for a cycle that is barred between two positions, though all of them are reached from both sides."""
@@ -23,10 +28,7 @@ def _not_passed(motion: Motion) -> PositionError:
         code="motion.not_passed",
         name=motion.mechanism.name,
         told=told,
-        advice=_(
-            "change the dimensions, the assembly or the range of the input (cycle: {{from: …, "
-            "to: …}}), or ask for marked outcomes",
-        ),
+        advice=_CHANGE,
     )
     return PositionError(said, (), barred)
 
@@ -57,9 +59,6 @@ def refusal(motion: Motion) -> PositionError:
         where=where,
         sentence=outcome,
         told=told,
-        advice=_(
-            "change the dimensions, the assembly or the range of the input (cycle: {{from: …, "
-            "to: …}}), or ask for marked outcomes",
-        ),
+        advice=_CHANGE,
     )
     return PositionError(said, tuple(int(i) for i in failed), outcome)

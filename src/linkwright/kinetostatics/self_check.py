@@ -28,6 +28,13 @@ LIMIT = 1e-9
 PLAINLY = 1e-3 * LIMIT
 
 
+_AWAY = _(
+    "Next to a singular position the numbers may have no digits left: ask for positions "
+    "away from it. Elsewhere this is an error of the program, and no result may be used: "
+    "please report it with the model file"
+)
+
+
 @dataclass(frozen=True)
 class ForceChecks:
     """Which rows of forces and of their motion are checked, and what they are measured by.
@@ -138,11 +145,7 @@ class ForceChecks:
                 link=at.on,
                 gap=shown(left[row, place], "force", 3),
                 size=shown(largest[place], "force", 3),
-                check_failed=_(
-                    "Next to a singular position the numbers may have no digits left: ask for positions "
-                    "away from it. Elsewhere this is an error of the program, and no result may be used: "
-                    "please report it with the model file",
-                ),
+                check_failed=_AWAY,
             )
         )
 
@@ -155,11 +158,7 @@ def _differ(problem: Message, unit: str, gaps: Floats, sizes: Floats, motion: Mo
             where=input_at(motion, place),
             gap=f"{gaps[place]:.3g} {unit}",
             size=f"{sizes[place]:.3g} {unit}",
-            check_failed=_(
-                "Next to a singular position the numbers may have no digits left: ask for positions "
-                "away from it. Elsewhere this is an error of the program, and no result may be used: "
-                "please report it with the model file",
-            ),
+            check_failed=_AWAY,
         )
     )
 

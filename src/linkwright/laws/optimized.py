@@ -21,6 +21,11 @@ AIMS = {"velocity": 1, "acceleration": 2, "jerk": 3, "residual": 0}
 _PIECES, _RATIOS, _DIRECTIONS = 64, 25, 16
 
 
+_TWO_RATIOS = _(
+    "ratios belong to minimize: residual, and need two numbers above zero, such as [1, 3]", code="laws.ratios"
+)
+
+
 def _limited(what: str) -> Quantity:
     return Quantity("dimensionless", above=0.0, doc=f"largest {what} allowed, for a rise of 1 over 1")
 
@@ -55,19 +60,9 @@ class OptimizedSpline(MotionLaw):
                 )
             )
         if (self.minimize == "residual") != (self.ratios is not None):
-            raise RequestError(
-                _(
-                    "ratios belong to minimize: residual, and need two numbers above zero, such as [1, 3]",
-                    code="laws.ratios",
-                )
-            )
+            raise RequestError(_TWO_RATIOS)
         if self.ratios is not None and not 0 < self.ratios[0] <= self.ratios[1]:
-            raise RequestError(
-                _(
-                    "ratios belong to minimize: residual, and need two numbers above zero, such as [1, 3]",
-                    code="laws.ratios",
-                )
-            )
+            raise RequestError(_TWO_RATIOS)
 
     @property
     def limits(self) -> dict[int, float]:

@@ -15,9 +15,9 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import reported
 from linkwright.curves.curve import Curve, Extreme
-from linkwright.errors import Finding, ModelError
+from linkwright.errors import Finding, ModelError, fault
 from linkwright.laws.base import MOTION_LAWS, Ends, MotionLaw
-from linkwright.words import Message, _
+from linkwright.words import _
 
 #: The law of a rise that names none: it meets whatever its neighbours ask for.
 USUAL_LAW = "polynomial_5"
@@ -165,9 +165,9 @@ class MotionProgram(Program):
     def _faulty_segments(self) -> list[Finding]:
         if not self.segments:
             return [
-                _fault(
+                fault(
                     "program_empty",
-                    "",
+                    "program",
                     _("the program is empty"),
                     _(
                         "write segments such as {{rise: 10 mm, over: 90 deg, law: cycloidal}} and {{dwell: "
@@ -176,9 +176,9 @@ class MotionProgram(Program):
                 )
             ]
         found = [
-            _fault(
+            fault(
                 "segment_over",
-                f".{k}.over",
+                f"program.{k}.over",
                 _("a segment over {over}"),
                 _("give every segment an angle or a time above zero"),
                 over=each.over,
@@ -194,9 +194,9 @@ class MotionProgram(Program):
             missing = f"{factor * abs(self.period - total):.7g}{unit}"
             if total < self.period:
                 found.append(
-                    _fault(
+                    fault(
                         "program_short",
-                        "",
+                        "program",
                         _("the program does not close: it covers {total} of {period}"),
                         _("add {missing}, such as a dwell"),
                         **values,
@@ -205,9 +205,9 @@ class MotionProgram(Program):
                 )
             else:
                 found.append(
-                    _fault(
+                    fault(
                         "program_long",
-                        "",
+                        "program",
                         _("the program does not close: it covers {total}, more than {period}"),
                         _("take away {missing}"),
                         **values,
@@ -221,9 +221,9 @@ class MotionProgram(Program):
         if not self.closed or abs(last - self.start) <= _SAME * self._size:
             return []
         return [
-            _fault(
+            fault(
                 "lift_open",
-                f".{len(self.segments) - 1}",
+                f"program.{len(self.segments) - 1}",
                 _(
                     "the program does not close: it begins at a lift of {first} and ends at {last} (SI "
                     "units)",
@@ -240,9 +240,9 @@ class MotionProgram(Program):
             if junction.jumps[1]:
                 k = (number - 1) % len(self.segments)
                 found.append(
-                    _fault(
+                    fault(
                         "velocity_jump",
-                        f".{k}",
+                        f"program.{k}",
                         _(
                             "the velocity jumps at {place} from {before} to {after} (lift per rad or s, SI "
                             "units): the acceleration would be infinite",
@@ -419,8 +419,3 @@ def _at(piece: _Piece, u: float, width: float) -> tuple[float, float, float, flo
     inner = u + _BESIDE if u == 0.0 else u - _BESIDE
     s, v, a, j = (each.tolist() for each in piece.curves(np.array([u, inner]), width))
     return s[0], v[0], a[1], j[1]
-
-
-def _fault(code: str, key: str, message: Message, remedy: Message, **values: object) -> Finding:
-    said = {name: f"{value:.6g}" if isinstance(value, float) else value for name, value in values.items()}
-    return Finding("error", "", f"program{key}", message.format(**said), remedy.format(**said), code)

@@ -11,11 +11,11 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
-from linkwright.errors import Finding, ModelError
+from linkwright.errors import Finding, ModelError, fault
 from linkwright.laws.pieces import Pieces
 from linkwright.laws.program import TURN, Program
 from linkwright.laws.spline_space import DEGREE, SplineSpace
-from linkwright.words import Message, _
+from linkwright.words import _
 
 ORDERS = {"velocity": 1, "acceleration": 2, "jerk": 3}
 #: Places of a window between two knots at which it is kept, and rounds in which what lies between is mended.
@@ -75,9 +75,9 @@ class FoundProgram(Program):
         found = []
         if self.minimize not in ORDERS:
             found.append(
-                _fault(
+                fault(
                     "aim",
-                    ".minimize",
+                    "find.minimize",
                     _('nothing known to be made least is called "{aim}"; give one of {known}'),
                     _("write minimize: acceleration"),
                     aim=self.minimize,
@@ -86,13 +86,15 @@ class FoundProgram(Program):
             )
         if not self.points and not self.windows:
             found.append(
-                _fault("nothing_asked", "", _("nothing is asked of the motion"), _("give points or windows"))
+                fault(
+                    "nothing_asked", "find", _("nothing is asked of the motion"), _("give points or windows")
+                )
             )
         if not 12 <= self.pieces <= 720:
             found.append(
-                _fault(
+                fault(
                     "pieces",
-                    ".pieces",
+                    "find.pieces",
                     _("{pieces} pieces of the spline"),
                     _("give 12 to 720"),
                     pieces=self.pieces,
@@ -101,9 +103,9 @@ class FoundProgram(Program):
         for k, each in enumerate(self.windows):
             if not 0 <= each.start < each.end <= self.period + 1e-12 or each.least > each.most:
                 found.append(
-                    _fault(
+                    fault(
                         "window",
-                        f".windows.{k}",
+                        f"find.windows.{k}",
                         _("a window that ends before it begins, or with the larger bound below"),
                         _("give from and to within the turn, increasing, and least below most"),
                     )
@@ -111,9 +113,9 @@ class FoundProgram(Program):
         for k, (x, _unused) in enumerate(self.points):
             if not 0 <= x <= self.period + 1e-12:
                 found.append(
-                    _fault(
+                    fault(
                         "point_outside",
-                        f".points.{k}",
+                        f"find.points.{k}",
                         _("a point outside the turn"),
                         _("give an angle from 0 to 360 deg"),
                     )
@@ -179,9 +181,9 @@ class FoundProgram(Program):
         if not found.success:
             raise ModelError(
                 [
-                    _fault(
+                    fault(
                         "nothing_meets",
-                        "",
+                        "find",
                         _("no motion meets all points, windows and limits"),
                         _("widen a window or a limit, or take more pieces"),
                     )
@@ -276,7 +278,3 @@ class FoundProgram(Program):
     def curves(self, x: Any) -> tuple[Any, Any, Any, Any]:
         x = np.asarray(x)
         return self._solution[0].curves(x - self.period * np.floor(x.real / self.period))
-
-
-def _fault(code: str, key: str, message: Message, remedy: Message, **values: object) -> Finding:
-    return Finding("error", "", f"find{key}", message.format(**values), remedy.format(**values), code)

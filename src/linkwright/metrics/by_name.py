@@ -24,6 +24,14 @@ from linkwright.metrics.outputs import turns_fully
 from linkwright.registry import offered
 from linkwright.words import _
 
+NO_OUTPUTS = _('no outputs are asked for; name some, such as "driver.effort rms"', code="study.no_outputs")
+
+
+NO_TEXT = _(
+    'an output is asked for by a text such as "driver.effort rms", not by {given}',
+    code="study.no_output_name",
+)
+
 
 def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
     """Summaries from pairs (output, kind), or texts ``output kind``; an output alone means its min and max, the name
@@ -36,9 +44,7 @@ def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
         for summary in _read(each):
             found[summary] = None
     if not found:
-        raise RequestError(
-            _('no outputs are asked for; name some, such as "driver.effort rms"', code="study.no_outputs")
-        )
+        raise RequestError(NO_OUTPUTS)
     return tuple(found)
 
 
@@ -65,13 +71,7 @@ def _read(each: str | tuple[str, str]) -> list[Summary]:
                 return [Summary(each, "min"), Summary(each, "max")]
         return [Summary(output, kind)]
     if not isinstance(each, tuple | list) or len(each) != 2:
-        raise RequestError(
-            _(
-                'an output is asked for by a text such as "driver.effort rms", not by {given}',
-                code="study.no_output_name",
-                given=repr(each)[:60],
-            )
-        )
+        raise RequestError(NO_TEXT.format(given=repr(each)[:60]))
     output, kind = each
     if kind not in KINDS:
         hint = offered(kind, KINDS, _("one of: {names}"))

@@ -28,12 +28,6 @@ if TYPE_CHECKING:
     from linkwright.pictures.drawing import Drawing
 
 
-def fault(code: str, key: str, message: Message, remedy: Message, **values: object) -> Finding:
-    """An error at a key of the problem with the values of its texts; numbers among them have six digits."""
-    said = {name: f"{value:.6g}" if isinstance(value, float) else value for name, value in values.items()}
-    return Finding("error", "", key, message.format(**said), remedy.format(**said), code)
-
-
 @dataclass(frozen=True, kw_only=True)
 class Heading:
     """What a file says about its calculation beside the problem: its ``purpose``, the settings of its ``report``, all

@@ -21,6 +21,12 @@ LARGEST = 20_000_000
 DOTS, SMALLEST, WIDEST, TEXT = 150.0, 0.25, 0.85, 6.69
 
 
+_NO_PICTURE = _(
+    'there is no picture "{name}" in {folder}; pictures are looked for beside the model file',
+    code="report.no_picture",
+)
+
+
 @dataclass(frozen=True)
 class Picture:
     """A picture as SVG, and the share of the page's width that it takes by nature."""
@@ -44,23 +50,9 @@ def picture_of(name: str, folder: str) -> Picture:
     try:
         about = path.stat()
     except (OSError, ValueError):
-        raise LinkwrightError(
-            _(
-                'there is no picture "{name}" in {folder}; pictures are looked for beside the model file',
-                code="report.no_picture",
-                name=name,
-                folder=Path(folder).resolve(),
-            )
-        ) from None
+        raise LinkwrightError(_NO_PICTURE.format(name=name, folder=Path(folder).resolve())) from None
     if not path.is_file():
-        raise LinkwrightError(
-            _(
-                'there is no picture "{name}" in {folder}; pictures are looked for beside the model file',
-                code="report.no_picture",
-                name=name,
-                folder=Path(folder).resolve(),
-            )
-        )
+        raise LinkwrightError(_NO_PICTURE.format(name=name, folder=Path(folder).resolve()))
     if about.st_size > LARGEST:
         raise LinkwrightError(
             _(

@@ -25,6 +25,13 @@ ROLLER, FINEST = 0.2, 1e-4
 LIFTING = (120, 60, 120, 60)
 
 
+_NO_CAM = _(
+    "{cam!r} is no cam for a roller at {at!r}: a cam needs a fixed point, and the roller "
+    "a link of its own that slides or turns on the frame",
+    code="studio.no_cam",
+)
+
+
 def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
     """A link as the cam of a roller at a point of a link that is guided or pinned on the frame.
 
@@ -36,26 +43,10 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
     centre = _pin(shown, cam)
     follower = _link_with(shown, at, cam)
     if centre is None or follower is None:
-        raise LinkwrightError(
-            _(
-                "{cam!r} is no cam for a roller at {at!r}: a cam needs a fixed point, and the roller "
-                "a link of its own that slides or turns on the frame",
-                code="studio.no_cam",
-                cam=cam,
-                at=at,
-            )
-        )
+        raise LinkwrightError(_NO_CAM.format(cam=cam, at=at))
     away = _place(shown, at) - _place(shown, centre)
     if abs(away) < FINEST:
-        raise LinkwrightError(
-            _(
-                "{cam!r} is no cam for a roller at {at!r}: a cam needs a fixed point, and the roller "
-                "a link of its own that slides or turns on the frame",
-                code="studio.no_cam",
-                cam=cam,
-                at=at,
-            )
-        )
+        raise LinkwrightError(_NO_CAM.format(cam=cam, at=at))
     roller = _nice(ROLLER * abs(away))
     entry: Plain = {
         "kind": CamJoint.kind, "cam": cam, "follower": follower, "at": at, "touch": "roller",
@@ -71,15 +62,7 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
         entry["side"] = "left" if (line.conjugate() * lever).imag > 0 else "right"
         arm = abs(lever)
     else:
-        raise LinkwrightError(
-            _(
-                "{cam!r} is no cam for a roller at {at!r}: a cam needs a fixed point, and the roller "
-                "a link of its own that slides or turns on the frame",
-                code="studio.no_cam",
-                cam=cam,
-                at=at,
-            )
-        )
+        raise LinkwrightError(_NO_CAM.format(cam=cam, at=at))
     phase = _drawn_angle(shown, cam)
     if phase:
         entry["phase"] = f"{number(phase, 6)} deg"

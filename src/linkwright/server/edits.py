@@ -29,6 +29,11 @@ _FINEST = 1e-4
 _TEETH = re.compile(r"\s*([1-9][0-9]{0,5})\s*[:：]\s*([1-9][0-9]{0,5})\s*")
 
 
+_NO_SLOT = _(
+    "{name!r} is no link with two drawn points along which something could slide", code="studio.no_slot"
+)
+
+
 def edited(text: str, action: Mapping[str, Any]) -> tuple[str, str]:
     """The text after one action of drawing, and what the user should know about it ("": nothing).
 
@@ -117,22 +122,10 @@ def _slot(draft: Draft, action: Mapping[str, Any]) -> None:
     shown, along, at = draft.shown(), request.name(action, "along"), request.name(action, "at")
     ends = shown["links"].get(along, [])
     if len(ends) < 2 or not all(point in shown["points"] for point in (*ends, at)):
-        raise LinkwrightError(
-            _(
-                "{name!r} is no link with two drawn points along which something could slide",
-                code="studio.no_slot",
-                name=along,
-            )
-        )
+        raise LinkwrightError(_NO_SLOT.format(name=along))
     (ax, ay), (bx, by), (x, y) = (shown["points"][point] for point in (ends[0], ends[-1], at))
     if not math.dist((ax, ay), (bx, by)):
-        raise LinkwrightError(
-            _(
-                "{name!r} is no link with two drawn points along which something could slide",
-                code="studio.no_slot",
-                name=along,
-            )
-        )
+        raise LinkwrightError(_NO_SLOT.format(name=along))
     across = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / math.dist((ax, ay), (bx, by))
     block = fresh("slider", list(shown["links"]))
     _put_link(draft, block, [at])

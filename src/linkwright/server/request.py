@@ -17,6 +17,11 @@ T = TypeVar("T")
 FARTHEST, LARGEST, LONGEST = 1e6, 1e300, 200
 
 
+_BAD_REQUEST = _(
+    "the request is not a mapping in JSON with finite numbers; reload the page", code="studio.bad_body"
+)
+
+
 class BadRequest(LinkwrightError):
     """A request that is not one of the page."""
 
@@ -27,19 +32,9 @@ def parsed(body: bytes) -> Plain:
         asked = json.loads(body.decode(), parse_constant=_not_finite, parse_float=_finite)
         json.dumps(asked, ensure_ascii=False).encode()
     except (ValueError, RecursionError):
-        raise BadRequest(
-            _(
-                "the request is not a mapping in JSON with finite numbers; reload the page",
-                code="studio.bad_body",
-            )
-        ) from None
+        raise BadRequest(_BAD_REQUEST) from None
     if not isinstance(asked, dict):
-        raise BadRequest(
-            _(
-                "the request is not a mapping in JSON with finite numbers; reload the page",
-                code="studio.bad_body",
-            )
-        )
+        raise BadRequest(_BAD_REQUEST)
     return asked
 
 

@@ -23,22 +23,19 @@ REACH, TRANSMISSION = 4.0, 0.35
 _FEWEST, _MOST = 3, 4000
 
 
+_NO_CURVE = _("that is no curve to search for: draw one with at least three points", code="studio.no_curve")
+
+
 def linkages(points: Any, closed: bool) -> Callable[[Job], None]:
     """The search for linkages whose coupler curve goes through ``points`` (m), pairs of numbers."""
     try:
         curve = np.array(points, dtype=float)
     except (ValueError, TypeError, OverflowError):
-        raise LinkwrightError(
-            _("that is no curve to search for: draw one with at least three points", code="studio.no_curve")
-        ) from None
+        raise LinkwrightError(_NO_CURVE) from None
     if curve.ndim != 2 or curve.shape[1] != 2 or not _FEWEST <= len(curve) <= _MOST:
-        raise LinkwrightError(
-            _("that is no curve to search for: draw one with at least three points", code="studio.no_curve")
-        )
+        raise LinkwrightError(_NO_CURVE)
     if not np.isfinite(curve).all() or not np.ptp(curve, axis=0).max() > 0:
-        raise LinkwrightError(
-            _("that is no curve to search for: draw one with at least three points", code="studio.no_curve")
-        )
+        raise LinkwrightError(_NO_CURVE)
     return partial(_search, _even(curve, closed), closed)
 
 

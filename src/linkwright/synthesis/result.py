@@ -138,7 +138,7 @@ class Synthesis(Plotted):
     Args:
         task: ``path``, ``motion``, ``function``, ``slider_crank`` …
         candidates: ranked.
-        error_name: what ``error`` of a candidate is: a key of the catalogue ``synthesize.error.…``.
+        error_name: what ``error`` of a candidate is: a key of `ERRORS` in `linkwright.synthesis.names`.
         target: what was demanded, for the picture: complex points, or (2, n) input and output.
         counts: how many solutions of which sort were found.
         notes: sentences that belong to the result.

@@ -1,4 +1,4 @@
-"""Sentences that know their key and values, so that they can be said again in another language."""
+"""Texts that a file gives in several languages, and messages put together: codes, values, lists."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def links_said(numbers: Mapping[str, int], language: str) -> list[str]:
 
 
 def code_of(text: object) -> str:
-    """The key of a sentence, or the code of what is within it where it only says what that is about (``--at: …``)."""
+    """The code of a message, or of what is within it where it only says what that is about (``--at: …``)."""
     if isinstance(text, tuple | list):
         return next(filter(None, map(code_of, text)), "")
     if not isinstance(text, Message):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from linkwright.cli.errors import UsageError
+from linkwright.cli.errors import ONE_VALUE, UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.pictures import (
     cycle,
@@ -128,12 +128,5 @@ def _seconds(text: str | None) -> float | None:
     except ValueError:
         values = quantities(text, "time", "--seconds")
     if len(values) > 1:
-        raise UsageError(
-            _(
-                '{option}: "{text}" is more than one value; give one',
-                code="draw.one_position",
-                option="--seconds",
-                text=text,
-            )
-        )
+        raise UsageError(ONE_VALUE.format(option="--seconds", text=text))
     return values[0]

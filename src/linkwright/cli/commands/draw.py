@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkwright.cli.errors import UsageError
+from linkwright.cli.errors import ONE_VALUE, UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.pictures import (
     cycle,
@@ -123,14 +123,7 @@ def _inputs(mechanism: Mechanism, text: str | None) -> dict[str, float] | None:
 
     given = inputs(text, mechanism)
     if any(len(values) > 1 for values in given.values()):
-        raise UsageError(
-            _(
-                '{option}: "{text}" is more than one value; give one',
-                code="draw.one_position",
-                option="--at",
-                text=text,
-            )
-        )
+        raise UsageError(ONE_VALUE.format(option="--at", text=text))
     return {name: values[0] for name, values in given.items()}
 
 
@@ -141,14 +134,7 @@ def _time(mechanism: Mechanism, text: str | None) -> float | None:
 
     values = places(text, mechanism, "time", "--time")
     if len(values) > 1:
-        raise UsageError(
-            _(
-                '{option}: "{text}" is more than one value; give one',
-                code="draw.one_position",
-                option="--time",
-                text=text,
-            )
-        )
+        raise UsageError(ONE_VALUE.format(option="--time", text=text))
     return values[0]
 
 

@@ -58,24 +58,7 @@ def arguments(option: Options) -> None:
     )
     where = option.exclusive()
     where.count("--steps", STEPS, help=_("positions over the cycle (default: 360)"))
-    where(
-        "--at",
-        "INPUTS",
-        nargs="+",
-        help=_(
-            'inputs of the first driver in the order wanted: "0 deg, 30 deg", 0..-360deg:15 '
-            '(from..to:step), limit positions: "rocker min, rocker max", limits; several '
-            'drivers: "NAME=…; NAME=…"',
-        ),
-    )
-    where(
-        "--times",
-        "TIMES",
-        nargs="+",
-        help=_(
-            'times in the order wanted: "0 s, 0.1 s", "0..2 s:0.1", limit positions: limits, "boom max"',
-        ),
-    )
+    where.places()
     option("--degrees", action="store_true", default=None, help=_("csv, xlsx: angles in degrees"))
     option("--unit", choices=("mm", "m"), help=_("dxf: unit of the drawing, mm (default) or m"))
     option(

@@ -107,17 +107,12 @@ def _searched(options: argparse.Namespace, session: Session) -> int:
     from linkwright.designs.cluster import on_cluster
     from linkwright.designs.optimise.optimize import optimize
     from linkwright.designs.optimise.optimum import OptimizeError
+    from linkwright.designs.sampling import BAD_SEED
 
     refuse_output(options.output, ENDINGS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
     if options.seed is not None and options.seed < 0:
-        raise UsageError(
-            _(
-                "the seed is {seed}; give a whole number that is not negative",
-                code="study.bad_seed",
-                seed=options.seed,
-            )
-        )
+        raise UsageError(BAD_SEED.format(seed=options.seed))
     settings = {
         "vary": _pairs(options.vary),
         "keep": _pairs(options.keep),
@@ -168,10 +163,10 @@ def _pairs(texts: list[str] | None) -> dict[str, str] | None:
 
 def _stopped(stopped: KeyboardInterrupt, say: Say) -> str:
     """What an interruption before the first population leaves."""
-    from linkwright.designs.finished_parts import Interrupted
+    from linkwright.designs.finished_parts import RESUME, Interrupted
 
     if isinstance(stopped, Interrupted):
-        return say(_("Interrupted; run the same command with --state {path} to go on.", path=stopped.state))
+        return say(RESUME.format(path=stopped.state))
     return say(_("Nothing new had been computed; run the same command again."))
 
 

@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkwright.cli.errors import UsageError
+from linkwright.cli.errors import ONE_VALUE, UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.given import CURVE_STEPS
@@ -203,14 +203,7 @@ def _place(text: str | None, motions: dict[str, Motion], session: Session) -> fl
 
     values = places(text, first.mechanism, first.input_dimension, "--at")
     if len(values) > 1:
-        raise UsageError(
-            _(
-                '{option}: "{text}" is more than one value; give one',
-                code="draw.one_position",
-                option="--at",
-                text=text,
-            )
-        )
+        raise UsageError(ONE_VALUE.format(option="--at", text=text))
     return values[0]
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
+from linkwright.cli.files import ENDING_SAYS
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import _
@@ -132,13 +133,6 @@ def _path(options: argparse.Namespace) -> Path:
         options.to and path.suffix.lower() != f".{options.to}"
     ):
         endings = tuple(f".{form}" for form in FORMS if options.to in (None, form))
-        raise UsageError(
-            _(
-                '"{path}": the ending says what is written; end the name in {endings}',
-                code="cli.bad_suffix",
-                path=path,
-                endings=endings,
-            )
-        )
+        raise UsageError(ENDING_SAYS.format(path=path, endings=endings))
     refuse_existing(path, force=options.force)
     return path

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from linkwright.cli.errors import UsageError
+from linkwright.cli.files import ENDING_SAYS
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import _
@@ -55,14 +56,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     path = Path(options.output or f"{Path(options.file.removeprefix('gallery:')).stem}-sheet.pdf")
     if path.suffix.lower() not in ENDINGS:
-        raise UsageError(
-            _(
-                '"{path}": the ending says what is written; end the name in {endings}',
-                code="cli.bad_suffix",
-                path=path,
-                endings=ENDINGS,
-            )
-        )
+        raise UsageError(ENDING_SAYS.format(path=path, endings=ENDINGS))
     refuse_existing(path, force=options.force)
     found = sheet(
         options.file, kind=options.kind, of=options.of, size=options.size, language=session.language

@@ -38,24 +38,7 @@ def arguments(option: Options) -> None:
     option.model()
     where = option.group(_("positions")).exclusive()
     where.count("--steps", help=_("equal steps over the cycle (default: 24)"))
-    where(
-        "--at",
-        "INPUTS",
-        nargs="+",
-        help=_(
-            'inputs of the first driver in the order wanted: "0 deg, 30 deg", 0..-360deg:15 '
-            '(from..to:step), limit positions: "rocker min, rocker max", limits; several '
-            'drivers: "NAME=…; NAME=…"',
-        ),
-    )
-    where(
-        "--times",
-        "TIMES",
-        nargs="+",
-        help=_(
-            'times in the order wanted: "0 s, 0.1 s", "0..2 s:0.1", limit positions: limits, "boom max"',
-        ),
-    )
+    where.places()
     what = option.group(_("results"))
     what(
         "--columns",

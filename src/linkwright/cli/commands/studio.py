@@ -24,6 +24,11 @@ linkwright studio crusher.yaml"""
 LAST_PORT = 65535
 
 
+_PORT = _(
+    "port {port} cannot be used: {reason}; choose another one, or none for a free one", code="studio.no_port"
+)
+
+
 def arguments(option: Options) -> None:
     option("file", "FILE", nargs="?", help=_("the model file, below this folder; a new one may be named"))
     option.count("--port", 0, help=_("the port (default: a free one)"))
@@ -55,12 +60,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         name = path.relative_to(folder.resolve()).as_posix()
     if not 0 <= options.port <= LAST_PORT:
         raise UsageError(
-            _(
-                "port {port} cannot be used: {reason}; choose another one, or none for a free one",
-                code="studio.no_port",
-                port=options.port,
-                reason=_("ports go from 0 to {last}", last=LAST_PORT),
-            )
+            _PORT.format(port=options.port, reason=_("ports go from 0 to {last}", last=LAST_PORT))
         )
     known = recalled(folder)
     studio = None
@@ -70,14 +70,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     try:
         studio = studio or Studio(folder, name, port=options.port, language=session.language)
     except OSError as problem:
-        raise UsageError(
-            _(
-                "port {port} cannot be used: {reason}; choose another one, or none for a free one",
-                code="studio.no_port",
-                port=options.port,
-                reason=reason_of(problem),
-            )
-        ) from None
+        raise UsageError(_PORT.format(port=options.port, reason=reason_of(problem))) from None
     remember(folder, Address(studio.server_port, studio.token))
     with studio:
         if name is not None:

@@ -40,6 +40,14 @@ FEW = 4
 _WORDS = re.compile(r"[^\W\d][\w.]*( [\w.]+)*")
 
 
+_NO_NUMBER = _(
+    'there is no number "{text}"; name a design number (linkwright metrics), flywheel, a '
+    'summary such as "jaw.angle range", a dimension, or an expression of names given by '
+    "define:",
+    code="optimize.no_number",
+)
+
+
 class Measures:
     """The quantities of a problem: texts of goals and demands, each a design number or an expression of some.
 
@@ -86,25 +94,9 @@ class Measures:
         names = {name: defined.get(name, name) for name in found.names}
         for name in names.values():
             if not self._is_number(name):
-                raise RequestError(
-                    _(
-                        'there is no number "{text}"; name a design number (linkwright metrics), flywheel, a '
-                        'summary such as "jaw.angle range", a dimension, or an expression of names given by '
-                        "define:",
-                        code="optimize.no_number",
-                        text=name,
-                    )
-                )
+                raise RequestError(_NO_NUMBER.format(text=name))
         if not names:
-            raise RequestError(
-                _(
-                    'there is no number "{text}"; name a design number (linkwright metrics), flywheel, a '
-                    'summary such as "jaw.angle range", a dimension, or an expression of names given by '
-                    "define:",
-                    code="optimize.no_number",
-                    text=text,
-                )
-            )
+            raise RequestError(_NO_NUMBER.format(text=text))
         for name in set(names.values()) & set(self._dimensions):
             if name in self.mechanism.expressions and name not in self.problem.addresses:
                 raise RequestError(

@@ -8,6 +8,7 @@ from linkwright import units
 from linkwright.core.quantity import in_kind, number, unit_of_kind, with_unit, written
 from linkwright.core.table import Cell, Table
 from linkwright.designs.criteria import Criterion
+from linkwright.designs.finished_parts import RESUME
 from linkwright.designs.optimise.optimum import Choice, Optimum
 from linkwright.errors import speaker
 from linkwright.words import Say, _
@@ -84,9 +85,7 @@ def text(found: Optimum, language: str = "en") -> str:
         for each in found.without_effect
     ]
     if found.interrupted:
-        lines.append(
-            tell(_("Interrupted; run the same command with --state {path} to go on.", path=found.state))
-        )
+        lines.append(tell(RESUME.format(path=found.state)))
     return "\n".join(lines)
 
 

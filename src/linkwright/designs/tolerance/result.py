@@ -22,10 +22,10 @@ from linkwright.designs.tolerance.pressed_pins import is_position, require_force
 from linkwright.designs.tolerance.problem import Limit, Tolerances
 from linkwright.designs.varied_dimensions import design_values
 from linkwright.equations.steps import Step
-from linkwright.errors import LinkwrightError, ModelError
+from linkwright.errors import LinkwrightError, ModelError, fault
 from linkwright.kinetostatics.forces import Forces
 from linkwright.metrics.by_name import wanted
-from linkwright.parts.base import Result, fault
+from linkwright.parts.base import Result
 from linkwright.words import Message, Say, _, pgettext
 
 #: Linear and Monte Carlo spread agree within this share.

@@ -8,11 +8,10 @@ from linkwright.designs.ranges import dimension_of
 from linkwright.designs.tolerance.problem import LEAST, Clearance, Tolerance, Tolerances
 from linkwright.designs.tolerance.result import Spread
 from linkwright.designs.varied_dimensions import misfits
-from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError
+from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError, fault
 from linkwright.kinematics.names import output_meant
 from linkwright.metrics.base import METRICS
 from linkwright.metrics.by_name import is_metric, wanted
-from linkwright.parts.base import fault
 from linkwright.registry import PROBABLE, nearest
 from linkwright.words import _, pgettext
 

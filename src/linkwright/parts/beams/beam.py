@@ -16,10 +16,10 @@ from linkwright.core.quantity import number, shown
 from linkwright.core.search import first_largest
 from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding
+from linkwright.errors import Finding, fault
 from linkwright.fields.base import Quantities, Quantity, Schema, Word, given, quantity_schema
 from linkwright.fields.tables import Flag, Listed, Named, Table
-from linkwright.parts.base import Problem, Result, fault, signed
+from linkwright.parts.base import Problem, Result, signed
 from linkwright.parts.beams.balance import balance_laws, line_moment, polynomial_text, rounded
 from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
 from linkwright.parts.beams.materials import MATERIAL, Material

@@ -16,7 +16,7 @@ from linkwright.core.plane import cross
 from linkwright.core.quantity import shown
 from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding, LinkwrightError, SelfCheckError
+from linkwright.errors import Finding, LinkwrightError, SelfCheckError, fault
 from linkwright.fields.base import Quantity, Text, given
 from linkwright.fields.tables import Listed, Whole
 from linkwright.kinetostatics.forces import Forces
@@ -25,7 +25,7 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Result, fault
+from linkwright.parts.base import Result
 from linkwright.parts.beams.axis import LinkAxis, SpreadMass
 from linkwright.parts.beams.balance import polynomial_text
 from linkwright.parts.beams.materials import MATERIAL, Material

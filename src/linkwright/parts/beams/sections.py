@@ -7,12 +7,11 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import Finding, RequestError
+from linkwright.errors import Finding, RequestError, fault
 from linkwright.fields.base import Field, Quantities, Quantity, Text
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Table
-from linkwright.parts.base import fault
 from linkwright.parts.fields import Known
 from linkwright.words import _
 

@@ -18,13 +18,13 @@ from linkwright.core.table import Block, Row, in_si, unused
 from linkwright.equations.notation import Atom, row, sign, upright
 from linkwright.equations.reading import filled, measured, of_file, plain, sides
 from linkwright.equations.steps import Step, Written
-from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
+from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError, fault
 from linkwright.fields.base import Field, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Flag, Listed, Named, Table
-from linkwright.parts.base import Problem, Result, fault
+from linkwright.parts.base import Problem, Result
 from linkwright.parts.fields import AnyQuantity
 from linkwright.parts.programs.formula import Constraint, Formula, constraint, formula
 from linkwright.parts.programs.linear import conflict, feasible, runaway, solve_linear
@@ -54,6 +54,12 @@ WAYS = {
     "enumerated": _("All {count} combinations of the discrete values were tried: the optimum of all."),
     "branched": _("Mixed nonlinear program (branch and bound over local optima): the best that was found."),
 }
+
+
+UNBOUNDED = _("no limit: the objective improves without end along {variables}")
+
+
+STOPS_THEM = _("give these variables bounds, or a constraint that stops them")
 
 
 def _variable(**given: Any) -> Variable:
@@ -222,8 +228,8 @@ class Program(Problem):
                 fault(
                     "unbounded",
                     "subject_to",
-                    _("no limit: the objective improves without end along {variables}"),
-                    _("give these variables bounds, or a constraint that stops them"),
+                    UNBOUNDED,
+                    STOPS_THEM,
                     variables=moving,
                 )
             ]
@@ -252,8 +258,8 @@ class Program(Problem):
                     fault(
                         "unbounded",
                         "subject_to",
-                        _("no limit: the objective improves without end along {variables}"),
-                        _("give these variables bounds, or a constraint that stops them"),
+                        UNBOUNDED,
+                        STOPS_THEM,
                         variables=far,
                     )
                 ]

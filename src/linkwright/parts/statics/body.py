@@ -16,13 +16,13 @@ from linkwright.core.quantity import number
 from linkwright.core.table import Block, Row
 from linkwright.equations.matrix import system
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding, ModelError
+from linkwright.errors import Finding, ModelError, fault
 from linkwright.fields.base import GivenByFile, Word, given, quantity_schema
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Listed, Named, Table
-from linkwright.parts.base import Problem, Result, fault
+from linkwright.parts.base import Problem, Result
 from linkwright.parts.motions import plain_motions
 from linkwright.parts.statics.forces import COUPLES, DIRECTION, FORCES, Components, Force, ForceField, spatial
 from linkwright.words import Message, Say, _

@@ -16,9 +16,9 @@ from linkwright.core.table import Block, Row
 from linkwright.equations.matrix import system
 from linkwright.equations.reading import measured, normal
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding
+from linkwright.errors import Finding, fault
 from linkwright.fields.base import given
-from linkwright.parts.base import Problem, Result, fault, signed
+from linkwright.parts.base import Problem, Result, signed
 from linkwright.parts.statics.forces import (
     COUPLES,
     FORCES,

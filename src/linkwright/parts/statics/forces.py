@@ -11,17 +11,22 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.errors import Finding
+from linkwright.errors import Finding, fault
 from linkwright.fields.base import Quantities, Quantity, Text, given, quantity_schema
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Either, Listed, Named, Table
-from linkwright.parts.base import fault
 from linkwright.words import _, pgettext
 
 #: A sum smaller than this share of its largest part is zero but for rounding.
 ZERO = 1e-12
+
+
+_COMPONENTS = _("the number of components is {count}, not two or three as a vector needs")
+
+
+_VECTOR = _("give a vector of any length, such as [1, 0, 0]")
 
 
 def spatial(vector: ArrayLike) -> Floats:
@@ -88,7 +93,7 @@ class Line:
             fault(
                 "components",
                 f"{key}.{word}",
-                _("the number of components is {count}, not two or three as a vector needs"),
+                _COMPONENTS,
                 _("give two (in the plane) or three"),
                 count=len(vector),
             )
@@ -112,7 +117,7 @@ class Line:
                     "no_direction",
                     f"{key}.direction",
                     _("the direction is zero"),
-                    _("give a vector of any length, such as [1, 0, 0]"),
+                    _VECTOR,
                 )
             ]
         if self.start and np.array_equal(spatial(self.start), spatial(self.end)):
@@ -121,7 +126,7 @@ class Line:
                     "no_direction",
                     f"{key}.to",
                     _("the direction is zero"),
-                    _("give a vector of any length, such as [1, 0, 0]"),
+                    _VECTOR,
                 )
             ]
         return []
@@ -194,7 +199,7 @@ class Force(Line):
                     fault(
                         "components",
                         f"{key}.{name}",
-                        _("the number of components is {count}, not two or three as a vector needs"),
+                        _COMPONENTS,
                         _("give two (in the plane) or three"),
                         count=len(vector),
                     )

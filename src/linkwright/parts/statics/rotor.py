@@ -10,10 +10,10 @@ from typing import ClassVar
 from linkwright.core.dataclass import dataclass
 from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding
+from linkwright.errors import Finding, fault
 from linkwright.fields.base import Quantity, given
 from linkwright.fields.tables import Named, Table
-from linkwright.parts.base import Problem, Result, fault, signed
+from linkwright.parts.base import Problem, Result, signed
 from linkwright.words import Message, Say, _
 
 #: What is left of the unbalances of a rotor that is balanced, as share of their sizes.

@@ -13,13 +13,13 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.table import Block, Row
 from linkwright.equations.matrix import system
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding, ModelError
+from linkwright.errors import Finding, ModelError, fault
 from linkwright.kinematics.constraint_equations import ConstraintEquations
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Result, fault
+from linkwright.parts.base import Result
 from linkwright.parts.statics.balance import Balance, structure_balance
 from linkwright.parts.statics.body import describe
 from linkwright.structure import StructureError, structure

@@ -12,9 +12,9 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding
+from linkwright.errors import Finding, fault
 from linkwright.fields.base import Quantity, given
-from linkwright.parts.base import Problem, Result, fault
+from linkwright.parts.base import Problem, Result
 from linkwright.words import Message, Say, _, pgettext
 
 #: What the numbers are called.

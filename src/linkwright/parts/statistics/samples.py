@@ -16,10 +16,10 @@ from linkwright.core.quantity import number
 from linkwright.core.table import PARTS_PER_MILLION, Block, Row, Scale, in_si
 from linkwright.equations.reading import measured
 from linkwright.equations.steps import Step, Value
-from linkwright.errors import Finding
+from linkwright.errors import Finding, fault
 from linkwright.fields.base import Quantity, Text, Word, given
 from linkwright.fields.tables import Listed, Named, Table, Whole
-from linkwright.parts.base import Problem, Result, fault
+from linkwright.parts.base import Problem, Result
 from linkwright.parts.fields import AnyQuantity, Numbers, Sample
 from linkwright.parts.statistics.describe import (
     DISTRIBUTIONS,
@@ -78,6 +78,15 @@ HYPOTHESES = {
     "correlation": _("the samples are not correlated"),
     "anova": _("all means are equal"),
 }
+
+
+_NOT_PAIRED = _("the samples belong together value by value, but have different numbers ({counts})")
+
+
+_TOO_FEW = _("the sample {sample} has {count} value(s), too few for {what}")
+
+
+_CONSTANT = _("all values of {sample} are equal, so {what} has no answer")
 
 
 @dataclass(frozen=True)
@@ -210,7 +219,7 @@ class Samples(Problem):
                     fault(
                         "too_small",
                         key,
-                        _("the sample {sample} has {count} value(s), too few for {what}"),
+                        _TOO_FEW,
                         _("give at least {least}"),
                         sample=name,
                         count=len(values),
@@ -223,7 +232,7 @@ class Samples(Problem):
                     fault(
                         "constant",
                         key,
-                        _("all values of {sample} are equal, so {what} has no answer"),
+                        _CONSTANT,
                         _("measure finer, or leave it out"),
                         sample=name,
                         what=what,
@@ -283,7 +292,7 @@ class Samples(Problem):
                 fault(
                     "not_paired",
                     key,
-                    _("the samples belong together value by value, but have different numbers ({counts})"),
+                    _NOT_PAIRED,
                     _("give as many values in each"),
                     counts=" : ".join(str(len(self.values(n))) for n in test.of),
                 )
@@ -306,7 +315,7 @@ class Samples(Problem):
                 fault(
                     "constant",
                     key,
-                    _("all values of {sample} are equal, so {what} has no answer"),
+                    _CONSTANT,
                     _("measure finer, or leave it out"),
                     sample=f"{test.of[0]} − {test.of[1]}",
                     what=test.kind,
@@ -333,7 +342,7 @@ class Samples(Problem):
                 fault(
                     "not_paired",
                     key,
-                    _("the samples belong together value by value, but have different numbers ({counts})"),
+                    _NOT_PAIRED,
                     _("give as many values in each"),
                     counts=" : ".join(map(str, sorted(counts))),
                 )
@@ -344,7 +353,7 @@ class Samples(Problem):
                 fault(
                     "too_small",
                     key,
-                    _("the sample {sample} has {count} value(s), too few for {what}"),
+                    _TOO_FEW,
                     _("give at least {least}"),
                     sample=fitting.y,
                     count=min(counts),

@@ -15,13 +15,13 @@ from linkwright.core.given import CURVE_STEPS
 from linkwright.core.quantity import shown
 from linkwright.core.table import PERCENT, Block, Row
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding, LinkwrightError
+from linkwright.errors import Finding, LinkwrightError, fault
 from linkwright.fields.base import Quantity, Text, given
 from linkwright.fields.tables import Whole
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Result, fault
+from linkwright.parts.base import Result
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
 from linkwright.words import Message, Say, _

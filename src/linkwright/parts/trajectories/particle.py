@@ -14,11 +14,11 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.errors import Finding, LinkwrightError, ModelError, fault
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Problem, Result, fault
+from linkwright.parts.base import Problem, Result
 from linkwright.parts.mechanism_field import load_beside
 from linkwright.units import GRAVITY
 from linkwright.words import Message, Say, _, pgettext

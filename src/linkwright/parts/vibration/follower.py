@@ -16,7 +16,7 @@ from linkwright.core.expressions import Expression, parse
 from linkwright.core.quantity import number
 from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding, QuantityError, RequestError
+from linkwright.errors import Finding, QuantityError, RequestError, fault
 from linkwright.fields.base import Quantity, given
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
@@ -25,7 +25,7 @@ from linkwright.laws.base import MOTION_LAWS, MotionLaw
 from linkwright.laws.fitting import motion_law
 from linkwright.laws.program_fields import LawField
 from linkwright.laws.residual import residual
-from linkwright.parts.base import Problem, Result, fault
+from linkwright.parts.base import Problem, Result
 from linkwright.parts.vibration.linear import Linear, largest_between
 from linkwright.words import Message, Say, _
 

@@ -15,13 +15,13 @@ from linkwright.core.given import STEPS
 from linkwright.core.quantity import number, shown
 from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.errors import Finding, LinkwrightError, ModelError, fault
 from linkwright.fields.base import Quantities, Quantity, given
 from linkwright.fields.tables import Named, Table, Whole
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.base import Result, fault
+from linkwright.parts.base import Result
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.vibration.linear import largest_between
 from linkwright.words import Message, Say, _, pgettext

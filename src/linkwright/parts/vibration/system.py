@@ -17,12 +17,12 @@ from linkwright.core.quantity import number
 from linkwright.core.table import Block, Row
 from linkwright.equations.matrix import named_matrix
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding, ModelError
+from linkwright.errors import Finding, ModelError, fault
 from linkwright.fields.base import GivenByFile, Quantity, Text, given
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Listed, Named, Table
-from linkwright.parts.base import Problem, Result, fault
+from linkwright.parts.base import Problem, Result
 from linkwright.parts.fields import AnyQuantity
 from linkwright.parts.vibration.excitation import (
     EXCITATION,

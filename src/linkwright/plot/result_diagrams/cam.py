@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from linkwright.cams.report import RATES
-from linkwright.cams.result import CamDesign
+from linkwright.cams.result import NO_FOLLOWER, CamDesign
 from linkwright.curves.curve import Extreme
 from linkwright.errors import RequestError
 from linkwright.pictures.diagram import FAINT, INK, Figure
@@ -122,9 +122,7 @@ def _coloured(result: CamDesign, request: Request) -> tuple[np.ndarray, str]:
 def draw_cam_vibration(result: CamDesign, request: Request) -> Figure:
     """What the follower does beside the cam's motion, over the speed."""
     if result.cam.elasticity is None:
-        raise RequestError(
-            _("the vibration needs elasticity and mass of the follower; give both", code="cams.no_elasticity")
-        )
+        raise RequestError(NO_FOLLOWER)
     top = 2.0 * (result.loading.speed or 0.25 * result.own_frequency)
     speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
     left = result.residual_vibration(speeds)

@@ -27,6 +27,12 @@ _MOTION = 0.42
 _WIDE = 1.2
 
 
+_NO_CAM = _(
+    '"{name}" has no cam to draw; give a file of kind: cam, or a mechanism with a joint of kind: cam',
+    code="cam_sheet.no_cam",
+)
+
+
 @SHEETS.register("cam")
 def cam(subject: Subject) -> Content:
     """The panels of a cam: of a calculation, or of a joint of a mechanism (``subject.of``)."""
@@ -51,24 +57,10 @@ def _design(subject: Subject) -> CamDesign:
     if isinstance(drawn, Cam):
         return drawn.solve()
     if not isinstance(drawn, Mechanism):
-        raise RequestError(
-            _(
-                '"{name}" has no cam to draw; give a file of kind: cam, or a mechanism with a joint '
-                "of kind: cam",
-                code="cam_sheet.no_cam",
-                name=drawn.name,
-            )
-        )
+        raise RequestError(_NO_CAM.format(name=drawn.name))
     names = [joint.name for joint in drawn.joints.values() if isinstance(joint, CamJoint)]
     if not names:
-        raise RequestError(
-            _(
-                '"{name}" has no cam to draw; give a file of kind: cam, or a mechanism with a joint '
-                "of kind: cam",
-                code="cam_sheet.no_cam",
-                name=drawn.name,
-            )
-        )
+        raise RequestError(_NO_CAM.format(name=drawn.name))
     if subject.of and subject.of not in names:
         raise RequestError(
             _(

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Complexes
 from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress
-from linkwright.designs.finished_parts import surrounding
+from linkwright.designs.finished_parts import RESUME, surrounding
 from linkwright.formula.machine_code import available
 from linkwright.synthesis.free_curve.curve_file import read_curve
 from linkwright.synthesis.free_curve.drawing_order import drawing
@@ -212,13 +212,7 @@ def _ranked(
     if search.stopped and not within:
         raise KeyboardInterrupt
     if search.stopped and kept is not None:
-        notes.append(
-            _(
-                "Interrupted; run the same command with --state {path} to go on.",
-                code="study.interrupted",
-                path=kept.left(),
-            )
-        )
+        notes.append(RESUME.format(path=kept.left()))
     counts = {"attempts": search.attempts, "designs": len(found)}
     derivation = FreeCurveDerivation(
         curve, target.closed, target.centre, target.radius, target.least, target.largest, target.turning,
