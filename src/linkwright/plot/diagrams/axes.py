@@ -17,6 +17,7 @@ from linkwright.words import _
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
+    from matplotlib.axis import Axis
 
     from linkwright.words import Say
 
@@ -62,13 +63,19 @@ def round_up(value: float) -> float:
 _ANGLE_STEPS = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, 720.0)
 
 
+#: Letters of the input by its dimension, and of the time.
+SYMBOLS = {"angle": "φ", "length": "s", "time": "t"}
+
+
 @dataclass(frozen=True)
 class InputAxis:
-    """The axis below curves: ``name`` of the driver, ``dimension`` angle, length or time, ``values`` (n,) SI."""
+    """The axis below curves: its dimension, its ``values`` (n,) SI; ``name``: what it is, if not the input or time;
+    ``log``: whether it is logarithmic."""
 
-    name: str
     dimension: str
     values: Floats
+    name: str = ""
+    log: bool = False
 
     @property
     def unit(self) -> Unit:
@@ -80,6 +87,13 @@ class InputAxis:
         """Whether the input falls as time goes on, so that the axis runs from right to left."""
         return bool(self.values[-1] < self.values[0])
 
+    def label(self, say: Say) -> str:
+        """Its name with the unit, ``input φ (°)``."""
+        if self.name:
+            return self.unit.label(self.name)
+        word = say(_("time")) if self.dimension == "time" else say(_("input"))
+        return self.unit.label(f"{word} {SYMBOLS[self.dimension]}")
+
 
 def label_input(axes: Axes, axis: InputAxis, say: Say) -> None:
     """Label, range and ticks of the axis below: the input in the order of the motion."""
@@ -88,11 +102,14 @@ def label_input(axes: Axes, axis: InputAxis, say: Say) -> None:
     if len(good) and good[0] != good[-1]:
         axes.set_xlim(*((good.max(), good.min()) if axis.backwards else (good.min(), good.max())))
     if axis.dimension == "angle":
-        angle_ticks(axes, float(np.ptp(good)) if len(good) else 360.0)
-    axes.set_xlabel(input_label(axis, say))
+        _angle_ticks(axes, float(np.ptp(good)) if len(good) else 360.0)
+    if axis.log:
+        axes.set_xscale("log")
+        plain_ticks(axes.xaxis, axes.get_xlim())
+    axes.set_xlabel(axis.label(say))
 
 
-def angle_ticks(axes: Axes, span: float) -> None:
+def _angle_ticks(axes: Axes, span: float) -> None:
     """Ticks below at whole shares of a turn, for an axis that shows ``span`` degrees."""
     from matplotlib.ticker import MultipleLocator
 
@@ -101,11 +118,13 @@ def angle_ticks(axes: Axes, span: float) -> None:
         axes.xaxis.set_major_locator(MultipleLocator(step))
 
 
-def input_label(axis: InputAxis, say: Say) -> str:
-    """``input φ (°)``, with the driver's name where there is one."""
-    symbols = {"angle": "φ", "length": "s", "time": "t"}
-    word = say(_("time")) if axis.dimension == "time" else say(_("input"))
-    return f"{word} {symbols[axis.dimension]} ({axis.unit.name})"
+def plain_ticks(axis: Axis, limits: tuple[float, float]) -> None:
+    """Ticks of a logarithmic axis as plain numbers: at 1, 2, 5 times powers of ten, over many at these alone."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if limits[1] <= 1000.0 * limits[0] else (1.0,)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def wrapped(text: str, inches: float) -> str:

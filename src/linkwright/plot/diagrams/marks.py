@@ -18,7 +18,7 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.loads.over_cycle import activity
 from linkwright.loads.phases import Always
 from linkwright.metrics.analysis import Kind
-from linkwright.pictures.diagram import COLOURS, INK, Axes
+from linkwright.pictures.diagram import INK, Axes
 from linkwright.plot.diagrams.axes import InputAxis, Unit, round_up
 from linkwright.plot.diagrams.names import Name, Names
 from linkwright.plot.diagrams.source import Extremes, Source
@@ -26,20 +26,20 @@ from linkwright.plot.diagrams.source import Extremes, Source
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve: SI ``values`` (n,) over the input up to the cycle's end.
+    """A curve: SI ``values`` (n,) over those of the axis, or over ``x``; colour and dash by its number unless given.
 
     ``peak``: what is marked on it: ``both`` extremes, ``max``, ``largest`` by size, or nothing where empty;
-    ``extremes``: what they are between the positions, where that is known.
+    ``extremes``: what they are between the positions, where that is known. ``marks``: places and values instead.
     """
 
     label: str
     values: Floats
-    peak: str = "both"
-    colour: str = COLOURS[0]
-    dash: str = "-"
+    peak: str = ""
+    colour: str = ""
+    dash: str = ""
     x: Floats | None = None
-    width: float = 1.5
     extremes: Extremes | None = None
+    marks: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ _HALO = {"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none"
 def mark_peaks(axes: Axes, curves: Iterable[Curve], axis: InputAxis, unit: Unit) -> None:
     """Dots with values at the extremes of the curves that ask for it."""
     for curve in curves:
-        if curve.peak and np.isfinite(curve.values).any():
+        if np.isfinite(curve.values).any():
             _mark(axes, curve, axis, unit)
 
 
@@ -142,6 +142,9 @@ def _mark(axes: Axes, curve: Curve, axis: InputAxis, unit: Unit) -> None:
 
 def _peaks(curve: Curve, axis: InputAxis) -> list[tuple[float, float, bool]]:
     """Place and value of the extremes that are marked, and whether their texts stand above."""
+    if not curve.peak:
+        least = float(np.nanmin(curve.values)) + 1e-9 * largest(curve.values)
+        return [(place, value, value > least) for place, value in curve.marks]
     high, low = _extreme(curve, axis, "max"), _extreme(curve, axis, "min")
     if curve.peak == "largest":
         first, last = sorted([(*high, True), (*low, False)])

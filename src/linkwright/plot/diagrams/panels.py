@@ -12,7 +12,7 @@ from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import InputAxis, Legend, Unit, label_input, unit_of
+from linkwright.plot.diagrams.axes import InputAxis, Legend, Unit, label_input, plain_ticks, unit_of
 from linkwright.plot.diagrams.base import Kind, Request, framed
 from linkwright.plot.diagrams.marks import (
     Curve,
@@ -42,13 +42,15 @@ class Level:
 
 @dataclass(frozen=True)
 class Panel:
-    """One panel: the quantity as a word with its symbol, its dimension, curves and levels."""
+    """One panel: the quantity as a word with its symbol, its dimension, curves and levels; ``fill`` shades the first
+    curve down to the first level, or to zero; ``log``: whether its axis is logarithmic."""
 
     title: str
     dimension: str
     curves: tuple[Curve, ...]
     levels: tuple[Level, ...] = ()
     fill: bool = False
+    log: bool = False
 
     @property
     def unit(self) -> Unit:
@@ -69,7 +71,7 @@ def with_mean(
     """A panel of one curve with the level of its mean, which the legend names with its value; without it where there
     is none, as of a cycle that is only partly reached."""
     if np.isnan(mean):
-        return Panel(title, dimension, (curve,), (), fill)
+        return Panel(title, dimension, (curve,))
     value = _readable(Panel(title, dimension, (curve,)).unit, dimension, mean, curve.values)
     level = Level(f"{whose}{request.say(_('mean {value}').format(value=value))}", mean)
     return Panel(title, dimension, (curve,), (level,), fill)
@@ -115,7 +117,7 @@ class OverInput(Kind):
                 _draw_marks(axes, sources[0], self.output(sources[0], request), legend, request.say)
 
         title = request.titled(sources[0].label if len(sources) == 1 else "", self.subject(sources, request))
-        return stacked(panels, axis, request, title, mark)[0]
+        return stacked(panels, axis, request, title, mark)
 
 
 def stacked(
@@ -124,7 +126,7 @@ def stacked(
     request: Request,
     title: str,
     mark: Callable[[list[Axes], Legend], None] | None = None,
-) -> tuple[Figure, list[Axes]]:
+) -> Figure:
     """A figure with panels one below the other over one axis; ``mark`` adds to them and to the legend below."""
     figure = new_figure(request.size or (7.2, 1.2 + 1.9 * max(len(panels), 1.45)))
     axes = list(figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0])
@@ -136,7 +138,31 @@ def stacked(
     label_input(axes[-1], axis, request.say)
     framed(figure, title, request, legend)
     figure.align_ylabels(axes)
+    return figure
+
+
+def plane(title: str, request: Request, unit: str = "mm") -> tuple[Figure, Axes]:
+    """Axes of equal scale."""
+    figure = new_figure(request.size or (5.4, 4.6))
+    axes = figure.subplots()
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.margins(0.15)
+    axes.set_xlabel(f"x ({unit})")
+    axes.set_ylabel(f"y ({unit})")
+    framed(figure, title, request)
     return figure, axes
+
+
+#: Inches that stand about a plane below and above, and bounds of its height as shares of its width.
+AROUND, FLAT, TALL = 1.2, 0.3, 1.25
+
+
+def fit_plane(figure: Figure, axes: Axes, request: Request) -> None:
+    """Makes a figure as high as what its plane shows, where no size is asked for."""
+    if request.size is None:
+        wide, extent = float(figure.get_size_inches()[0]), axes.dataLim
+        share = extent.height / extent.width if extent.width > 0.0 else TALL
+        figure.set_size_inches(wide, AROUND + (wide - 1.2) * min(max(share, FLAT), TALL))
 
 
 def _laid_over(parts: list[tuple[Source, InputAxis, list[Panel]]]) -> list[Panel]:
@@ -160,38 +186,39 @@ def _laid_over(parts: list[tuple[Source, InputAxis, list[Panel]]]) -> list[Panel
 
 def draw_panel(axes: Axes, panel: Panel, axis: InputAxis, request: Request, legend: Legend) -> None:
     """Curves, levels, range, label and peaks of one panel; what they are called goes into the legend."""
-    unit = panel.unit
-    many = len(panel.curves) > 1
-    axes.axhline(0.0, color="#9aa0a6", linewidth=0.7, zorder=1.2)
-    for curve in panel.curves:
+    unit, looks = panel.unit, map(look, range(len(panel.curves)))
+    curves = [
+        replace(curve, colour=curve.colour or colour, dash=curve.dash or dash)
+        for curve, (colour, dash) in zip(panel.curves, looks, strict=True)
+    ]
+    for curve in curves:
         x, y = through_peaks(curve, axis)
-        (line,) = axes.plot(
-            x * axis.unit.factor,
-            y * unit.factor,
-            color=curve.colour,
-            linestyle=curve.dash,
-            linewidth=curve.width,
-        )
-        if many or curve.label:
-            legend.add(curve.label, line)
+        shown = x * axis.unit.factor, y * unit.factor
+        (line,) = axes.plot(*shown, color=curve.colour, linestyle=curve.dash)
+        legend.add(curve.label, line)
     for level in panel.levels:
         line = axes.axhline(level.value * unit.factor, color=COLOURS[1], linewidth=1.1, linestyle=(0, (6, 3)))
         legend.add(level.label, line)
-    if panel.fill and panel.levels:
+    if panel.fill:
         _fill(axes, panel, axis, unit)
-    _set_range(axes, panel, axis, unit)
+    if panel.log:
+        axes.set_yscale("log")
+        plain_ticks(axes.yaxis, axes.get_ylim())
+    else:
+        axes.axhline(0.0, color="#9aa0a6", linewidth=0.7, zorder=1.2)
+        _set_range(axes, panel, axis, unit)
     axes.set_ylabel(unit.label(panel.title, "\n"))
     if request.marks:
-        mark_peaks(axes, panel.curves, axis, unit)
+        mark_peaks(axes, curves, axis, unit)
 
 
 def _fill(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
-    """The areas between the first curve and its first level."""
-    curve, level = panel.curves[0], panel.levels[0].value * unit.factor
+    """The areas between the first curve and its first level, or zero."""
+    curve, level = panel.curves[0], panel.levels[0].value * unit.factor if panel.levels else 0.0
+    colours = COLOURS[1:3] if panel.levels else COLOURS[:1] * 2
     x = (axis.values if curve.x is None else curve.x) * axis.unit.factor
     y = curve.values * unit.factor
-    for above, colour in ((True, COLOURS[1]), (False, COLOURS[2])):
-        where = y > level if above else y < level
+    for where, colour in zip((y > level, y < level), colours, strict=True):
         axes.fill_between(
             x, y, level, where=where.tolist(), interpolate=True, color=colour, alpha=0.14, linewidth=0
         )
@@ -211,7 +238,9 @@ def _set_range(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
         axes.set_ylim(low - room, high + room)
         return
     room = 0.2 * (high - low)
-    grounded = 0 <= low < 0.5 * high and all(curve.peak != "both" for curve in panel.curves)
+    grounded = 0 <= low < 0.5 * high and not any(
+        curve.peak == "both" or curve.marks for curve in panel.curves
+    )
     axes.set_ylim(-0.02 * high if grounded else low - room, high + room)
 
 

@@ -20,7 +20,7 @@ from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request, framed
 from linkwright.plot.diagrams.marks import Curve, draw_curve, jumps, mark_inputs
 from linkwright.plot.diagrams.names import Names, write_names
 from linkwright.plot.diagrams.outputs import joint_and_link, known_link, loaded, main_output
-from linkwright.plot.diagrams.panels import OverInput, Panel, look
+from linkwright.plot.diagrams.panels import OverInput, Panel
 from linkwright.plot.diagrams.source import Extremes, Source
 from linkwright.words import _
 
@@ -72,9 +72,9 @@ def _of_all(source: Source, request: Request) -> Panel:
         sizes[label], signals[label] = np.hypot(force[:, 0], force[:, 1]), magnitude(joint, link)
     marked = list(sizes)[first_largest(np.array([largest(each) for each in sizes.values()]))]
     curves = []
-    for number, (label, values) in enumerate(sizes.items()):
+    for label, values in sizes.items():
         exact = source.extremes(signals[label], "forces")
-        curves.append(Curve(label, values, "max" if label == marked else "", *look(number), extremes=exact))
+        curves.append(Curve(label, values, "max" if label == marked else "", extremes=exact))
     return Panel(request.say(_("joint force")) + " F", "force", tuple(curves))
 
 
@@ -118,7 +118,7 @@ class Shaking(OverInput):
             Curve("F", np.hypot(*force.T), "max", COLOURS[0], extremes=size),
         )
         turning = source.extremes(lambda f: f.shaking_moment, "forces")
-        moment = Curve("", source.closed(forces.shaking_moment), extremes=turning)
+        moment = Curve("", source.closed(forces.shaking_moment), "both", extremes=turning)
         return [
             Panel(say(_("shaking force")) + " F", "force", curves),
             Panel(say(_("shaking moment")) + " M", "torque", (moment,)),

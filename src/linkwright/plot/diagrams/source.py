@@ -23,7 +23,7 @@ from linkwright.kinetostatics.table import results_of
 from linkwright.machine.running import SteadyRunning, steady_running
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis, Kind
-from linkwright.plot.diagrams.axes import InputAxis, unit_of
+from linkwright.plot.diagrams.axes import SYMBOLS, InputAxis, unit_of
 from linkwright.words import Say, _
 from linkwright.words.characters import one_line
 from linkwright.words.sentence import Worded
@@ -132,8 +132,7 @@ class Source:
         if not self.mechanism.drivers:
             return say(_("at rest"))
         value = float(motion.time[0] if dimension == "time" else motion.input[0])
-        symbol = {"angle": "φ", "length": "s", "time": "t"}[dimension]
-        return f"{symbol}\u00a0=\u00a0{unit_of(dimension).text(value, 6)}"
+        return f"{SYMBOLS[dimension]}\u00a0=\u00a0{unit_of(dimension).text(value, 6)}"
 
     def extremes(self, signal: Callable[[Any], Floats], of: str = "motion") -> Extremes:
         """Extremes over the cycle of a signal of the motion, or of the forces, as the design numbers have them."""
@@ -214,8 +213,8 @@ class Source:
         name = next(iter(motion.mechanism.drivers))
         if not motion.mechanism.steady:
             end = [] if self._end is None else [self._end]
-            return InputAxis("", "time", np.append(motion.time, end))
-        return InputAxis(name, "angle" if motion.positions.rotary[name] else "length", self.input)
+            return InputAxis("time", np.append(motion.time, end))
+        return InputAxis("angle" if motion.positions.rotary[name] else "length", self.input)
 
     @property
     def input(self) -> Floats:

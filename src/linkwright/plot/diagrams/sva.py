@@ -18,7 +18,7 @@ from linkwright.pictures.diagram import COLOURS
 from linkwright.plot.diagrams.base import DIAGRAMS, Request
 from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.outputs import known_link, main_output, turning_links
-from linkwright.plot.diagrams.panels import DASHES, OverInput, Panel, look
+from linkwright.plot.diagrams.panels import DASHES, OverInput, Panel
 from linkwright.plot.diagrams.source import TURN, Source
 from linkwright.words import Say, _
 
@@ -92,7 +92,7 @@ def _panels(source: Source, output: Output, say: Say) -> list[Panel]:
         shown = source.closed(source.motion.read(each), turns=dimension == "angle")
         read = methodcaller("read", each)
         exact = source.angle_extremes(read, shown) if dimension == "angle" else source.extremes(read)
-        found.append(Panel(f"{say(word)} {symbol}", dimension, (Curve("", shown, extremes=exact),)))
+        found.append(Panel(f"{say(word)} {symbol}", dimension, (Curve("", shown, "both", extremes=exact),)))
     return found
 
 
@@ -100,7 +100,11 @@ def _of_named(source: Source, output: Output) -> list[Panel]:
     """An output that the model names, with those of its rates that are known."""
     own = source.mechanism.outputs[output.owner].outputs
     return [
-        Panel(each.name, each.dimension, (Curve("", source.ended(read), extremes=source.extremes(read)),))
+        Panel(
+            each.name,
+            each.dimension,
+            (Curve("", source.ended(read), "both", extremes=source.extremes(read)),),
+        )
         for each in own[NAMED.index(output.kind) :]
         for read in [methodcaller("read", each)]
     ]
@@ -119,7 +123,7 @@ def _of_result(source: Source, output: Output) -> Panel:
         curve = Curve("", values, "max", extremes=source.extremes(read, of))
         return Panel(output.name, output.dimension, (curve,))
     over = np.abs(np.diff(values, prepend=values[0])) > np.pi  # from -180 to 180 degrees: no line is drawn
-    return Panel(output.name, output.dimension, (Curve("", np.where(over, np.nan, values)),))
+    return Panel(output.name, output.dimension, (Curve("", np.where(over, np.nan, values), "both"),))
 
 
 def _of_point(source: Source, key: str, say: Say) -> list[Panel]:
@@ -131,11 +135,11 @@ def _of_point(source: Source, key: str, say: Say) -> list[Panel]:
         ("acceleration", _("acceleration"), "a", "acceleration"),
     ):
         shown = source.closed(getattr(point, word))
-        curves = [Curve(axis, shown[:, i], "", COLOURS[i]) for i, axis in enumerate("xy")]
+        curves = [Curve(axis, shown[:, i]) for i, axis in enumerate("xy")]
         if word != "position":
             length = np.hypot(shown[:, 0], shown[:, 1])
             exact = source.extremes(partial(_size, key=key, word=word))
-            curves.append(Curve(say(_("magnitude")), length, "max", COLOURS[2], extremes=exact))
+            curves.append(Curve(say(_("magnitude")), length, "max", extremes=exact))
         found.append(Panel(f"{say(title)} {symbol}", dimension, tuple(curves)))
     return found
 
@@ -190,11 +194,10 @@ class Angles(OverInput):
 
 def _curves(source: Source, links: list[str], values: list[Floats], quantity: str) -> tuple[Curve, ...]:
     if len(links) > 1:
-        pairs = enumerate(zip(links, values, strict=True))
-        return tuple(Curve(name, each, "", *look(number)) for number, (name, each) in pairs)
+        return tuple(map(Curve, links, values))
     signal = partial(_of_link, name=links[0], quantity=quantity)
     exact = source.angle_extremes(signal, values[0]) if quantity == "angle" else source.extremes(signal)
-    return (Curve(links[0], values[0], "both", *look(0), extremes=exact),)
+    return (Curve(links[0], values[0], "both", extremes=exact),)
 
 
 def _of_link(motion: Motion, name: str, quantity: str) -> Floats:

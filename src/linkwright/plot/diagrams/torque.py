@@ -56,7 +56,7 @@ class Torque(OverInput):
             dimension = "torque" if turning else "force"
             word = say(_("input torque") if turning else _("driving force"))
             title = f"{word} {'T' if turning else 'F'}{f' {name}' if several else ''}"
-            curve = Curve("", source.closed(effort), extremes=exact)
+            curve = Curve("", source.closed(effort), "both", extremes=exact)
             mean = Analysis.of(forces).mean_of(partial(Forces.driver_effort, name=name))
             found.append(with_mean(title, dimension, curve, mean, request, f"{name}: " if several else ""))
         return found
@@ -73,7 +73,7 @@ class Power(OverInput):
 
     def panels(self, source: Source, request: Request) -> list[Panel]:
         power = source.forces.power
-        curve = Curve("", source.closed(power), extremes=source.extremes(_total, "forces"))
+        curve = Curve("", source.closed(power), "both", extremes=source.extremes(_total, "forces"))
         mean = Analysis.of(source.forces).mean_of(_total)
         return [with_mean(request.say(_("power")) + " P", "power", curve, mean, request)]
 
@@ -93,7 +93,7 @@ class Energy(OverInput):
 
     def axis(self, source: Source) -> InputAxis:
         reduced, found = _reduced(source)
-        return InputAxis("", "angle", reduced.start + reduced.direction * found.angle)
+        return InputAxis("angle", reduced.start + reduced.direction * found.angle)
 
     def panels(self, source: Source, request: Request) -> list[Panel]:
         say = request.say
@@ -103,13 +103,13 @@ class Energy(OverInput):
         torque = reduced.direction * np.append(steady, steady[0])
         mean = reduced.direction * reduced.load.mean
         title = say(_("input torque")) + " T"
-        curve = Curve("", torque, x=place, extremes=_of_torque(reduced))
+        curve = Curve("", torque, "both", x=place, extremes=_of_torque(reduced))
         change = say(
             _("energy fluctuation ΔE = {value}", value=unit_of("energy", [found.energy]).text(found.value))
         )
         return [
             with_mean(title, "torque", curve, mean, request, fill=True),
-            Panel(say(_("energy")) + " E", "energy", (Curve(change, found.energy),)),
+            Panel(say(_("energy")) + " E", "energy", (Curve(change, found.energy, "both"),)),
         ]
 
 
@@ -138,7 +138,7 @@ class Speed(OverInput):
         if source.result_running is None:
             return source.axis
         reduced = source.result_running.equivalent
-        return InputAxis("", "angle", reduced.start + reduced.direction * np.array([0.0, reduced.period]))
+        return InputAxis("angle", reduced.start + reduced.direction * np.array([0.0, reduced.period]))
 
     def panels(self, source: Source, request: Request) -> list[Panel]:
         running = source.once(f"running {request.fluctuation}", lambda: source.running(request.fluctuation))
@@ -166,7 +166,7 @@ def _curve(running: SteadyRunning, speed: SpeedCurve, flywheel: float, name: str
         return SummaryValue(value, angle / reduced.speed, reduced.input_at(angle), True)
 
     x = reduced.start + reduced.direction * speed.angle
-    return Curve(label, speed.speed, colour=colour, x=x, extremes=exact)
+    return Curve(label, speed.speed, "both", colour, x=x, extremes=exact)
 
 
 def _alone(running: SteadyRunning) -> SpeedCurve | None:

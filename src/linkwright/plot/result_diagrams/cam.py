@@ -11,8 +11,10 @@ from linkwright.cams.result import NO_FOLLOWER, CamDesign
 from linkwright.curves.curve import Extreme
 from linkwright.errors import RequestError
 from linkwright.pictures.diagram import FAINT, INK, Figure
+from linkwright.plot.diagrams.axes import InputAxis
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.result_diagrams.part_axes import Line, Pane, fitted, panes, plane
+from linkwright.plot.diagrams.marks import Curve
+from linkwright.plot.diagrams.panels import Panel, fit_plane, plane, stacked
 from linkwright.words import _
 
 #: Points of the coloured profile, and speeds of the vibration's diagram.
@@ -36,35 +38,40 @@ def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
         values = result.motion[order] * (speed**order if speed else 1.0)
         ends = [result.cam.program.extreme(order, kind) for kind in ("max", "min")]
         peaks = tuple((each.place, each.value * (speed**order if speed else 1.0)) for each in ends)
-        given.append(Pane(request.say(title), kinds[order], (Line(result.angles, values, peaks=peaks),)))
-    return panes(result.title, (request.say(_("cam angle φ")), "angle"), given, request)
+        given.append(Panel(request.say(title), kinds[order], (Curve("", values, marks=peaks),)))
+    return stacked(given, _turn(result, request), request, request.titled(result.title))
 
 
 @result_diagram("cam_checks", CamDesign, usual=False)
 def draw_cam_checks(result: CamDesign, request: Request) -> Figure:
     """Pressure angle, radius of curvature, contact force, Hertz's pressure and torque over the cam's angle."""
-    phi, contact = result.angles, result.contact
+    contact = result.contact
     steepest = _peaks(result.pressure_angle_rise, result.pressure_angle_fall)
-    pressed = Line(phi, contact.pressure_angle, peaks=steepest if contact.pressure_angle.any() else ())
-    given = [Pane(request.say(_("pressure angle α")), "angle", (pressed,))]
+    pressed = Curve("", contact.pressure_angle, marks=steepest if contact.pressure_angle.any() else ())
+    given = [Panel(request.say(_("pressure angle α")), "angle", (pressed,))]
     largest = 5.0 * result.size
     with np.errstate(divide="ignore"):
         radius = 1.0 / contact.bend
     bent = np.where(np.abs(radius) < largest, radius, np.nan)
-    given.append(Pane(request.say(_("radius of curvature ρ")), "length", (Line(phi, bent),)))
+    given.append(Panel(request.say(_("radius of curvature ρ")), "length", (Curve("", bent),)))
     if result.loaded and result.cam.barrel_radius is None:
         force, torque = (
             _peaks(extreme("max"), extreme("min"))
             for extreme in (result.extreme_force, result.extreme_torque)
         )
         given.append(
-            Pane(request.say(_("contact force N")), "force", (Line(phi, result.contact_force, peaks=force),))
+            Panel(request.say(_("contact force N")), "force", (Curve("", result.contact_force, marks=force),))
         )
         if result.pressure is not None and result.largest_pressure is not None:
-            line = Line(phi, result.pressure, peaks=_peaks(result.largest_pressure))
-            given.append(Pane(request.say(_("contact pressure p")), "pressure", (line,)))
-        given.append(Pane(request.say(_("torque T")), "torque", (Line(phi, result.torque, peaks=torque),)))
-    return panes(result.title, (request.say(_("cam angle φ")), "angle"), given, request)
+            line = Curve("", result.pressure, marks=_peaks(result.largest_pressure))
+            given.append(Panel(request.say(_("contact pressure p")), "pressure", (line,)))
+        given.append(Panel(request.say(_("torque T")), "torque", (Curve("", result.torque, marks=torque),)))
+    return stacked(given, _turn(result, request), request, request.titled(result.title))
+
+
+def _turn(result: CamDesign, request: Request) -> InputAxis:
+    """The axis of the cam's angle."""
+    return InputAxis("angle", result.angles, request.say(_("cam angle φ")))
 
 
 def _peaks(*found: Extreme) -> tuple[tuple[float, float], ...]:
@@ -78,7 +85,7 @@ def draw_cam_profile(result: CamDesign, request: Request) -> Figure:
     (no colours where that is the same all round)."""
     from matplotlib.collections import LineCollection
 
-    figure, (axes,) = plane(result.title, request)
+    figure, axes = plane(request.titled(result.title), request)
     values, label = _coloured(result, request)
     places = 1e3 * np.stack([result.contact.point.real, result.contact.point.imag], axis=1)
     pieces = np.stack([places[:-1], places[1:]], axis=1)
@@ -100,12 +107,10 @@ def draw_cam_profile(result: CamDesign, request: Request) -> Figure:
         axes.plot(0.0, 0.0, "+", color=INK)
     axes.add_collection(shown)
     axes.autoscale_view()
-    axes.set_xlabel("x (mm)")
-    axes.set_ylabel("y (mm)")
     if varied:
         shown.set_array(0.5 * (values[:-1] + values[1:]))
         figure.colorbar(shown, ax=axes, label=label, shrink=0.8)
-    fitted(figure, [axes], request)
+    fit_plane(figure, axes, request)
     return figure
 
 
@@ -128,14 +133,15 @@ def draw_cam_vibration(result: CamDesign, request: Request) -> Figure:
     left = result.residual_vibration(speeds)
     kind = result.cam.follower.lift_dimension
     given = [
-        Pane(request.say(_("deviation z")), kind, (Line(speeds, result.steady_deviation(speeds)),)),
-        Pane(
+        Panel(request.say(_("deviation z")), kind, (Curve("", result.steady_deviation(speeds)),)),
+        Panel(
             request.say(_("amplitude left A")),
             kind,
             tuple(
-                Line(speeds, column, request.say(_("after rise or fall {number}", number=k)))
+                Curve(request.say(_("after rise or fall {number}", number=k)), column)
                 for k, column in enumerate(left.T, 1)
             ),
         ),
     ]
-    return panes(result.title, (request.say(_("speed of the cam")), "angular_velocity"), given, request)
+    axis = InputAxis("angular_velocity", speeds, request.say(_("speed of the cam")))
+    return stacked(given, axis, request, request.titled(result.title))

@@ -16,14 +16,14 @@ from linkwright.errors import RequestError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.table import MetricsTable
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import InputAxis, Legend, Unit, equal, unit_of
+from linkwright.plot.diagrams.axes import SYMBOLS, InputAxis, Legend, Unit, equal, unit_of
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.panels import Panel, look, stacked
 from linkwright.plot.diagrams.source import Source
 from linkwright.plot.result_diagrams.design_space import DesignTable, chosen, draw_designs, measure, varied
 from linkwright.registry import offered
-from linkwright.words import _
+from linkwright.words import Say, _
 
 HODOGRAPH = "hodograph"
 #: What a motion is called and measured in, for an output that turns and for one that slides.
@@ -57,16 +57,13 @@ def draw_comparison(result: Comparison, request: Request) -> Figure:
     ``of``: travel, velocity, acceleration, pivot_reaction, input_torque; all that there are by default.
     """
     sources = {each.label: Source(each.motion) for each in result.alternatives}
-    axis = _axis(sources)
+    axis = _axis(sources, request.say)
     panels = [
         panel
         for overlay in _chosen(result, request.of)
         for panel in _panels(result, overlay, sources, request)
     ]
-    figure, axes = stacked(panels, axis, request, " – ".join(result.labels))
-    passed = _("input passed").translate(request.language)
-    axes[-1].set_xlabel(axis.unit.label(f"{passed} {'φ' if axis.dimension == 'angle' else 's'}"))
-    return figure
+    return stacked(panels, axis, request, " – ".join(result.labels))
 
 
 @result_diagram("pivot_hodograph", Comparison, usual=False)
@@ -114,7 +111,7 @@ def _chosen(result: Comparison, names: Sequence[str]) -> list[Overlay]:
     return [known[name] for name in names or known]
 
 
-def _axis(sources: Mapping[str, Source]) -> InputAxis:
+def _axis(sources: Mapping[str, Source], say: Say) -> InputAxis:
     """The input passed; raises LinkwrightError where one input turns and another slides."""
     turning = {next(iter(each.motion.positions.rotary.values())) for each in sources.values()}
     if len(turning) > 1:
@@ -126,7 +123,8 @@ def _axis(sources: Mapping[str, Source]) -> InputAxis:
             )
         )
     longest = max(map(_passed, sources.values()), key=lambda x: float(np.nanmax(x)))
-    return InputAxis("", "angle" if turning.pop() else "length", longest)
+    dimension = "angle" if turning.pop() else "length"
+    return InputAxis(dimension, longest, f"{say(_('input passed'))} {SYMBOLS[dimension]}")
 
 
 def _passed(source: Source) -> Floats:

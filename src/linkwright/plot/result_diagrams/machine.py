@@ -81,9 +81,9 @@ def draw_torque_curve(result: TorqueCurve, request: Request) -> Figure:
     """T(φ) over one period; jumps are drawn upright."""
     angle = _angles(result)
     panel = with_mean(
-        request.say(_("torque")) + " T", "torque", Curve("", result(angle)), result.mean, request
+        request.say(_("torque")) + " T", "torque", Curve("", result(angle), "both"), result.mean, request
     )
-    return stacked([panel], InputAxis("", "angle", angle), request, request.titled(""))[0]
+    return stacked([panel], InputAxis("angle", angle), request, request.titled(""))
 
 
 def _angles(curve: TorqueCurve) -> Floats:

@@ -20,7 +20,7 @@ from linkwright.pictures.diagram import COLOURS, INK, Figure, new_figure
 from linkwright.plot.diagrams.axes import InputAxis, Legend
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.marks import Curve
-from linkwright.plot.diagrams.panels import Panel, look, stacked
+from linkwright.plot.diagrams.panels import Panel, stacked
 from linkwright.plot.result_diagrams.design_space import chosen
 from linkwright.words import _
 from linkwright.words.sentence import in_language
@@ -143,7 +143,7 @@ def draw_sensitivity_curves(result: Sensitivity, request: Request) -> Figure:
     """
     axis = _axis(result)
     panels = [_panel(result, name, request) for name in chosen(request.of, result.curves)]
-    return stacked(panels, axis, request, request.titled(result.mechanism.name))[0]
+    return stacked(panels, axis, request, request.titled(result.mechanism.name))
 
 
 def _axis(result: Sensitivity) -> InputAxis:
@@ -158,16 +158,16 @@ def _axis(result: Sensitivity) -> InputAxis:
             )
         )
     turning = next(iter(over_cycle(result.mechanism, 1).rotary.values()))
-    return InputAxis("", "angle" if turning else "length", result.input)
+    return InputAxis("angle" if turning else "length", result.input)
 
 
 def _panel(result: Sensitivity, name: str, request: Request) -> Panel:
     curves = []
-    for number, by in enumerate(result.by):
+    for by in result.by:
         step, text = _step(result.mechanism, by)
         label = request.say(_("{dimension} + {step}", dimension=by, step=text))
         values: Floats = step * result.slope(name, by)
-        curves.append(Curve(label, values, "", *look(number)))
+        curves.append(Curve(label, values))
     return Panel(
         request.say(_("change of {output}", output=name)), result.quantities[name].dimension, tuple(curves)
     )

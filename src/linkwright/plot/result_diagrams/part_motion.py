@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.parts.trajectories.conveyor import Transport
 from linkwright.parts.trajectories.particle import Flight
 from linkwright.parts.vibration.follower import FollowerVibration
 from linkwright.parts.vibration.mounts import TITLES, Shaken
 from linkwright.parts.vibration.system import Vibration
 from linkwright.pictures.diagram import COLOURS, Figure
+from linkwright.plot.diagrams.axes import InputAxis
 from linkwright.plot.diagrams.base import Request, result_diagram
-from linkwright.plot.result_diagrams.part_axes import Line, Pane, fitted, panes, plane
+from linkwright.plot.diagrams.marks import Curve
+from linkwright.plot.diagrams.panels import Panel, fit_plane, plane, stacked
 from linkwright.words import _
 
 
@@ -21,12 +25,10 @@ from linkwright.words import _
 def draw_flight(result: Flight, request: Request) -> Figure:
     """The path, to one scale."""
     columns = result.columns()
-    figure, (axes,) = plane(result.title, request)
+    figure, axes = plane(request.titled(result.title), request, "m")
     axes.plot(columns["x [m]"], columns["y [m]"], color=COLOURS[0])
     axes.axhline(0.0, color="#555555", linewidth=0.9)
-    axes.set_xlabel("x (m)")
-    axes.set_ylabel("y (m)")
-    fitted(figure, [axes], request)
+    fit_plane(figure, axes, request)
     return figure
 
 
@@ -35,12 +37,12 @@ def draw_transport(result: Transport, request: Request) -> Figure:
     """Displacement and velocity of the load on the trough over a cycle, and its height where it is thrown."""
     time, position, velocity, height = result.columns().values()
     given = [
-        Pane("s", "length", (Line(time, position),)),
-        Pane("v", "velocity", (Line(time, velocity),), fill=True),
+        Panel("s", "length", (Curve("", position),)),
+        Panel("v", "velocity", (Curve("", velocity),), fill=True),
     ]
     if height.any():
-        given.append(Pane("n", "length", (Line(time, height),)))
-    return panes(result.title, (request.say(_("time")), "time"), given, request)
+        given.append(Panel("n", "length", (Curve("", height),)))
+    return _over_time(time, given, result.title, request)
 
 
 @result_diagram("vibration_response", Vibration)
@@ -50,26 +52,30 @@ def draw_vibration_response(result: Vibration, request: Request) -> Figure:
     length = "angle" if result.system.turning else "length"
     if result.in_time:
         time, moved = result.response()
-        lines = tuple(Line(time, moved[:, i], name) for i, name in enumerate(names))
-        return panes(result.title, (request.say(_("time")), "time"), [Pane("x", length, lines)], request)
+        lines = tuple(map(Curve, names, moved.T))
+        return _over_time(time, [Panel("x", length, lines)], result.title, request)
     if result.harmonic:
         frequency, amplitudes = result.sweep()
         hertz = frequency / (2 * math.pi)
-        size = tuple(Line(hertz, np.abs(amplitudes[:, i]), name) for i, name in enumerate(names))
-        turn = tuple(Line(hertz, np.unwrap(np.angle(amplitudes[:, i])), name) for i, name in enumerate(names))
-        passed = (Line(hertz, result.transmissibility(frequency)),)
+        size = tuple(map(Curve, names, np.abs(amplitudes.T)))
+        turn = tuple(map(Curve, names, np.unwrap(np.angle(amplitudes.T))))
+        passed = (Curve("", result.transmissibility(frequency)),)
         given = [
-            Pane("|X|", length, size, log=True),
-            Pane("∠X", "angle", turn),
-            Pane("T", "", passed, log=True),
+            Panel("|X|", length, size, log=True),
+            Panel("∠X", "angle", turn),
+            Panel("T", "", passed, log=True),
         ]
-        return panes(result.title, (request.say(_("frequency")), "frequency"), given, request, logx=True)
-    place = np.arange(1.0, len(names) + 1)
-    shapes = tuple(
-        Line(place, result.shapes[:, i], f"{f / (2 * math.pi):.4g} Hz")
-        for i, f in enumerate(result.frequencies)
-    )
-    return panes(result.title, (", ".join(names), ""), [Pane("φ", "", shapes)], request)
+        axis = InputAxis("frequency", hertz, request.say(_("frequency")), log=True)
+        return stacked(given, axis, request, request.titled(result.title))
+    modes = [f"{f / (2 * math.pi):.4g} Hz" for f in result.frequencies]
+    panel = Panel("φ", "", tuple(map(Curve, modes, result.shapes.T)))
+    axis = InputAxis("", np.arange(1.0, len(names) + 1), ", ".join(names))
+    return stacked([panel], axis, request, request.titled(result.title))
+
+
+def _over_time(time: Floats, given: Sequence[Panel], title: str, request: Request) -> Figure:
+    axis = InputAxis("time", time, request.say(_("time")))
+    return stacked(given, axis, request, request.titled(title))
 
 
 @result_diagram("follower_vibration", FollowerVibration)
@@ -77,18 +83,18 @@ def draw_follower_vibration(result: FollowerVibration, request: Request) -> Figu
     """Cam and follower over time, and the residual spectrum of the law."""
     time, cam, follower = result.curves
     given = [
-        Pane("s, x", "length", (Line(time, cam, "s"), Line(time, follower, "x", dash="--"))),
-        Pane("x − s", "length", (Line(time, follower - cam),)),
+        Panel("s, x", "length", (Curve("s", cam), Curve("x", follower, dash="--"))),
+        Panel("x − s", "length", (Curve("", follower - cam),)),
     ]
-    return panes(result.title, (request.say(_("time")), "time"), given, request)
+    return _over_time(time, given, result.title, request)
 
 
 @result_diagram("residual_spectrum", FollowerVibration, usual=False)
 def draw_residual_spectrum(result: FollowerVibration, request: Request) -> Figure:
     """Residual amplitude over the ratio of rise time and natural period."""
     n = np.linspace(0.2, max(6.0, 1.3 * result.ratio), 1200)
-    pane = Pane("A", "length", (Line(n, result.residual(n)),), log=True)
-    return panes(result.title, ("n = T/Tₙ", ""), [pane], request)
+    panel = Panel("A", "length", (Curve("", result.residual(n)),), log=True)
+    return stacked([panel], InputAxis("", n, "n = T/Tₙ"), request, request.titled(result.title))
 
 
 @result_diagram("mounts", Shaken)
@@ -97,7 +103,7 @@ def draw_mounts(result: Shaken, request: Request) -> Figure:
     columns = result.columns()
     time = columns["time [s]"]
     given = [
-        Pane(symbol, dimension, tuple(Line(time, columns[name.format(axis)], axis) for axis in "xy"))
+        Panel(symbol, dimension, tuple(Curve(axis, columns[name.format(axis)]) for axis in "xy"))
         for symbol, name, dimension in (
             ("F", "shaking force {} [N]", "force"),
             ("X", "machine {} [m]", "length"),
@@ -105,5 +111,5 @@ def draw_mounts(result: Shaken, request: Request) -> Figure:
         )
     ]
     for symbol, (name, dimension) in zip("MθG", TITLES["turn"], strict=True) if "turn" in result.axes else ():
-        given.append(Pane(symbol, dimension, (Line(time, columns[name]),)))
-    return panes(result.title, (request.say(_("time")), "time"), given, request)
+        given.append(Panel(symbol, dimension, (Curve("", columns[name]),)))
+    return _over_time(time, given, result.title, request)

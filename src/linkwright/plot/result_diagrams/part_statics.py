@@ -20,11 +20,13 @@ from linkwright.parts.statics.wedge import WedgeForces
 from linkwright.pictures.diagram import Figure
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.sketch import Sketch
+from linkwright.plot.diagrams.axes import InputAxis
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.force_polygon import force_text
+from linkwright.plot.diagrams.marks import Curve
+from linkwright.plot.diagrams.panels import Panel, stacked
 from linkwright.plot.diagrams.scaled_page import Cell, Vector, page, vector_cell
 from linkwright.plot.drawing.draw import draw
-from linkwright.plot.result_diagrams.part_axes import Line, Pane, panes
 from linkwright.plot.sketches.base import scale_of
 from linkwright.plot.sketches.bodies import draw_support, hull
 from linkwright.plot.sketches.forces import FLAT
@@ -107,18 +109,19 @@ def draw_structure_reactions(result: StructureForces, request: Request) -> Drawi
 def draw_belt_tension(result: BeltTensions, request: Request) -> Figure:
     """Tension along the contact."""
     angle, tension = result.columns().values()
-    pane = Pane(request.say(_("tension")), "force", (Line(angle, tension, marks=(0, len(angle) - 1)),))
-    return panes(result.title, (request.say(_("angle of contact")), "angle"), [pane], request)
+    curve = Curve("", tension, marks=tuple(zip(angle[[0, -1]], tension[[0, -1]], strict=True)))
+    axis = InputAxis("angle", angle, request.say(_("angle of contact")))
+    panel = Panel(request.say(_("tension")), "force", (curve,))
+    return stacked([panel], axis, request, request.titled(result.title))
 
 
 @result_diagram("wedge_push", WedgeForces)
 def draw_wedge_push(result: WedgeForces, request: Request) -> Figure:
     """Push over the wedge's angle."""
     angle, up, down = result.columns().values()
-    lines = (Line(angle, up, request.say(_("raising"))), Line(angle, down, request.say(_("lowering"))))
-    return panes(
-        result.title, (request.say(_("angle of the wedge")), "angle"), [Pane("P", "force", lines)], request
-    )
+    curves = (Curve(request.say(_("raising")), up), Curve(request.say(_("lowering")), down))
+    axis = InputAxis("angle", angle, request.say(_("angle of the wedge")))
+    return stacked([Panel("P", "force", curves)], axis, request, request.titled(result.title))
 
 
 @result_diagram("rotor_balance", RotorBalance)
@@ -150,7 +153,7 @@ def _reaction(result: Reactions, support: str) -> Floats:
     return total[:2]
 
 
-PANES = (("V", "shear [N]", "force"), ("M", "moment [N·m]", "torque"), ("θ", "slope [rad]", "slope"),
+PANELS = (("V", "shear [N]", "force"), ("M", "moment [N·m]", "torque"), ("θ", "slope [rad]", "slope"),
          ("w", "deflection [m]", "length"))  # fmt: skip
 
 
@@ -160,11 +163,11 @@ def draw_beam_line(result: BeamLine, request: Request) -> Figure:
     columns = result.columns()
     x = columns["x [m]"]
     given = []
-    for symbol, name, dimension in PANES:
+    for symbol, name, dimension in PANELS:
         y = columns[name]
-        line = Line(x, y, peaks=tuple(dict.fromkeys(result.extremes(name.split(" ")[0]))))
-        given.append(Pane(symbol, dimension, (line,), fill=symbol in "VM"))
-    return panes(result.title, ("x", "length"), given, request)
+        curve = Curve("", y, marks=tuple(dict.fromkeys(result.extremes(name.split(" ")[0]))))
+        given.append(Panel(symbol, dimension, (curve,), fill=symbol in "VM"))
+    return stacked(given, InputAxis("length", x, "x"), request, request.titled(result.title))
 
 
 @result_diagram("link_stress", LinkStress)
@@ -172,9 +175,9 @@ def draw_link_stress(result: LinkStress, request: Request) -> Figure:
     """Moment, normal force and deflection along a link in the worst position, and the largest stress of the cycle."""
     i, _ = result.worst(result.stress)
     given = [
-        Pane("M", "torque", (Line(result.stations, result.moment[i]),), fill=True),
-        Pane("N", "force", (Line(result.stations, result.normal[i]),), fill=True),
-        Pane("max σ", "pressure", (Line(result.stations, np.asarray(result.stress.max(axis=0))),)),
-        Pane("w", "length", (Line(result.stations, result.deflection[i, :, 1]),), fill=True),
+        Panel("M", "torque", (Curve("", result.moment[i]),), fill=True),
+        Panel("N", "force", (Curve("", result.normal[i]),), fill=True),
+        Panel("max σ", "pressure", (Curve("", np.asarray(result.stress.max(axis=0))),)),
+        Panel("w", "length", (Curve("", result.deflection[i, :, 1]),), fill=True),
     ]
-    return panes(result.title, ("s", "length"), given, request)
+    return stacked(given, InputAxis("length", result.stations, "s"), request, request.titled(result.title))
