@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
-from linkwright import gallery
+from linkwright.core.attached import SECTIONS
 from linkwright.core.dataclass import dataclass
 from linkwright.core.entry_points import loaded
 from linkwright.core.given import STEPS
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, below, located
+from linkwright.fields.nodes import Node, Scalar, below, located
+from linkwright.fields.reading import Place
 from linkwright.files.model_file import declared_kind, is_task, read_root, read_tree
-from linkwright.files.source import GALLERY, read_source
+from linkwright.files.read_model import HEADER, TASK_KEYS
+from linkwright.files.reader import Reader
+from linkwright.files.source import read_source
 from linkwright.words import _
 from linkwright.words.sentence import code_of
 
@@ -66,10 +69,7 @@ def check(source: str | Path) -> list[Finding]:
 def checked(source: str | Path) -> Checked:
     """The findings about a file, and what it holds in short."""
     try:
-        if str(source).removeprefix(GALLERY) in gallery.calculations() and str(source).startswith(GALLERY):
-            text, place = gallery.content(name := str(source).removeprefix(GALLERY)).decode(), f"{name}.yaml"
-        else:
-            text, place = read_source(source)
+        text, place = read_source(source)
     except ModelError as error:
         return Checked(error.findings)
     return checked_text(text, place, os.path.dirname(source), str(source))
@@ -80,37 +80,45 @@ def checked_text(text: str, place: str, folder: str = "", source: str = "") -> C
 
     Files that it names lie in ``folder``.
     """
-    source = source or place
     root, faults = read_root(text, place)
     if (kind := declared_kind(root)) is not None:
-        from linkwright.parts.file import read_calculation
+        from linkwright.parts.file import HEADING, read_calculation
 
-        problem, found = read_calculation(root, faults, place, folder)
-        if problem is not None:
-            found = [*found, *_placed(_of_report(problem.report, None, folder), source, root, place)]
-        return Checked(found, {"kind": kind})
-    if not faults and is_task(root):
-        from linkwright.synthesis.section import check_task
-
-        found, task = check_task(root, place, folder)
-        return Checked(found, {"kind": f"synthesis, {task}"})
+        _unused, found = read_calculation(root, faults, place, folder)
+        return Checked([*found, *_of_sections(root, HEADING, place, folder)], {"kind": kind})
+    if is_task(root):
+        reader, task = Reader(place), below(root, "synthesis", "task")
+        reader.table(cast(Node, root), Place("", ""), {key: HEADER[key] for key in TASK_KEYS})
+        found = [*faults, *reader.findings, *_of_sections(root, TASK_KEYS, place, folder)]
+        return Checked(found, {"kind": f"synthesis, {task.text if isinstance(task, Scalar) else ''}"})
     mechanism, found = read_tree(root, faults, place)
-    if isinstance(section := below(root, "synthesis"), MappingNode):
-        from linkwright.synthesis.section import read_section
-
-        found = [*found, *read_section(section, place, folder)[2]]
+    found = [*found, *_of_sections(root, HEADER, place, folder)]
     if mechanism is None:
         return Checked(found)
     rests = any(each.code == "no-motion" for each in found)
     own, fact = _of_machine(mechanism, folder, rests=rests)
-    placed = list(_placed(own, source, root, place))
-    return Checked([*found, *(placed if fact else (replace(each, key="") for each in placed))], fact)
+    new = _placed(own, found, source or place, root, place)
+    return Checked([*found, *(new if fact else (replace(each, key="") for each in new))], fact)
 
 
-def _placed(found: Iterable[Finding], source: str, root: Node | None, place: str) -> Iterator[Finding]:
-    """Findings with line and column where their key stands in the text."""
-    for each in found:
-        yield located(replace(each, where=source), root, place)
+def _of_sections(root: Node | None, keys: Iterable[str], place: str, folder: str) -> list[Finding]:
+    """What is wrong with the sections that only some commands read, whatever is wrong with the others."""
+    reader = Reader(place)
+    for key in keys:
+        if key in SECTIONS and (node := below(root, key)) is not None:
+            loaded(SECTIONS[key]).read(reader, node, Place(key, key), {})
+    report = below(root, "report")
+    more = _of_report(reader.free(report), None, folder) if isinstance(report, MappingNode) else []
+    return [*reader.findings, *_placed(more, reader.findings, place, root, place)]
+
+
+def _placed(
+    more: Iterable[Finding], told: Collection[Finding], source: str, root: Node | None, place: str
+) -> list[Finding]:
+    """Findings that are not told yet, with line and column where their key stands in the text."""
+    known = {(each.key, each.message) for each in told}
+    new = (each for each in more if (each.key, each.message) not in known)
+    return [located(replace(each, where=source), root, place) for each in new]
 
 
 def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list[Finding], dict[str, object]]:

@@ -58,7 +58,7 @@ def test_every_kind_has_an_example() -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_it_is_solved_and_said(name: str) -> None:
-    assert problem(name).kind == KINDS[name] and problem(name).source and not parts.check(f"gallery:{name}")
+    assert problem(name).kind == KINDS[name] and problem(name).source and not lw.check(f"gallery:{name}")
     result = solved(name)
     assert all(math.isfinite(each) for each in every(numbers(result.data())))
     for language in ("en", "zh"):

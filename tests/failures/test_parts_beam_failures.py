@@ -72,7 +72,7 @@ loads: {P: {force: 2 kN, at: 1,5 m}}
 """
     file = tmp_path / "beam.yaml"
     file.write_text(text, encoding="utf-8")
-    found = parts.check(file)
+    found = lw.check(file)
     assert [each.where.split(":")[1] for each in found] == ["4", "5", "6", "7"]
     said(found, "unknown-name", "material", name="S236", offer="S235")
     said(found, "choice", "section", message="{count} shapes of the section are given", count=2)
@@ -115,7 +115,7 @@ def test_a_mechanism_whose_file_is_not_there_is_a_finding_of_the_calculation(tmp
     text = (files("linkwright.gallery") / "parts/pitman_bending.yaml").read_text("utf-8")
     file = tmp_path / "bending.yaml"
     file.write_text(re.sub("(?m)^mechanism: .*", "mechanism: nowhere.yaml", text))
-    (missing,) = parts.check(file)
+    (missing,) = lw.check(file)
     assert (missing.where, missing.key, missing.code) == ("bending.yaml:6:12", "mechanism", "reference")
     said([missing], "reference", name="nowhere.yaml")
 
@@ -136,6 +136,6 @@ def test_a_section_without_height_is_a_finding(tmp_path: Path, shape: str) -> No
     text = (files("linkwright.gallery") / "parts/pitman_bending.yaml").read_text("utf-8")
     file = tmp_path / "bending.yaml"
     file.write_text(re.sub("(?m)^section: .*", f"section: {{{shape}}}", text))
-    (found,) = parts.check(file)
+    (found,) = lw.check(file)
     said([found], "range", "section", message="these dimensions make no section")
     assert found.where == "bending.yaml:9:10"

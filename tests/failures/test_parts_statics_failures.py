@@ -144,7 +144,7 @@ def test_old_words_go_on_being_read_and_are_told(text: str, renamed: dict[str, s
     """The same result as with the new words."""
     path = tmp_path / "old.yaml"
     path.write_text(text, encoding="utf-8")
-    found = parts.check(path)
+    found = lw.check(path)
     assert {each.severity for each in found} == {"warning"}
     for key, new in renamed.items():
         said(found, "old-key", key, new=new)

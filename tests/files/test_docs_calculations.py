@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from tests.every import every
 
+import linkwright as lw
 from linkwright import parts
 
 ROOT = Path(__file__).parents[2] / "docs"
@@ -36,5 +37,5 @@ def test_every_example_is_read_without_a_word_and_solved(language: str, tmp_path
     for number, text in enumerate(every(examples(language))):
         path = tmp_path / f"{number}.yaml"
         path.write_text(text, encoding="utf-8")
-        assert parts.check(path) == []
+        assert lw.check(path) == []
         assert parts.load(path).solve().data()

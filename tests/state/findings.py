@@ -12,7 +12,7 @@ from tests.state.rows import Entries, refusal
 from tests.unit.files.reading import found_in
 
 import linkwright as lw
-from linkwright import gallery, parts
+from linkwright import gallery
 
 #: Batches of accidents, and how many in each; every so many characters a file is cut.
 BATCHES, ACCIDENTS, STEP = 24, 60, 149
@@ -56,7 +56,7 @@ def of_model(path: Path) -> Iterable[lw.Finding]:
 
 FINDERS: Mapping[str, Callable[[Path], Iterable[lw.Finding]]] = {
     "model": of_model,
-    "calculation": parts.check,
+    "calculation": lw.check,
     "task": of_task,
 }
 

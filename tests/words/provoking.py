@@ -32,7 +32,7 @@ def findings() -> tuple[Finding, ...]:
         path = Path(folder, "model.yaml")
         for text in re.split(r"^#: .*\n", (CORPUS / "models.txt").read_text("utf-8"), flags=re.M)[1:]:
             path.write_text(text, "utf-8")
-            found += lw.parts.check(path) if re.search(r"^kind:", text, re.M) else lw.check(path)
+            found += lw.check(path)
     return tuple(found)
 
 

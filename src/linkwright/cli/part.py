@@ -59,7 +59,8 @@ def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
 def read(source: str, command: str, session: Session) -> Problem:
     """The problem of a file; UsageError where its kind belongs to another command."""
     from linkwright.files.calculations import COMMANDS
-    from linkwright.parts.file import GALLERY, kind_of, load
+    from linkwright.files.source import GALLERY
+    from linkwright.parts.file import kind_of, load
     from linkwright.words.titles import title_said
 
     kind = kind_of(source)

@@ -15,7 +15,6 @@ from linkwright.course.mistakes import Sheet
 from linkwright.designs.ranges import dimension_of
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.fields.base import Schema
-from linkwright.fields.reading import Saying, Sayings
 from linkwright.fields.tables import AsWritten, Keys
 from linkwright.files.reader import SectionReading
 from linkwright.files.write import flow
@@ -35,14 +34,6 @@ SECTION = Keys({
     "at": AsWritten({"type": "string"}, doc="input at which they are asked for, such as 60 deg"),
     "tolerance": AsWritten(_SHARE, doc="how far an answer may be off, such as 1 %"),
 })  # fmt: skip
-SAYINGS: Sayings = {
-    "unknown_key": Saying(
-        "unknown-key",
-        lambda key_, names, **more: _(
-            'there is no "{name}" in the section course; {hint}', name=key_, hint=offered(key_, names)
-        ),
-    )
-}
 #: By how much lengths change, and how far an answer may be off, where nobody says.
 SHARE, TOLERANCE = 0.08, 0.01
 #: The position at which numbers are asked for where nobody says which.
@@ -111,7 +102,7 @@ class _Reading(SectionReading):
     """The settings for a mechanism."""
 
     def __init__(self, mechanism: Mechanism, given: Mapping[str, Any]) -> None:
-        super().__init__(SECTION, "course", given, SAYINGS)
+        super().__init__(SECTION, "course", given)
         self.mechanism, self.given = mechanism, self.values
 
     def task(self) -> Task:

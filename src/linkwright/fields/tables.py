@@ -11,7 +11,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Schema, given_by_file, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
-from linkwright.fields.reading import Place, Reader
+from linkwright.fields.reading import Place, Reader, Sayings
 from linkwright.words import Message, _
 
 Make = Callable[..., Any]
@@ -46,10 +46,14 @@ class Table(Field):
 
 @dataclass(frozen=True)
 class Keys(Table):
-    """A table whose values are taken as far as they can be read, whatever is wrong with the others."""
+    """A table whose values are taken as far as they can be read, whatever is wrong with the others; ``own``: its own
+    sentences."""
+
+    own: Sayings = dataclasses.field(default_factory=dict, kw_only=True)
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        return reader.table(node, place, self.fields)
+        with reader.saying(self.own):
+            return reader.table(node, place, self.fields)
 
 
 @dataclass(frozen=True)

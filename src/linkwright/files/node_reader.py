@@ -31,10 +31,6 @@ MODES = ("left", "right", "forward", "backward")
 MOST_FINDINGS = 300
 
 
-class TooManyFindings(Exception):
-    """There is more to say about a file than anybody reads."""
-
-
 def as_meant(mapping: MappingNode, known: Collection[str]) -> MappingNode:
     """The mapping with known keys in the place of such as are nearly these, where these are not there themselves."""
     present = {entry.key.text for entry in mapping.entries}
@@ -86,7 +82,7 @@ class PlainReader:
     @contextmanager
     def saying(self, own: Sayings) -> Iterator[None]:
         """Within it a section's own sentences are said instead of the general ones."""
-        before, self._own = self._own, own
+        before, self._own = self._own, {**self._own, **own}
         yield
         self._own = before
 
@@ -103,7 +99,10 @@ class PlainReader:
     ) -> None:
         """Note a finding at a node; ``column`` is an offset within it."""
         if len(self.findings) >= MOST_FINDINGS:
-            raise TooManyFindings
+            if len(self.findings) == MOST_FINDINGS:
+                more = _("there are more than {count} findings; mend these first", count=MOST_FINDINGS)
+                self.findings.append(Finding("error", self.source, "", more, code="many"))
+            return
         key = place if isinstance(place, str) else place.key
         if severity == "error" and code != "decimal-comma" and isinstance(node, Scalar) and node.plain:
             remedy = (not node.text.isascii() and wide_remedy(node.text)) or remedy
@@ -236,7 +235,6 @@ class PlainReader:
             _('"{text}" is not known here'),
             "unknown-word",
             remedy,
-            general="unknown_word",
             text=text,
         )
         return None

@@ -19,7 +19,7 @@ from linkwright.fields.reading import Place
 from linkwright.fields.sheet import FIELD as SHEET_SECTION
 from linkwright.files.check_mechanism import check_whole
 from linkwright.files.misplaced import in_place
-from linkwright.files.node_reader import MODES, TooManyFindings
+from linkwright.files.node_reader import MODES
 from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
 from linkwright.files.read_joints import read_joints, scan_joints
 from linkwright.files.read_links import legible, read_drawing, read_frame, read_links, scan_points
@@ -82,11 +82,7 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
             _("linkwright synthesize finds machines for it"),
         )
         return None, reader.findings
-    try:
-        mechanism = _sections(reader, mapping, source)
-    except TooManyFindings:
-        more = _("there are more than {count} findings; mend these first", count=len(reader.findings))
-        return None, [*reader.findings, Finding("error", source, "", more, code="many")]
+    mechanism = _sections(reader, mapping, source)
     return (None if reader.error_count else mechanism), reader.findings
 
 

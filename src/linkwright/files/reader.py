@@ -17,7 +17,7 @@ from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityErro
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence, node_of, noun
-from linkwright.fields.reading import Names, Place, Sayings
+from linkwright.fields.reading import Names, Place
 from linkwright.fields.references import LinkPoint, resolve_output
 from linkwright.files.node_reader import NUMBER, PlainReader
 from linkwright.registry import listed, nearest
@@ -390,13 +390,12 @@ class Reader(PlainReader):
 class SectionReading:
     """A section that is kept as plain data, read by its field; what is wrong with it is noted once.
 
-    ``values``: what the field gives; ``where``: stands for the file; ``own``: the section's own sentences.
+    ``values``: what the field gives; ``where``: stands for the file.
     """
 
-    def __init__(self, field: Field, key: str, given: Any, own: Sayings, where: str = "") -> None:
+    def __init__(self, field: Field, key: str, given: Any, where: str = "") -> None:
         self.key, self.where, reader = key, where, Reader("")
-        with reader.saying(own):
-            self.values = field.read(reader, node_of(given), Place(key, key), {})
+        self.values = field.read(reader, node_of(given), Place(key, key), {})
         self.findings = dict.fromkeys(replace(each, where=where) for each in reader.findings)
 
     def note(self, key: str, told: str | LinkwrightError, code: str = "") -> None:

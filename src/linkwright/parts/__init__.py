@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from linkwright.parts.beams.materials import Material as Material
     from linkwright.parts.beams.sections import Section as Section
     from linkwright.parts.fields import Numbers as Numbers
-    from linkwright.parts.file import check as check
     from linkwright.parts.file import gallery_names as gallery_names
     from linkwright.parts.file import load as load
     from linkwright.parts.file import loads as loads

@@ -45,7 +45,6 @@ KINDS: Mapping[str, str] = {
     "trajectory": "linkwright.parts.trajectories.particle.Particle",
     "throw": "linkwright.parts.trajectories.conveyor.Conveyor",
 }
-GALLERY = "gallery:"
 HEADING: Mapping[str, Field] = {
     "format": Count(FORMAT, required=True, doc="1, in the first line"),
     "kind": Word(tuple(KINDS), required=True, doc="say what is calculated, such as kind: beam"),
@@ -75,15 +74,6 @@ def loads(text: str, name: str = "<text>", folder: str | Path = ".") -> Problem:
     if problem is None:
         raise ModelError(findings)
     return problem
-
-
-def check(source: str | Path) -> list[Finding]:
-    """All findings about a file; never raises for bad content."""
-    try:
-        text, name, folder = _text(source)
-        return read_calculation(*read_root(text, name), name, folder)[1]
-    except ModelError as error:
-        return list(error.findings)
 
 
 def solve(problem: Problem, source: str | Path) -> Result:
@@ -157,10 +147,6 @@ def _inner(whole: dict[str, Any]) -> dict[str, Any]:
 
 
 def _text(source: str | Path) -> tuple[str, str, Path]:
-    if isinstance(source, str) and source.startswith(GALLERY):
-        name = source.removeprefix(GALLERY)
-        if name in gallery_names():
-            return gallery.file(name).read_text(encoding="utf-8"), f"{name}.yaml", Path()
     text, name = read_source(source)
     return text, name, Path(source).parent
 

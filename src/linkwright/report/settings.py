@@ -19,7 +19,7 @@ from linkwright.files.write import flow
 from linkwright.kinematics.names import place_meant
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.registry import listed, offered
+from linkwright.registry import listed
 from linkwright.words import LANGUAGES, Message, _
 
 if TYPE_CHECKING:
@@ -41,13 +41,6 @@ LIMITS = ("min", "max")
 #: Most numbered positions.
 MOST = 10_000
 SAYINGS: Sayings = {
-    "unknown_key": Saying(
-        "unknown-key",
-        lambda key_, names, **others: _(
-            'there is no "{name}" in the settings of a report; {hint}', name=key_, hint=offered(key_, names)
-        ),
-    ),
-    "missing_key": Saying("missing-key", lambda key_, **others: _("the key {name} is missing", name=key_)),
     "where_list": Saying("not-a-list", lambda **others: _("give a list: [task, structure]")),
     "where_mapping": Saying("not-a-mapping", lambda **others: _("give keys with values")),
     "where_text": Saying(
@@ -236,7 +229,7 @@ SECTION = Keys({
     **_KEYS,
     "en": Keys(OWN, doc="what an English report says instead"),
     "zh": Keys(OWN, doc="what a Chinese report says instead"),
-})  # fmt: skip
+}, own=SAYINGS)  # fmt: skip
 
 
 def settings(
@@ -271,7 +264,7 @@ class _Reading(SectionReading):
     """The settings, of a mechanism where there is one; pictures lie in a folder."""
 
     def __init__(self, given: Mapping[str, Any], mechanism: Mechanism | None, folder: str) -> None:
-        super().__init__(SECTION, "report", _present(given), SAYINGS)
+        super().__init__(SECTION, "report", _present(given))
         self.mechanism, self.folder = mechanism, folder
 
     def all_of(self, language: str) -> Settings:

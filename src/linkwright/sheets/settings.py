@@ -95,7 +95,7 @@ class Settings:
 
 def read_section(given: Mapping[str, Any]) -> dict[str, Any]:
     """The values of a section ``sheet`` by its keys, SI; raises ModelError with all findings."""
-    reading = SectionReading(Keys(SHEET), "sheet", given, {})
+    reading = SectionReading(Keys(SHEET), "sheet", given)
     reading.settle()
     return {key: value for key, value in reading.values.items() if value is not None}
 

@@ -17,7 +17,6 @@ from linkwright.fields.base import Field, Schema, Word, quantity_schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.fields.reading import Place, Reader, Saying, Sayings
-from linkwright.files.read_model import TASK_KEYS
 from linkwright.files.reader import Reader as FileReader
 from linkwright.registry import listed, nearest
 from linkwright.synthesis.result import DEMAND_MISSING, DEMAND_UNKNOWN, NO_TASK
@@ -284,15 +283,6 @@ def read_section(
     if demands.get("file"):
         demands["file"] = os.path.join(folder, demands["file"])
     return task, demands, reader.findings
-
-
-def check_task(root: Node | None, name: str, folder: str = "") -> tuple[list[Finding], str]:
-    """Findings about a tree that holds a task and no model, and the task."""
-    assert isinstance(root, MappingNode)
-    reader = FileReader(name)
-    root, _ = reader.unknown_keys(root, Place("", ""), list(TASK_KEYS))
-    task, _, found = read_section(root.get("synthesis"), name, folder)
-    return [*reader.findings, *found], task
 
 
 def _is_bare(text: str) -> bool:

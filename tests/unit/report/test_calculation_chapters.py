@@ -166,7 +166,7 @@ def test_own_text_errata_and_title_of_a_calculation(tmp_path: Path) -> None:
     )
     path = tmp_path / "b.yaml"
     path.write_text(text, encoding="utf-8")
-    assert not parts.check(path)
+    assert not lw.check(path)
     found = report(str(path))
     assert found.document.title == "Beams" and found.document.lines == ("Li",)
     blocks = found.document.blocks

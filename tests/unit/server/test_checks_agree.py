@@ -39,10 +39,15 @@ SECTIONS = {
 FILES = {
     "format: 1\nsynthesis: {task: slider_crank, stroke: 30 mm}\nreprot: {}\n": "reprot",
     "format: 1\nsynthesis: [1]\n": "synthesis",
+    "format: 1\nsynthesis: {task: slider_crank, stroke: 30 mm}\nreport: {titel: x}\n": "report.titel",
+    "format: 1\nname: [1]\nsynthesis: {task: slider_crank, stroke: 30 mm}\n": "name",
     BEAM: "",
     BEAM.replace("length: ", "length: 3 kg #"): "length",
     BEAM + "report: {titel: Beam, positions: 1}\n": "report.titel",
+    BEAM.replace("length: ", "length: 3 kg #") + "report: {titel: Beam}\n": "report.titel",
     BAR.replace("length", "lenght", 1): "",
+    BAR.replace("length", "lenght", 1)
+    + "course: {vari: {}}\nreport: {cover: {logo: no.png}}\n": "course.vari",
     BAR + "a: [\n": "",
     "": "",
 }
@@ -75,6 +80,27 @@ def test_every_way_finds_the_same(
 def _line(found: lw.Finding) -> int:
     place = found.where.removesuffix("machine.yaml").rsplit("machine.yaml:", 1)
     return int(place[1].split(":")[0]) if len(place) == 2 else 0
+
+
+def test_a_section_is_read_whatever_is_wrong_with_the_others() -> None:
+    """Every finding at once, each at the column of its key."""
+    text = f"{BAR.replace('length', 'lenght', 1)}\nreport: {{titel: x}}\noptimize: {{vari: {{}}, seed: x}}\n"
+    found = {each["key"]: each["line"] for each in solved(text, "en")["findings"]}
+    last = text.count("\n")
+    assert {key: last - line for key, line in found.items() if not key.startswith("links")} == {
+        "report.titel": 1, "optimize.vari": 0, "optimize.seed": 0
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("section", ["optimize", "course", "report", "sheet", "synthesis"])
+def test_nobody_is_told_more_than_300_findings(section: str, tmp_path: Path) -> None:
+    """Three hundred keys that no section has ended in an error of the program."""
+    more = "".join(f"  k{number}: 1\n" for number in range(400))
+    task = "  task: path\n" if section == "synthesis" else ""
+    path = tmp_path / "many.yaml"
+    path.write_text(f"{BAR}\n{section}:\n{task}{more}", encoding="utf-8")
+    codes = [each.code for each in lw.check(path)]
+    assert codes.count("unknown-demand" if task else "unknown-key") == 300 and codes.count("many") == 1
 
 
 @pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "printing_press", "crank_rocker"])

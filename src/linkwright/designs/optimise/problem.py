@@ -21,13 +21,12 @@ from linkwright.designs.varied_dimensions import between, checked_addresses, giv
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.fields.base import Field, Schema, Word, given, given_by_file
 from linkwright.fields.nodes import Node
-from linkwright.fields.reading import Place, Reader, Saying, Sayings
+from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import AsWritten, ByAddress, Keys
 from linkwright.files.reader import SectionReading
 from linkwright.files.write import flow
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.registry import offered
 from linkwright.words import _
 
 Robust = Literal["", "worst", "yield"]
@@ -158,26 +157,6 @@ SECTION = Keys({
     "tolerance": ByAddress(AsWritten(), doc="± of dimensions, such as 0.1 mm"),
     **given_by_file(Problem),
 })  # fmt: skip
-SAYINGS: Sayings = {
-    "unknown_key": Saying(
-        "unknown-key",
-        lambda key_, names, **more: _(
-            '"{key_}" is no setting of an optimisation; {hint}', key_=key_, hint=offered(key_, names)
-        ),
-    ),
-    "where_mapping": Saying(
-        "type",
-        lambda key_, **more: _(
-            "{key_}: must be names with their values; write NAME: VALUE on lines of their own", key_=key_
-        ),
-    ),
-    "unknown_word": Saying(
-        "unknown-word",
-        lambda text, **more: _(
-            'robust: "{given}" is neither worst nor yield; write one of them, or leave it out', given=text
-        ),
-    ),
-}
 
 
 def problem(mechanism: Mechanism, given: Mapping[str, Any] | None = None, source: str = "") -> Problem:
@@ -198,7 +177,7 @@ class _Reading(SectionReading):
         known = SECTION.fields.keys() | {"yield"}
         self.given = {key: each for key, each in given.items() if key not in known or not _empty(each)}
         plain = {key: "" if key in ("minimize", "maximize") else each for key, each in self.given.items()}
-        super().__init__(SECTION, "optimize", plain, SAYINGS, source)
+        super().__init__(SECTION, "optimize", plain, source)
 
     def problem(self) -> Problem:
         variables = self._variables()
