@@ -16,8 +16,8 @@ from linkwright.export.results import Results
 from linkwright.export.tables import QUANTITIES
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.pictures.diagram import COLOURS
+from linkwright.plot.diagrams.base import title_of
 from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_outputs
-from linkwright.plot.diagrams.titles import TITLES
 from linkwright.words import Message, _
 from linkwright.words.characters import printable
 
@@ -156,7 +156,9 @@ class Charts:
             return
         x, y = (self.places["forces", name, axis] for axis in "xy")
         right, up = (f"{self.say(QUANTITIES[axis])} [N]" for axis in "xy")
-        yield Chart(f"{self.say(TITLES['hodograph'])}, {name}", right, up, (Curve(name, x, y),), square=True)
+        yield Chart(
+            f"{self.say(title_of('hodograph'))}, {name}", right, up, (Curve(name, x, y),), square=True
+        )
 
 
 def write_charts(sheet: Any, book: Any, rows: Sequence[Sequence[Chart]]) -> None:

@@ -8,7 +8,6 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.table import tidy
 from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem, Result
-from linkwright.plot.diagrams.titles import TITLES
 from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal, noted, symbols
 from linkwright.report.given_data import given_data
 from linkwright.report.machine_results import picture
@@ -150,4 +149,7 @@ def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
             if RESULT_DIAGRAMS[kind].usual:
                 yield Paragraph(literal(error.say(language)), "missing")
             continue
-        yield Figure(f"{literal(title_said(found.title, language))}: {say(TITLES[kind])}", ((svg, 0.75),))
+        yield Figure(
+            f"{literal(title_said(found.title, language))}: {say(RESULT_DIAGRAMS[kind].title)}",
+            ((svg, 0.75),),
+        )

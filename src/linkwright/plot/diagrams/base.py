@@ -1,7 +1,6 @@
 """What all kinds of diagrams have in common, and their registry.
 
-A kind is one class, a diagram of a result one function, registered under its name; its title stands in
-:mod:`linkwright.plot.diagrams.titles`.
+A kind is one class, a diagram of a result one function, registered under its name.
 """
 
 from __future__ import annotations
@@ -18,9 +17,8 @@ from linkwright.pictures.diagram import INK, Figure
 from linkwright.pictures.drawing import Drawing
 from linkwright.plot.diagrams.axes import Legend, wrapped
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.titles import TITLES
 from linkwright.registry import Registry
-from linkwright.words import Say, _, say
+from linkwright.words import Message, Say, _, say
 from linkwright.words.characters import printable
 from linkwright.words.sentence import in_language
 
@@ -60,7 +58,7 @@ class Request:
 
     def titled(self, name: str, subject: str = "") -> str:
         """The title of a diagram, ``Crank-rocker: joint forces``: its subject is its kind unless given."""
-        told = subject or self.say(TITLES[self.kind])
+        told = subject or self.say(title_of(self.kind))
         return (
             self.say(_("{name}: {subject}", name=in_language(name, self.language), subject=told))
             if name
@@ -78,9 +76,10 @@ def framed(figure: Figure, title: str, request: Request, legend: Legend | None =
 
 
 class Kind(ABC):
-    """A kind of diagram; ``options``: those of OPTIONS that it has a use for."""
+    """A kind of diagram with what it is called in titles; ``options``: those of OPTIONS that it has a use for."""
 
     name: ClassVar[str]
+    title: ClassVar[Message]
     options: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
@@ -95,11 +94,13 @@ class Kind(ABC):
 class ResultDiagram:
     """A diagram of one result that has no single motion behind it: a comparison, a study, a balancing.
 
-    ``takes``: the type of the results; ``options``: those of OPTIONS that it has a use for; ``usual``: whether it may
-    be drawn where no kind is named; ``draw(result, request)`` raises LinkwrightError for unknown names, and where
-    there is nothing to draw; ``when``: which results of the type have something to draw.
+    ``title``: what it is called in titles; ``takes``: the type of the results; ``options``: those of OPTIONS that it
+    has a use for; ``usual``: whether it may be drawn where no kind is named; ``draw(result, request)`` raises
+    LinkwrightError for unknown names, and where there is nothing to draw; ``when``: which results of the type have
+    something to draw.
     """
 
+    title: Message
     takes: type
     options: tuple[str, ...]
     usual: bool
@@ -115,8 +116,14 @@ DIAGRAMS: Registry[type[Kind]] = Registry(_("kind of diagram"), "linkwright.plot
 RESULT_DIAGRAMS: Registry[ResultDiagram] = Registry(_("kind of diagram"), "linkwright.plot.result_diagrams")
 
 
+def title_of(kind: str) -> Message:
+    """What a kind of diagram is called in titles."""
+    return (DIAGRAMS[kind] if kind in DIAGRAMS else RESULT_DIAGRAMS[kind]).title
+
+
 def result_diagram(
     name: str,
+    title: Message,
     takes: type[T],
     *,
     options: tuple[str, ...] = (),
@@ -126,7 +133,7 @@ def result_diagram(
     """Decorator that registers a function as the diagram ``name`` of results; see :class:`ResultDiagram`."""
 
     def registered(draw: Callable[[T, Request], D]) -> Callable[[T, Request], D]:
-        RESULT_DIAGRAMS.register(name)(ResultDiagram(takes, options, usual, draw, when))
+        RESULT_DIAGRAMS.register(name)(ResultDiagram(title, takes, options, usual, draw, when))
         return draw
 
     return registered

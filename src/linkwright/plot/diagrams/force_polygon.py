@@ -26,7 +26,6 @@ from linkwright.plot.diagrams.scaled_page import (
     vector_cell,
 )
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.titles import TITLES
 from linkwright.plot.free_bodies.actions import STYLES, Action, free_bodies
 from linkwright.words import _, pgettext
 from linkwright.words.sentence import links_said
@@ -73,6 +72,7 @@ class ForcePolygon(Kind):
     out unless they are named by ``of``.
     """
 
+    title = _("force polygons")
     options = ("of", "at", "static")
 
     def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
@@ -92,9 +92,7 @@ class ForcePolygon(Kind):
         cells = [position_cell(forces.motion, say), *(polygon_cell(forces, *each) for each in parts.items())]
         roles = {PLAIN.get(force.role, force.role) for each in parts.values() for force in each}
         wide = page_width(cells[:IN_ROW], IN_ROW)
-        heading = request.titled(
-            source.label, f"{say(TITLES['force_polygon'])}, {source.place_text(forces.motion, say)}"
-        )
+        heading = request.titled(source.label, f"{say(self.title)}, {source.place_text(forces.motion, say)}")
         numbered = fold(", ".join(links_said(link_numbers(forces.mechanism), request.language)), wide, SIZE)
         below = [key([(say(ROLES[role]), style) for role, style in STYLES.items() if role in roles])]
         below += [[((line, "lw-legend"), 0.0)] for line in numbered]

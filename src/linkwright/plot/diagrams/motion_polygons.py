@@ -36,7 +36,6 @@ from linkwright.plot.diagrams.scaled_page import (
     units,
 )
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.titles import TITLES
 from linkwright.words import _
 
 #: Longest extent of the polygon on the paper, mm.
@@ -113,7 +112,7 @@ class MotionPolygons(Kind):
             Cell(_sketch(polygon, scale, self.prime), (title,), bar),
         ]
         roles = {step.role for step in polygon.steps}
-        subject = f"{say(TITLES[self.name])}, {source.place_text(motion, say)}"
+        subject = f"{say(self.title)}, {source.place_text(motion, say)}"
         heading = request.titled(source.label, subject)
         return page(
             cells,
@@ -132,6 +131,7 @@ class MotionPolygons(Kind):
 class VelocityPolygon(MotionPolygons):
     """Velocities of all points from one pole p, and relative velocities between them."""
 
+    title = _("velocity polygon")
     options = ("at",)
     unit, letter = "m/s", "v"
 
@@ -143,6 +143,7 @@ class VelocityPolygon(MotionPolygons):
 class AccelerationPolygon(MotionPolygons):
     """Accelerations of all points from one pole p′; normal, tangential, Coriolis and sliding parts dashed."""
 
+    title = _("acceleration polygon")
     options = ("at",)
     unit, letter, prime = "m/s²", "a", "′"
 

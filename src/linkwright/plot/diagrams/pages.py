@@ -11,7 +11,6 @@ from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.outputs import known_link
 from linkwright.plot.diagrams.reactions import require_forces
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.titles import TITLES
 from linkwright.plot.flow_chart.content import flow_chart_steps
 from linkwright.plot.flow_chart.picture import flow_chart_pages
 from linkwright.plot.free_bodies.page import free_body_pages
@@ -22,6 +21,8 @@ from linkwright.words import _
 class FlowChart(Kind):
     """The steps that solve a machine: driver, groups in solving order with the teaching texts' names of their
     subprograms, forces in reverse order, output, over all positions of the motion."""
+
+    title = _("flow chart of the solution")
 
     def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
         if len(sources) > 1:
@@ -44,6 +45,7 @@ class FreeBodies(Kind):
     """Every link by itself with joint forces, loads, weight, inertia force and couple, what a driver exerts; of named
     links where ``of`` says which."""
 
+    title = _("free-body diagrams of the links")
     options = ("of", "at", "static")
 
     def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
@@ -59,7 +61,7 @@ class FreeBodies(Kind):
         require_forces(forces)
         links = [known_link(forces.mechanism, name) for name in request.of]
         place = source.place_text(forces.motion, request.say)
-        title = request.titled(source.label, f"{request.say(TITLES[request.kind])}, {place}")
+        title = request.titled(source.label, f"{request.say(self.title)}, {place}")
         (svg,) = free_body_pages(
             forces,
             0,

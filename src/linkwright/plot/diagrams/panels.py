@@ -24,7 +24,6 @@ from linkwright.plot.diagrams.marks import (
     through_peaks,
 )
 from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.titles import TITLES
 from linkwright.words import Say, _
 
 #: A value below this in the unit of the axis has a unit of its own, below that share of the largest it is rounding.
@@ -98,7 +97,7 @@ class OverInput(Kind):
 
     def subject(self, sources: Sequence[Source], request: Request) -> str:
         """What the title names beside the mechanism."""
-        return request.say(TITLES[self.name])
+        return request.say(self.title)
 
     def output(self, source: Source, request: Request) -> Output | None:
         """The output whose limit positions are marked."""

@@ -25,6 +25,7 @@ from linkwright.words import _
 class Paths(Kind):
     """Curves that points describe, both axes to one scale; the free points of links unless others are named."""
 
+    title = _("paths of points")
     options = ("of",)
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:

@@ -32,6 +32,7 @@ class Reactions(OverInput):
     Of one joint: size, and components in the frame's or a link's axes.
     """
 
+    title = _("joint forces")
     options = ("of", "joint", "on", "axes", "static")
 
     def output(self, source: Source, request: Request) -> Output | None:
@@ -105,6 +106,7 @@ def _of_one(source: Source, request: Request) -> list[Panel]:
 class Shaking(OverInput):
     """What the inertia of the moving links does to the frame: force with its components, moment about the origin."""
 
+    title = _("shaking force and moment")
     options = ("static",)
 
     def panels(self, source: Source, request: Request) -> list[Panel]:
@@ -133,6 +135,7 @@ class Hodograph(Kind):
     With ``axes`` one of the two alone. Both scales of an axis pair are equal; inputs are marked along the curve.
     """
 
+    title = _("hodograph of a joint force")
     options = ("joint", "on", "axes", "static")
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:
@@ -235,6 +238,7 @@ ROW, WIDE, HIGH = 3, 3.3, 3.1
 class Hodographs(Kind):
     """A hodograph of every joint force, or of the joints that ``of`` names, in the axes of the frame."""
 
+    title = _("hodographs of all joint forces")
     options = ("of", "static")
 
     def draw(self, sources: Sequence[Source], request: Request) -> Figure:

@@ -39,6 +39,7 @@ class Sva(OverInput):
     """Three panels: angle or displacement, velocity, acceleration of an output; x and y of a point; one panel of a
     force or of a rate that is named."""
 
+    title = _("displacement, velocity, acceleration")
     options = ("of",)
 
     def output(self, source: Source, request: Request) -> Output | None:
@@ -148,6 +149,7 @@ def _of_point(source: Source, key: str, say: Say) -> list[Panel]:
 class Angles(OverInput):
     """Angle, angular velocity and angular acceleration of several links, each link a curve."""
 
+    title = _("angles of the links")
     options = ("of",)
 
     def output(self, source: Source, request: Request) -> Output | None:

@@ -32,6 +32,7 @@ from linkwright.words import _
 class Torque(OverInput):
     """Driver effort from the joint forces: torque of a turning driver, force of a sliding one; one panel a driver."""
 
+    title = _("what the driver must supply")
     options = ("static",)
 
     def output(self, source: Source, request: Request) -> Output | None:
@@ -66,6 +67,7 @@ class Torque(OverInput):
 class Power(OverInput):
     """Power that all drivers supply together, from the powers of all forces."""
 
+    title = _("power of the driver")
     options = ("static",)
 
     def output(self, source: Source, request: Request) -> Output | None:
@@ -89,6 +91,7 @@ class Energy(OverInput):
     ΔE = max E - min E is what a flywheel has to take up. Angles are those turned from the cycle's begin.
     """
 
+    title = _("energy over the cycle")
     options = ("static",)
 
     def axis(self, source: Source) -> InputAxis:
@@ -132,6 +135,7 @@ def _reduced(source: Source) -> tuple[Equivalent, EnergyFluctuation]:
 class Speed(OverInput):
     """ω(φ) of steady running under a constant motor torque: with the flywheel for a required δ, and without any."""
 
+    title = _("speed over the cycle")
     options = ("fluctuation", "static")
 
     def axis(self, source: Source) -> InputAxis:

@@ -15,7 +15,7 @@ from linkwright.plot.diagrams.axes import InputAxis
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.panels import Panel, fit_plane, plane, stacked
-from linkwright.words import _
+from linkwright.words import _, pgettext
 
 #: Points of the coloured profile, and speeds of the vibration's diagram.
 _POINTS, _SPEEDS = 1440, 240
@@ -28,7 +28,7 @@ _PER_ANGLE = {
 _MOTION = (_("lift s"), _("velocity v"), _("acceleration a"), _("jerk j"))
 
 
-@result_diagram("cam_motion", CamDesign)
+@result_diagram("cam_motion", _("motion over the turn"), CamDesign)
 def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
     """s, v, a and j over the cam's angle: over time at its speed, over the angle without one."""
     speed = result.loading.speed
@@ -42,7 +42,7 @@ def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
     return stacked(given, _turn(result, request), request, request.titled(result.title))
 
 
-@result_diagram("cam_checks", CamDesign, usual=False)
+@result_diagram("cam_checks", _("checks over the turn"), CamDesign, usual=False)
 def draw_cam_checks(result: CamDesign, request: Request) -> Figure:
     """Pressure angle, radius of curvature, contact force, Hertz's pressure and torque over the cam's angle."""
     contact = result.contact
@@ -79,7 +79,7 @@ def _peaks(*found: Extreme) -> tuple[tuple[float, float], ...]:
     return tuple((each.place, each.value) for each in found)
 
 
-@result_diagram("cam_profile", CamDesign, usual=False)
+@result_diagram("cam_profile", pgettext("plot", "profile"), CamDesign, usual=False)
 def draw_cam_profile(result: CamDesign, request: Request) -> Figure:
     """The profile at true shape; its colour is Hertz's pressure, else the contact force, else the pressure angle
     (no colours where that is the same all round)."""
@@ -123,7 +123,7 @@ def _coloured(result: CamDesign, request: Request) -> tuple[np.ndarray, str]:
     return np.degrees(result.contact.pressure_angle), request.say(_("pressure angle α")) + " (°)"
 
 
-@result_diagram("cam_vibration", CamDesign, usual=False)
+@result_diagram("cam_vibration", _("vibration over the speed"), CamDesign, usual=False)
 def draw_cam_vibration(result: CamDesign, request: Request) -> Figure:
     """What the follower does beside the cam's motion, over the speed."""
     if result.cam.elasticity is None:

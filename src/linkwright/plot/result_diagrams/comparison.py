@@ -50,7 +50,7 @@ CURVES = {
 }
 
 
-@result_diagram("comparison", Comparison, options=("of",))
+@result_diagram("comparison", _("alternatives over each other"), Comparison, options=("of",))
 def draw_comparison(result: Comparison, request: Request) -> Figure:
     """Curves of all alternatives over the input that has passed since the cycle's begin, a colour for each.
 
@@ -66,7 +66,9 @@ def draw_comparison(result: Comparison, request: Request) -> Figure:
     return stacked(panels, axis, request, " – ".join(result.labels))
 
 
-@result_diagram("pivot_hodograph", Comparison, usual=False)
+@result_diagram(
+    "pivot_hodograph", _("hodographs of the reaction at the output's pivot"), Comparison, usual=False
+)
 def draw_pivot_hodograph(result: Comparison, request: Request) -> Figure:
     """Hodographs of the reaction at the output's pivot, all alternatives from one origin, in the frame's axes."""
     overlay = next((each for each in result.curves if each.name == HODOGRAPH), None)
@@ -168,7 +170,7 @@ WRONG = "#f6d5d0"
 Group = tuple[str, tuple[MetricValue, ...]]
 
 
-@result_diagram("metrics", MetricsTable, options=("of",))
+@result_diagram("metrics", _("design numbers and recommended limits"), MetricsTable, options=("of",))
 def draw_metrics(result: MetricsTable, request: Request) -> Figure:
     """A row of dots for every subject of a metric, an axis for every metric and unit, with its recommended limit.
 
@@ -248,7 +250,7 @@ def _number(axes: Axes, value: float, place: float, unit: Unit) -> None:
                   annotation_clip=False, zorder=5)  # fmt: skip
 
 
-@result_diagram("study", Study, options=("of",))
+@result_diagram("study", _("parameter study"), Study, options=("of",))
 def draw_study(result: Study, request: Request) -> Figure:
     """Every metric over what varies: a curve over one dimension, a map over a grid of two, points over others.
 
@@ -270,7 +272,7 @@ def draw_study(result: Study, request: Request) -> Figure:
     return draw_designs(DesignTable(result.mechanism.name, over, measures, result.ok), request)
 
 
-@result_diagram("sweep", Sweep, options=("of",))
+@result_diagram("sweep", _("sweep over designs"), Sweep, options=("of",))
 def draw_sweep(result: Sweep, request: Request) -> Figure:
     """Every summary over what varies: a curve over one dimension, a map over a full grid of two, points else.
 

@@ -20,7 +20,7 @@ from linkwright.words import _
 VANISHED = 1e-9
 
 
-@result_diagram("balancing", Balancing)
+@result_diagram("balancing", _("effect of the counterweights"), Balancing)
 def draw_balancing(result: Balancing, request: Request) -> Figure:
     """Left the hodograph of the shaking force, right shaking moment and input torque over the input."""
     say = request.say
@@ -76,7 +76,7 @@ def _hodograph(
 BEFORE = 1e-9
 
 
-@result_diagram("torque_curve", TorqueCurve)
+@result_diagram("torque_curve", _("torque over the angle"), TorqueCurve)
 def draw_torque_curve(result: TorqueCurve, request: Request) -> Figure:
     """T(φ) over one period; jumps are drawn upright."""
     angle = _angles(result)

@@ -29,7 +29,7 @@ from linkwright.words.sentence import in_language
 NEAR = 0.1
 
 
-@result_diagram("optimisation", Optimum)
+@result_diagram("optimisation", _("best designs"), Optimum)
 def draw_optimisation(result: Optimum, request: Request) -> Figure:
     """Objectives of the designs against the first one, with the start; for one objective the search's progress."""
     goals = result.problem.goals
@@ -103,7 +103,8 @@ def _progress(axes: Any, result: Optimum, language: str) -> None:
 _STEPS = {"length": (1e-3, "1 mm"), "angle": (math.radians(1.0), "1°")}
 
 
-@result_diagram("sensitivity", Sensitivity, options=("of",), when=lambda result: bool(result.values))
+@result_diagram("sensitivity", _("relative sensitivities"), Sensitivity, options=("of",),
+                when=lambda result: bool(result.values))  # fmt: skip
 def draw_sensitivity(result: Sensitivity, request: Request) -> Figure:
     """Bars of (p/y)·dy/dp: the change of a summary in percent per percent of a dimension; a colour a summary.
 
@@ -135,7 +136,8 @@ def draw_sensitivity(result: Sensitivity, request: Request) -> Figure:
     return figure
 
 
-@result_diagram("sensitivity_curves", Sensitivity, options=("of",), when=lambda result: bool(result.curves))
+@result_diagram("sensitivity_curves", _("sensitivities over the input"), Sensitivity, options=("of",),
+                when=lambda result: bool(result.curves))  # fmt: skip
 def draw_sensitivity_curves(result: Sensitivity, request: Request) -> Figure:
     """Change of an output over the input when a dimension grows by a hundredth: 0.01·p·∂y/∂p; a panel an output.
 

@@ -21,7 +21,7 @@ from linkwright.plot.diagrams.panels import Panel, fit_plane, plane, stacked
 from linkwright.words import _
 
 
-@result_diagram("flight", Flight)
+@result_diagram("flight", _("path of the flight"), Flight)
 def draw_flight(result: Flight, request: Request) -> Figure:
     """The path, to one scale."""
     columns = result.columns()
@@ -32,7 +32,7 @@ def draw_flight(result: Flight, request: Request) -> Figure:
     return figure
 
 
-@result_diagram("transport", Transport)
+@result_diagram("transport", _("motion of the load on the trough"), Transport)
 def draw_transport(result: Transport, request: Request) -> Figure:
     """Displacement and velocity of the load on the trough over a cycle, and its height where it is thrown."""
     time, position, velocity, height = result.columns().values()
@@ -45,7 +45,7 @@ def draw_transport(result: Transport, request: Request) -> Figure:
     return _over_time(time, given, result.title, request)
 
 
-@result_diagram("vibration_response", Vibration)
+@result_diagram("vibration_response", _("vibration"), Vibration)
 def draw_vibration_response(result: Vibration, request: Request) -> Figure:
     """Amplitudes over frequency, displacements over time, or the modes."""
     names = list(result.system.masses)
@@ -78,7 +78,7 @@ def _over_time(time: Floats, given: Sequence[Panel], title: str, request: Reques
     return stacked(given, axis, request, request.titled(title))
 
 
-@result_diagram("follower_vibration", FollowerVibration)
+@result_diagram("follower_vibration", _("cam and follower"), FollowerVibration)
 def draw_follower_vibration(result: FollowerVibration, request: Request) -> Figure:
     """Cam and follower over time, and the residual spectrum of the law."""
     time, cam, follower = result.curves
@@ -89,7 +89,7 @@ def draw_follower_vibration(result: FollowerVibration, request: Request) -> Figu
     return _over_time(time, given, result.title, request)
 
 
-@result_diagram("residual_spectrum", FollowerVibration, usual=False)
+@result_diagram("residual_spectrum", _("residual vibration of the law"), FollowerVibration, usual=False)
 def draw_residual_spectrum(result: FollowerVibration, request: Request) -> Figure:
     """Residual amplitude over the ratio of rise time and natural period."""
     n = np.linspace(0.2, max(6.0, 1.3 * result.ratio), 1200)
@@ -97,7 +97,7 @@ def draw_residual_spectrum(result: FollowerVibration, request: Request) -> Figur
     return stacked([panel], InputAxis("", n, "n = T/Tₙ"), request, request.titled(result.title))
 
 
-@result_diagram("mounts", Shaken)
+@result_diagram("mounts", _("shaking force, motion, force on the ground"), Shaken)
 def draw_mounts(result: Shaken, request: Request) -> Figure:
     """Shaking force, motion of the machine and force on the ground over a cycle."""
     columns = result.columns()

@@ -59,20 +59,20 @@ def _page(cells: Sequence[Cell], title: str, request: Request) -> Drawing:
     return page(cells, len(cells), (), heading if request.title is None else request.title, heading)
 
 
-@result_diagram("resultant", Resultant)
+@result_diagram("resultant", _("force polygon"), Resultant)
 def draw_resultant(result: Resultant, request: Request) -> Drawing:
     """Forces head to tail with their resultant, in one plane or in two."""
     vectors = {name: each.vector for name, each in result.system.forces.items()}
     return _page(_polygons(vectors, (), result.force), result.title, request)
 
 
-@result_diagram("closed_polygon", PointEquilibrium)
+@result_diagram("closed_polygon", _("closed force polygon"), PointEquilibrium)
 def draw_closed_polygon(result: PointEquilibrium, request: Request) -> Drawing:
     """All forces of a point in equilibrium head to tail: they close; those that were sought in another colour."""
     return _page(_polygons(result.vectors, result.magnitudes, None), result.title, request)
 
 
-@result_diagram("body_reactions", Reactions)
+@result_diagram("body_reactions", _("forces and reactions"), Reactions)
 def draw_body_reactions(result: Reactions, request: Request) -> Drawing:
     """A body's forces and reactions at their places, in the plane x, y."""
     body, sketch = result.body, Sketch()
@@ -96,7 +96,7 @@ def draw_body_reactions(result: Reactions, request: Request) -> Drawing:
     return _page([Cell(sketch, ())], result.title, request)
 
 
-@result_diagram("structure_reactions", StructureForces)
+@result_diagram("structure_reactions", _("reactions of the supports"), StructureForces)
 def draw_structure_reactions(result: StructureForces, request: Request) -> Drawing:
     """A structure with its loads and the forces of its supports."""
     joints = result.forces.mechanism.joints
@@ -105,7 +105,7 @@ def draw_structure_reactions(result: StructureForces, request: Request) -> Drawi
     return draw(forces.motion, forces=forces, reactions_of=ground, language=request.language)
 
 
-@result_diagram("belt_tension", BeltTensions)
+@result_diagram("belt_tension", _("tension along the contact"), BeltTensions)
 def draw_belt_tension(result: BeltTensions, request: Request) -> Figure:
     """Tension along the contact."""
     angle, tension = result.columns().values()
@@ -115,7 +115,7 @@ def draw_belt_tension(result: BeltTensions, request: Request) -> Figure:
     return stacked([panel], axis, request, request.titled(result.title))
 
 
-@result_diagram("wedge_push", WedgeForces)
+@result_diagram("wedge_push", _("push on the wedge"), WedgeForces)
 def draw_wedge_push(result: WedgeForces, request: Request) -> Figure:
     """Push over the wedge's angle."""
     angle, up, down = result.columns().values()
@@ -124,7 +124,7 @@ def draw_wedge_push(result: WedgeForces, request: Request) -> Figure:
     return stacked([Panel("P", "force", curves)], axis, request, request.titled(result.title))
 
 
-@result_diagram("rotor_balance", RotorBalance)
+@result_diagram("rotor_balance", _("polygons of mass times radius"), RotorBalance)
 def draw_rotor_balance(result: RotorBalance, request: Request) -> Drawing:
     """Mass times radius of all masses as each plane carries them, head to tail, closed by the counterweight."""
     cells = []
@@ -157,7 +157,7 @@ PANELS = (("V", "shear [N]", "force"), ("M", "moment [N·m]", "torque"), ("θ", 
          ("w", "deflection [m]", "length"))  # fmt: skip
 
 
-@result_diagram("beam_line", BeamLine)
+@result_diagram("beam_line", _("shear force, moment, slope, deflection"), BeamLine)
 def draw_beam_line(result: BeamLine, request: Request) -> Figure:
     """V, M, θ and w over the beam."""
     columns = result.columns()
@@ -170,7 +170,7 @@ def draw_beam_line(result: BeamLine, request: Request) -> Figure:
     return stacked(given, InputAxis("length", x, "x"), request, request.titled(result.title))
 
 
-@result_diagram("link_stress", LinkStress)
+@result_diagram("link_stress", _("bending in the worst position, largest stress of the cycle"), LinkStress)
 def draw_link_stress(result: LinkStress, request: Request) -> Figure:
     """Moment, normal force and deflection along a link in the worst position, and the largest stress of the cycle."""
     i, _ = result.worst(result.stress)

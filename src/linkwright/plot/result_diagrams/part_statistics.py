@@ -20,7 +20,7 @@ from linkwright.plot.diagrams.panels import DASHES
 from linkwright.words import _, pgettext
 
 
-@result_diagram("samples", Statistics)
+@result_diagram("samples", _("samples"), Statistics)
 def draw_samples(result: Statistics, request: Request) -> Figure:
     """A histogram of every sample with its fits and limits, and every regression of one variable."""
     lines = [n for n, fitting in result.problem.regressions.items() if len(fitting.on) == 1]
@@ -79,7 +79,7 @@ def _regression(axes: Axes, result: Statistics, name: str) -> None:
     axes.set_ylabel(f"{fitting.y} ({up.unit})")
 
 
-@result_diagram("tolerance", Spread)
+@result_diagram("tolerance", _("spread by tolerances"), Spread)
 def draw_tolerance(result: Spread, request: Request) -> Figure:
     """Histograms of summaries with the linear normal distribution and limits; curves' deviation ±3σ and shift."""
     texts = [t for t in result.study.of if result.swept is not None]
@@ -131,7 +131,7 @@ def _band(axes: Axes, result: Spread, output: str) -> None:
 GRID = 241
 
 
-@result_diagram("optimum", Optimum)
+@result_diagram("optimum", _("constraints and optimum"), Optimum)
 def draw_optimum(result: Optimum, request: Request) -> Figure:
     """Contours of the objective over two variables with the region that the constraints leave; else bars."""
     figure = new_figure(request.size or (6.6, 5.2))

@@ -33,7 +33,7 @@ AXES = {
 }
 
 
-@result_diagram("synthesis", Synthesis)
+@result_diagram("synthesis", _("synthesis"), Synthesis)
 def draw_synthesis(result: Synthesis, request: Request) -> Figure:
     """The best candidates in their first pose with the curves they draw, the target, and Burmester's curves.
 
@@ -122,7 +122,9 @@ def has_deviations(result: Synthesis) -> bool:
     return bool(off.size and np.abs(off).max() > ROUNDING * max(result.extent, 1e-3))
 
 
-@result_diagram("structural_error", Synthesis, usual=False, when=has_deviations)
+@result_diagram(
+    "structural_error", _("deviation at every demanded position"), Synthesis, usual=False, when=has_deviations
+)
 def draw_structural_error(result: Synthesis, request: Request) -> Figure:
     """The error curve: over the input of a function, else over the number of the position."""
     figure = new_figure(request.size or (7.2, 3.2))
@@ -156,7 +158,7 @@ def _abscissa(result: Synthesis, language: str) -> tuple[Floats, str]:
     return np.arange(1.0, len(result.best.deviations) + 1), _("position").translate(language)
 
 
-@result_diagram("coupler_curve", CouplerCurve)
+@result_diagram("coupler_curve", _("coupler curve"), CouplerCurve)
 def draw_coupler_curve(result: CouplerCurve, request: Request) -> Figure:
     """The path, both axes to one scale; double points ringed, cusps as diamonds; length and area in the title."""
     unit, legend = unit_of("length"), Legend()

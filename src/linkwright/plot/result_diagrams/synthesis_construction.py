@@ -20,7 +20,7 @@ from linkwright.synthesis.motion_generation.generate import MotionDerivation
 from linkwright.synthesis.requirements.crank_rocker import CrankRockerDerivation, QuickReturnDerivation
 from linkwright.synthesis.requirements.slider_crank import SliderCrankDerivation
 from linkwright.synthesis.result import Synthesis, title_said
-from linkwright.words import Say
+from linkwright.words import Say, _
 
 #: Points of a circle; size of posed axes, as a share of the poses' extent.
 CIRCLE, AXES = 361, 0.18
@@ -214,7 +214,13 @@ DRAWN: Mapping[type, Callable[[Plane, Any, Synthesis], None]] = {
 }
 
 
-@result_diagram("construction", Synthesis, usual=False, when=lambda found: type(found.derivation) in DRAWN)
+@result_diagram(
+    "construction",
+    _("construction"),
+    Synthesis,
+    usual=False,
+    when=lambda found: type(found.derivation) in DRAWN,
+)
 def draw_construction(result: Synthesis, request: Request) -> Figure:
     """The construction of the first candidate."""
     figure = new_figure(request.size or (7.5, 6))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
+from linkwright.plot.diagrams.base import title_of
 from linkwright.plot.diagrams.outputs import main_outputs
-from linkwright.plot.diagrams.titles import TITLES
 from linkwright.report.document import Block, Figure, Paragraph, literal
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
@@ -60,5 +60,5 @@ def _figure(case: Case, kind: str, caption: str, **options: object) -> Block | N
     except LinkwrightError as error:
         if error.code in WITHOUT:
             return None
-        return Paragraph(f"{case.say(TITLES[kind])}: {literal(case.told(error))}", "missing")
+        return Paragraph(f"{case.say(title_of(kind))}: {literal(case.told(error))}", "missing")
     return Figure(caption, ((shown, SHARE),), "" if options else kind, TALLEST)

@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.quantity import shown
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
-from linkwright.plot.diagrams.titles import TITLES
+from linkwright.plot.diagrams.base import title_of
 from linkwright.report.document import Block, Figure, Paragraph, Table, literal
 from linkwright.report.machine_results import Case
 from linkwright.report.numbers import ROUNDING, faded
@@ -102,7 +102,7 @@ def _figures(
         try:
             picture = case.diagram(kind, of=joints)
         except LinkwrightError as error:
-            yield Paragraph(f"{case.say(TITLES[kind])}: {literal(case.told(error))}", "missing")
+            yield Paragraph(f"{case.say(title_of(kind))}: {literal(case.told(error))}", "missing")
             continue
         title = case.say(_("{caption} (continued)", caption=caption)) if number else caption
         yield Figure(title, ((picture, share),), "" if number else kind, tallest)

@@ -8,8 +8,8 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.pictures.drawing import PIXELS
 from linkwright.pictures.svg.render import natural_size
+from linkwright.plot.diagrams.base import title_of
 from linkwright.plot.diagrams.force_polygon import link_forces
-from linkwright.plot.diagrams.titles import TITLES
 from linkwright.report.document import (
     Block,
     Figure,
@@ -86,7 +86,7 @@ def _polygons(case: Case) -> Iterator[Block]:
         try:
             picture = case.diagram(kind, given, at=case.worked_place, **of)
         except LinkwrightError as error:
-            yield Paragraph(f"{case.say(TITLES[kind])}: {literal(case.told(error))}", "missing")
+            yield Paragraph(f"{case.say(title_of(kind))}: {literal(case.told(error))}", "missing")
             continue
         if len(links) > 1 and share_of(picture) < SMALL:
             half = len(links) // 2
