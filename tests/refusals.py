@@ -25,7 +25,13 @@ def refused(
     with pytest.raises(kind) as caught:
         yield caught
     assert caught.value.code == code, f'{caught.value.code}: "{caught.value}"'
-    agrees(caught.value.values, values)
+    agrees(values_of(caught.value), values)
+
+
+def values_of(error: LinkwrightError) -> Mapping[str, object]:
+    """What an error is about; of a ModelError what its first error is about and how to mend it."""
+    first = (each for each in getattr(error, "findings", ()) if each.severity == "error")
+    return {**next(map(_values, first), {}), **error.values}
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from io import StringIO
 from typing import Any
 
 import pytest
-from tests.refusals import agrees
+from tests.refusals import agrees, values_of
 
 from linkwright.cli import main
 from linkwright.errors import LinkwrightError, ModelError
@@ -80,7 +80,7 @@ def is_refused(arguments: list[str], key: str, /, ends: int = 2, **values: objec
     assert (ended.code, ended.out) == (ends, ""), ended.err or ended.out
     assert ended.told is not None and "Traceback" not in ended.err
     assert ended.told.code == key, f'{ended.told.code}: "{ended.told}"'
-    agrees(ended.told.values, values)
+    agrees(values_of(ended.told), values)
     return ended.told
 
 

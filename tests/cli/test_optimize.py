@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from tests.cli.commands import data, is_refused, run, shown
 from tests.cli.tables import numbers, rows
-from tests.refusals import agrees
+from tests.refusals import agrees, values_of
 
 import linkwright as lw
 from linkwright.cli import main
@@ -109,7 +109,7 @@ MISTAKES: list[tuple[str, str, str, str, str, dict[str, object]]] = [
     ("at least 60 deg", "more than 60 deg", "16:25", KEPT, "demand", {"given": "more than 60 deg"}),
     ("at least 60 deg", "> 60 deg", "16:27", "", "syntax", {}),
     ("peak_reaction B", "peak_raction B", "12:3", "optimize", "study.no_metric", {"offer": "peak_reaction"}),
-    ("minimize", "minimise", "14:13", "optimize.minimise", "unknown-key", {"offer": "minimize"}),
+    ("minimize", "minimise", "14:3", "optimize.minimise", "unknown-key", {"offer": "minimize"}),
 ]
 
 
@@ -125,7 +125,7 @@ def test_mistakes_in_the_section_are_found_at_their_lines(
     assert (first["where"], first["key"], first["code"]) == (f"press.yaml:{place}", key, code)
     told = run("optimize", str(file)).told
     assert told is not None
-    agrees(told.values, values)
+    agrees(values_of(told), values)
 
 
 def _places(*arguments: str) -> list[tuple[str, str]]:

@@ -169,7 +169,7 @@ def test_sheets_that_cannot_be_graded(found: lw.Variants) -> None:
 @pytest.mark.parametrize(
     ("course", "key", "code", "values"),
     [
-        ({"varry": {}}, "varry", "unknown-key", {"name": "varry", "offer": "vary"}),
+        ({"varry": {}}, "varry", "unknown-key", {"key_": "varry", "offer": "vary"}),
         (
             {"vary": {"crank.lenght": "8 %"}},
             "vary.crank.lenght",

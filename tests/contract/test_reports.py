@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from tests import store
-from tests.refusals import refused
+from tests.refusals import faulty, refused
 
 import linkwright as lw
 from linkwright.cli import main
@@ -19,20 +19,19 @@ CRANK = "gallery:crank_rocker"
 @pytest.mark.parametrize(
     ("given", "code", "key", "values"),
     [
-        ({"positoins": 3}, "unknown-key", "positoins", {"name": "positoins", "offer": "positions"}),
+        ({"positoins": 3}, "unknown-key", "positoins", {"key_": "positoins", "offer": "positions"}),
         ({"positions": 1}, "bad-positions", "positions", {"text": "1", "most": 10_000}),
         ({"fluctuation": "many"}, "bad-fluctuation", "fluctuation", {"text": "many"}),
         ({"sections": "task"}, "not-a-list", "sections", {}),
-        ({"errata": [{"where": "here"}]}, "missing-key", "errata.0.printed", {"name": "printed"}),
-        ({"zh": {"titel": "x"}}, "unknown-key", "zh.titel", {"name": "titel", "offer": "title"}),
+        ({"errata": [{"where": "here"}]}, "missing-key", "errata.0.printed", {"key_": "printed"}),
+        ({"zh": {"titel": "x"}}, "unknown-key", "zh.titel", {"key_": "titel", "offer": "title"}),
     ],
 )
 def test_settings_that_make_no_sense_are_refused(
     given: dict[str, object], code: str, key: str, values: dict[str, object]
 ) -> None:
-    with refused(code, lw.ModelError, **values) as caught:
+    with faulty(code, f"report.{key}", **values):
         lw.report(replace(store.machine("crank_rocker"), report=given))
-    assert caught.value.findings[0].key == f"report.{key}"
 
 
 def test_check_finds_settings_that_make_no_sense(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -41,7 +40,7 @@ def test_check_finds_settings_that_make_no_sense(tmp_path: Path, capsys: pytest.
     path.write_text(f"{model}\nreport: {{positoins: 3}}\ncourse: {{ask: [rocker.angel]}}\n", encoding="utf-8")
     assert main(["check", str(path), "--json"]) == 1
     (checked,) = json.loads(capsys.readouterr().out)["files"]
-    told = {(each["code"], each["key"]): each["message"] for each in checked["findings"]}
+    told = {(each["code"], each["key"]): each["message"] + each["remedy"] for each in checked["findings"]}
     assert set(told) == {("unknown-key", "report.positoins"), ("no-number", "course.ask.0")}
     assert '"positions"' in told["unknown-key", "report.positoins"]
     assert '"rocker.angle"' in told["no-number", "course.ask.0"]
