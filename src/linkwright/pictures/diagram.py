@@ -6,7 +6,8 @@ import importlib
 import io
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
+from contextvars import ContextVar
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -15,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.pictures.drawing import PIXELS, Drawing
-from linkwright.pictures.svg.fonts import given_fonts, installed_chinese
+from linkwright.pictures.svg.fonts import chinese_file, given_fonts
 from linkwright.pictures.svg.render import MOST_PIXELS, natural_size, pdf, png
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import _
@@ -44,22 +45,23 @@ REMEDY = _(
 )
 
 
-#: The name under which the chosen face stands in matplotlib's list, so that no other face of its family is taken.
+#: The name of the chosen face in matplotlib's list, so that no other face of its family is taken.
 ALIAS = "Linkwright Chinese"
 REGULAR, BOLD = 400, 700
 
 
 def chinese_font() -> str | None:
-    """Name in matplotlib's list of the regular face of a font with Chinese characters; None without one.
+    """Name in matplotlib's list of the face that writes Chinese; None where there is no font for it.
 
-    The face is chosen by name from the files that are given and those that lie in the system's folders now, whatever
-    matplotlib noted of fonts earlier, and of which weight it calls itself.
+    The file is that of all pictures, whatever matplotlib noted of fonts earlier, and of which weight it calls itself;
+    of its faces the one whose family comes first in ``CHINESE``.
     """
     from matplotlib import font_manager
 
-    face = _chinese_face(given_fonts(), installed_chinese())
-    if face is None:
+    file = chinese_file(given_fonts())
+    if file is None:
         return None
+    face = min(_faces(file), key=lambda each: ("Mono" in each.name, _place(each.name)))
     manager = font_manager.fontManager
     wanted = [replace(face, name=ALIAS, weight=weight) for weight in (REGULAR, BOLD)]
     if wanted[0] not in manager.ttflist:
@@ -70,51 +72,21 @@ def chinese_font() -> str | None:
     return ALIAS
 
 
+def _place(family: str) -> int:
+    return CHINESE.index(family) if family in CHINESE else len(CHINESE)
+
+
 @lru_cache(maxsize=8)
-def _chinese_face(given: tuple[Path, ...], installed: tuple[Path, ...]) -> Any:
-    """The face that writes Chinese best: given, not monospaced, of a family that comes early in ``CHINESE``, regular,
-    upright."""
-    from matplotlib import font_manager
-
-    found = [face for file in given for face in _faces(file) if _writes_chinese(file)]
-    found = found or [face for file in installed for face in _faces(file)]
-    listed = (
-        font
-        for font in font_manager.fontManager.ttflist
-        if font.name in CHINESE and Path(font.fname).exists()
-    )
-    found = found or list(listed)
-    return min(found, key=_rank, default=None)
-
-
-def _faces(file: Path) -> Iterator[Any]:
+def _faces(file: Path) -> list[Any]:
     """The faces of a font file, as matplotlib lists them."""
     from matplotlib import font_manager, ft2font
 
-    with suppress(
-        OSError, RuntimeError, TypeError
-    ):  # an older matplotlib reads the first face of a collection
-        first = ft2font.FT2Font(str(file))
-        yield font_manager.ttfFontProperty(first)
+    first = ft2font.FT2Font(str(file))
+    found: list[Any] = [font_manager.ttfFontProperty(first)]
+    with suppress(TypeError):  # an older matplotlib reads the first face of a collection
         for index in range(1, int(getattr(first, "num_faces", 1))):
-            yield font_manager.ttfFontProperty(ft2font.FT2Font(str(file), face_index=index))
-
-
-def _writes_chinese(file: Path) -> bool:
-    from matplotlib import ft2font
-
-    try:
-        return ord("中") in ft2font.FT2Font(str(file)).get_charmap()
-    except (OSError, RuntimeError):
-        return False
-
-
-def _rank(face: Any) -> tuple[float, ...]:
-    from matplotlib import font_manager
-
-    weight = font_manager.weight_dict.get(face.weight, face.weight)
-    place = CHINESE.index(face.name) if face.name in CHINESE else len(CHINESE)
-    return "Mono" in face.name, place, abs(float(weight) - REGULAR), face.style != "normal"
+            found.append(font_manager.ttfFontProperty(ft2font.FT2Font(str(file), face_index=index)))
+    return found
 
 
 def families(language: str) -> list[str]:
@@ -178,7 +150,7 @@ def style(language: str) -> Iterator[None]:
     except ImportError:
         raise LinkwrightError(
             _(
-                'diagrams need matplotlib; install it: pip install "linkwright[plot]"',
+                'diagrams of curves need matplotlib; install it: pip install "linkwright[plot]"',
                 code="picture.diagrams_need",
             )
         ) from None
@@ -187,6 +159,28 @@ def style(language: str) -> Iterator[None]:
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(settings)
         yield
+
+
+#: The language of the diagram that is being drawn, and what ends with it.
+_drawn_now: ContextVar[tuple[str, ExitStack]] = ContextVar("diagram")
+
+
+@contextmanager
+def drawing_in(language: str) -> Iterator[None]:
+    """A diagram is drawn in a language, from its first figure on in the style of diagrams."""
+    with ExitStack() as stack:
+        token = _drawn_now.set((language, stack))
+        stack.callback(_drawn_now.reset, token)
+        yield
+
+
+def new_figure(size: tuple[float, float]) -> Figure:
+    """An empty figure, width and height in inches; apart from matplotlib's global state."""
+    language, stack = _drawn_now.get()
+    stack.enter_context(style(language))
+    from matplotlib.figure import Figure as New
+
+    return New(figsize=size, layout="constrained")
 
 
 @dataclass(frozen=True)
@@ -318,10 +312,3 @@ def _laid_out(figure: Figure, dpi: float) -> Iterator[None]:
         yield
     finally:
         figure.set_layout_engine(engine)
-
-
-def new_figure(size: tuple[float, float]) -> Figure:
-    """An empty figure, width and height in inches; apart from matplotlib's global state."""
-    from matplotlib.figure import Figure as New
-
-    return New(figsize=size, layout="constrained")

@@ -77,7 +77,7 @@ def test_the_regular_face_of_a_collection_that_was_installed_after_the_list(
     stale.ttflist = [font for font in font_manager.fontManager.ttflist if font.name == "DejaVu Sans"]
     monkeypatch.setattr(font_manager, "fontManager", stale)
     monkeypatch.setattr(
-        "linkwright.pictures.diagram.installed_chinese", lambda: tuple(sorted(tmp_path.iterdir()))
+        "linkwright.pictures.svg.fonts.installed_chinese", lambda: tuple(sorted(tmp_path.iterdir()))
     )
     chosen = picture.chinese_font()
     assert chosen is not None

@@ -87,8 +87,7 @@ def test_the_regular_file_of_several() -> None:
         ("wqy-microhei.ttc", "wqy-zenhei-mono.ttc"),
         ("msyh.ttc", "msyhbd-bold.ttc", "simsun.ttc"),
     ):
-        assert fonts.regular(map(Path, [*others, regular])) == [Path(regular)]
-    assert fonts.regular([]) == []
+        assert fonts.chinese_file(map(Path, [*others, regular])) == Path(regular)
 
 
 def test_every_command_that_draws_takes_fonts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

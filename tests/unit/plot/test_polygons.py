@@ -1,6 +1,7 @@
 """Polygons: printed velocities, directions of the parts, closed forces, and a true scale on the paper."""
 
 import re
+import sys
 from collections.abc import Callable
 from xml.etree import ElementTree
 
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 from tests import store
 from tests.every import every
+from tests.refusals import refused
 
 import linkwright as lw
 from linkwright.pictures.picture import Line, Text
@@ -180,3 +182,12 @@ def test_the_drawn_scale_is_that_of_the_arrows() -> None:
         "".join(text for text, _ in each.runs) for each in cell.sketch.content if isinstance(each, Text)
     ]
     assert {"F05", "F45", "G5"} <= set(written)
+
+
+@pytest.mark.parametrize("kind", ["velocity_polygon", "force_polygon", "free_bodies", "flow_chart"])
+def test_pages_of_drawings_need_no_matplotlib(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    diagram = lw.plot(lw.solve_forces(at("jaw_crusher_sixbar", -40.0)), kind)
+    assert diagram.svg().startswith("<svg")
+    with refused("picture.diagrams_need"):
+        lw.plot(store.motion("crank_rocker", 12))

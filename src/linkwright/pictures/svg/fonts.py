@@ -54,11 +54,22 @@ def chinese_fonts(files: Iterable[Path]) -> tuple[Path, ...]:
     return tuple(file for file in files if known(file))
 
 
-def regular(files: Iterable[Path]) -> list[Path]:
-    """The one of some font files whose name is most that of a sans serif of regular weight; empty of none."""
-    return sorted(
-        files, key=lambda file: (sum(word in file.stem.lower() for word in _SPECIAL), len(file.stem))
-    )[:1]
+def chinese_file(given: Iterable[Path]) -> Path | None:
+    """The font file that writes Chinese: of those that are given, else of the installed ones, the one whose name is
+    most that of a sans serif of regular weight; None without one."""
+    files = tuple(given)
+    found = chinese_fonts(files) or tuple(filter(_writes_chinese, files)) or installed_chinese()
+    special = {file: sum(word in file.stem.lower() for word in _SPECIAL) for file in found}
+    return min(found, key=lambda file: (special[file], len(file.stem)), default=None)
+
+
+def _writes_chinese(file: Path) -> bool:
+    try:
+        from matplotlib.ft2font import FT2Font
+
+        return ord("中") in FT2Font(str(file)).get_charmap()
+    except (ImportError, OSError, RuntimeError):
+        return False
 
 
 def needs_chinese(text: str) -> bool:

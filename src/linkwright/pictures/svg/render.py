@@ -12,12 +12,11 @@ from typing import Any
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.pictures.svg.fonts import (
     check_fonts,
+    chinese_file,
     chinese_fonts,
     font_files,
     given_fonts,
-    installed_chinese,
     needs_chinese,
-    regular,
     system_fonts,
 )
 from linkwright.whole_files import write_whole
@@ -72,9 +71,9 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
 
 def _for_chinese(given: list[Path]) -> list[Path]:
     """Fonts of which one writes Chinese, in its regular face; of several resvg takes whichever it meets first."""
-    installed, named = installed_chinese(), chinese_fonts(given)
-    others = [file for file in (*given, *system_fonts()) if file not in named and file not in installed]
-    return [*(regular(named) or regular(installed)), *others]
+    chosen, others = chinese_file(given), (*given, *system_fonts())
+    rest = [file for file in others if file not in {*chinese_fonts(others), chosen}]
+    return rest if chosen is None else [chosen, *rest]
 
 
 def check_width(width: int | None, wide: float, tall: float, zoom: float = 1.0) -> None:

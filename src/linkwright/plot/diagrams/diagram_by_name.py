@@ -13,7 +13,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.machine.running import SteadyRunning
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.pictures.diagram import Diagram, style
+from linkwright.pictures.diagram import Diagram, drawing_in
 from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, Request
 from linkwright.plot.diagrams.source import Result, Source
 from linkwright.registry import listed
@@ -69,7 +69,7 @@ def plot(
 
     Raises:
         LinkwrightError: an unknown kind or name, an option that the kind has no use for, a diagram that makes no
-            sense for the mechanism, no matplotlib, or no font for Chinese.
+            sense for the mechanism, curves without matplotlib or without a font for Chinese.
     """
     require_language(language)
     own = _own_kind(result, kind)
@@ -104,7 +104,7 @@ def plot(
         size=size,
         language=language,
     )
-    with style(language):
+    with drawing_in(language):
         drawn = (
             RESULT_DIAGRAMS[name].draw(result, request) if own else DIAGRAMS[name]().draw(sources, request)
         )
