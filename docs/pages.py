@@ -23,11 +23,12 @@ from typing import Any
 
 import linkwright as lw
 from linkwright import gallery
+from linkwright.cli.commands.gallery import title_and_purpose
 from linkwright.core.attached import Plotted
 from linkwright.errors import LinkwrightError
 from linkwright.validation.validate import validate
 from linkwright.words import Message
-from linkwright.words.titles import title_said
+from linkwright.words.sentence import in_language
 
 sys.path.insert(0, str(Path(__file__).parent))
 import codes as coded
@@ -84,6 +85,7 @@ def reference() -> dict[Path, str]:
         found[ROOT / language / "model_file.md"] = model_file(language)
         found[ROOT / language / "functions.md"] = functions(language)
         found[ROOT / language / "codes.md"] = codes(language)
+        found[ROOT / language / "gallery.md"] = gallery_by_kinds(language)
     return {path: "\n".join(lines).rstrip() + "\n" for path, lines in found.items()}
 
 
@@ -129,10 +131,10 @@ def gallery_index(language: str) -> Iterator[str]:
     yield f"# {TITLES[language]}\n"
     yield "::::{grid} 1 2 3 3\n:gutter: 3\n"
     for name in gallery.names():
-        model = lw.load(f"gallery:{name}")
-        title = title_said(model.name, language)
+        model = title_and_purpose(name)
+        title = in_language(model["title"], language)
         yield f":::{{grid-item-card}} {title}\n:link: {name}\n:link-type: doc\n:img-top: ../../pictures/{name}.svg\n"
-        yield f"{first_sentence(purpose(name, model.purpose, language))}\n:::\n"
+        yield f"{first_sentence(in_language(model['purpose'], language))}\n:::\n"
     yield "::::\n"
     yield "```{toctree}\n:hidden:\n"
     yield from gallery.names()
@@ -144,23 +146,20 @@ def first_sentence(text: str) -> str:
     return escaped(re.split("[;；]", text)[0])
 
 
-def purpose(name: str, own: str, language: str) -> str:
-    """What a model is for; in Chinese from the page of the kinds of machines."""
-    return own if language == "en" else chinese_purposes()[name]
-
-
-@cache
-def chinese_purposes() -> dict[str, str]:
-    """Of every model of the gallery, from the tables of ``zh/gallery.md``."""
-    text = (ROOT / "zh/gallery.md").read_text("utf-8")
-    return dict(re.findall(r"^\| `(\w+)` \| (.+?) \| .+? \|$", text, re.MULTILINE))
+def gallery_by_kinds(language: str) -> Iterator[str]:
+    """The page as it is, with what every model is for in its tables."""
+    for line in (ROOT / language / "gallery.md").read_text("utf-8").splitlines():
+        if row := re.fullmatch(r"\| `(\w+)` \| .+ \| (.+?) \|", line):
+            purpose = in_language(title_and_purpose(row[1])["purpose"], language)
+            line = f"| `{row[1]}` | {purpose} | {row[2]} |"
+        yield line
 
 
 def gallery_page(name: str, language: str) -> Iterator[str]:
     """One model: picture, purpose, source, commands, structure, file."""
-    model, words = lw.load(f"gallery:{name}"), WORDS[language]
-    yield f"# {title_said(model.name, language)}\n"
-    yield f"{escaped(purpose(name, model.purpose, language))}\n"
+    model, words = lw.load(f"gallery:{name}").said_in(language), WORDS[language]
+    yield f"# {model.name}\n"
+    yield f"{escaped(model.purpose)}\n"
     if (EXTRA / "living" / f"{name}.html").exists():
         yield f'```{{raw}} html\n<iframe class="living" src="../../../living/{name}.html#lang={language}"'
         yield f'  loading="lazy" sandbox="allow-scripts allow-downloads" title="{words["living"]}"></iframe>\n```\n'

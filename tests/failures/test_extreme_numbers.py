@@ -20,7 +20,7 @@ EXTREME = [
 #: Kinds that search or simulate.
 LONG = ("program", "cam", "follower", "tolerance", "vibration")
 NUMBER = re.compile(r"(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?(?![\w.])")
-HEADING = re.compile(r"\s*(?:#|(?:format|name|purpose|source|expected)\b)")
+HEADING = re.compile(r"\s*(?:#|(?:format|name|purpose|source|en|zh|expected)\b)")
 
 
 def places(text: str) -> list[tuple[int, int]]:

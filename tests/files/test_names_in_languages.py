@@ -1,15 +1,23 @@
-"""A model's name, purpose and source in several languages: read, shown, written back."""
+"""Name, purpose and source of a file in several languages: read, shown, written back."""
 
 import copy
 import pickle
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+import yaml
+from tests.every import every
 from tests.refusals import findings
 
 import linkwright as lw
+from linkwright import gallery, parts
 from linkwright.cli import main
+from linkwright.validation.published import published
+from linkwright.words.sentence import in_language
+
+CHINESE = re.compile("[一-鿿]")
 
 TEXT = """\
 format: 1
@@ -34,14 +42,23 @@ def test_each_language_has_its_texts() -> None:
     assert (chinese.name, chinese.purpose, chinese.source) == ("薄板压力机", "冲压薄板", "Own sketch")
 
 
-def test_words_of_a_report_in_one_language_are_those_of_the_machine() -> None:
-    """Where the model itself gives none in that language."""
-    text = TEXT.replace(
-        "source: Own sketch", "source: Own sketch\nreport: {zh: {purpose: 冲压, source: 自绘草图}}"
-    )
-    chinese = lw.loads(text).said_in("zh")
-    assert (chinese.purpose, chinese.source) == ("冲压薄板", "自绘草图")
-    assert lw.loads(text).said_in("en").source == "Own sketch"
+def test_calculations_have_names_too() -> None:
+    found = parts.load("gallery:cantilever").solve()
+    for language, name in {"en": "Cantilever with a force", "zh": "受集中力的悬臂梁"}.items():
+        assert found.text(language).splitlines()[0] == found.worked(language).splitlines()[0] == name
+    assert found.data()["name"] == "Cantilever with a force"
+
+
+def test_the_gallery_is_told_in_every_language() -> None:
+    for name in every((*gallery.names(), *gallery.calculations(), *gallery.tasks()), least=90):
+        given = yaml.safe_load(gallery.file(name).read_text("utf-8"))
+        assert all(set(given[key]) == set(NAMES) for key in ("name", "purpose", "source")), name
+        assert all(CHINESE.search(given[key]["zh"]) for key in ("name", "purpose")), name
+
+
+def test_published_cases_are_told_in_every_language() -> None:
+    for each in every(published(), least=100):
+        assert CHINESE.search(in_language(each.case, "zh")) and not CHINESE.search(each.case)
 
 
 @pytest.mark.parametrize(

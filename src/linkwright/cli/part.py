@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -59,9 +58,7 @@ def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
 def read(source: str, command: str, session: Session) -> Problem:
     """The problem of a file; UsageError where its kind belongs to another command."""
     from linkwright.files.calculations import COMMANDS
-    from linkwright.files.source import GALLERY
     from linkwright.parts.file import kind_of, load
-    from linkwright.words.titles import title_said
 
     kind = kind_of(source)
     if kind in COMMANDS and COMMANDS[kind] != command:
@@ -77,10 +74,6 @@ def read(source: str, command: str, session: Session) -> Problem:
     problem = load(source)
     for each in problem.warnings:
         session.tell(session.finding(each))
-    if source.startswith(GALLERY) and not session.json:
-        title = title_said(problem.name, session.language)
-        if title != problem.name:  # a copy finds again what the problem has found of itself
-            return replace(problem, name=title)  # type: ignore[call-arg]
     return problem
 
 

@@ -23,8 +23,8 @@ from linkwright.mechanism.link import Link, Vec
 from linkwright.mechanism.named_output import NamedOutput
 from linkwright.registry import nearest, no_such
 from linkwright.units import LARGEST_OF_ALL, SI_UNITS, Dimension
-from linkwright.words import LANGUAGES, _
-from linkwright.words.sentence import Worded, in_language
+from linkwright.words import _
+from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
     from linkwright.core.expressions import Expression
@@ -228,24 +228,10 @@ class Mechanism(Frozen):
         return joint.joined if joint is not None and joint.coordinate == "turn" else ()
 
     def said_in(self, language: str) -> Mechanism:
-        """The same with name, purpose and source in a language, where the file gives them in several, or under that
-        language of its report."""
-        told = {key: self._worded(key) for key in ("name", "purpose", "source")}
+        """The same with name, purpose and source in a language, where the file gives them in several."""
+        told = {"name": self.name, "purpose": self.purpose, "source": self.source}
         said = {key: in_language(text, language) for key, text in told.items()}
-        return self._changed({}, **said) if any(isinstance(text, Worded) for text in told.values()) else self
-
-    def _worded(self, key: str) -> str:
-        """A text of the file in all languages in which the file gives it."""
-        text: str = getattr(self, key)
-        report = {each: self.report.get(each) for each in LANGUAGES}
-        own = {
-            each: str(words[key])
-            for each, words in report.items()
-            if isinstance(words, Mapping) and key in words
-        }
-        if isinstance(text, Worded):
-            return Worded({**own, **text.texts})
-        return Worded({**dict.fromkeys(LANGUAGES, text), **own}) if own else text
+        return self if said == told else self._changed({}, **said)
 
     @attached
     def structure(self) -> Any:

@@ -110,11 +110,9 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
 
 def _said(mechanism: Mechanism, text: str) -> Plain:
     """Name, purpose and source in every language; the text of the file."""
-    said = {language: mechanism.said_in(language) for language in LANGUAGES}
-    told = {
-        key: {each: getattr(said[each], key) for each in LANGUAGES} for key in ("name", "purpose", "source")
-    }
-    return {**told, "text": text}
+    told = {"name": mechanism.name, "purpose": mechanism.purpose, "source": mechanism.source}
+    said = {key: {each: in_language(given, each) for each in LANGUAGES} for key, given in told.items()}
+    return {**said, "text": text}
 
 
 def _machine(motion: Motion) -> Machine:

@@ -21,6 +21,7 @@ from linkwright.equations.steps import Equation, Step
 from linkwright.errors import Finding, ModelError, speaker
 from linkwright.fields.base import Field, GivenByFile, given_by_file
 from linkwright.words import Message, Say
+from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
     from typing import Self
@@ -125,7 +126,8 @@ class Result(Plotted, ABC):
     @property
     def title(self) -> str:
         """Name of the problem, which is the result's first field."""
-        return str(getattr(self, fields(self)[0].name).name)  # type: ignore[arg-type]
+        name: str = getattr(self, fields(self)[0].name).name  # type: ignore[arg-type]
+        return name
 
     @abstractmethod
     def blocks(self, say: Say) -> list[Block]:
@@ -159,7 +161,7 @@ class Result(Plotted, ABC):
     def text(self, language: str = "en", digits: int = 6) -> str:
         """The numbers as a table in words of the language (``en``, ``zh``)."""
         say = speaker(language)
-        lines = [self.title]
+        lines = [in_language(self.title, language)]
         for block in tidy(self.blocks(say)):
             lines += ["", *block.lines(self.labels, say, digits)]
         return "\n".join(lines)
@@ -172,7 +174,7 @@ class Result(Plotted, ABC):
         """The worked solution as plain text."""
         from linkwright.equations.text import page
 
-        return page((self.title,), self.tidy_steps(speaker(language)))
+        return page((in_language(self.title, language),), self.tidy_steps(speaker(language)))
 
     def __repr__(self) -> str:
         return self.text()

@@ -34,7 +34,6 @@ from linkwright.report.settings import Chapter, Settings
 from linkwright.synthesis.task_file import TaskFile
 from linkwright.words import _
 from linkwright.words.sentence import in_language
-from linkwright.words.titles import title_said
 
 #: Characters across a page in a table.
 WIDEST = 108
@@ -54,7 +53,7 @@ def add_part(document: Document, part: Part, *, asked: bool) -> None:
 
 def _add_chapter(document: Document, part: Part, chapter: Chapter) -> None:
     """Adds an own chapter, within the part of a machine where it belongs to one of several."""
-    shift, prefix = (1, f"{part.within}: ") if part.within else (0, "")
+    shift, prefix = (1, f"{in_language(part.within, document.language)}: ") if part.within else (0, "")
     heading = Heading(own_words(chapter.title), 1, chapter.label)
     for block in chain([heading], _own(chapter.text, part.own, document, prefix + chapter.title)):
         document.blocks += [
@@ -67,7 +66,7 @@ def _add_calculation(document: Document, part: Part, problem: Problem | TaskFile
     from linkwright.report.calculation import OwnText, calculation
     from linkwright.report.sections.synthesis import task_chapter
 
-    name = title_said(problem.name, document.language)
+    name = in_language(problem.name, document.language)
     say, language = document.say, document.language
     try:
         for block in (

@@ -17,7 +17,6 @@ from linkwright.report.sections.method import printed
 from linkwright.report.settings import Settings
 from linkwright.words import Message, Say, _
 from linkwright.words.sentence import in_language
-from linkwright.words.titles import title_said
 
 #: Sections of machines' reports whose own text stands behind a heading of a calculation, by the heading.
 PLACES: Mapping[Message, str] = {
@@ -50,12 +49,12 @@ def calculation(problem: Problem, own: Settings, say: Say, language: str) -> Ite
         yield OwnText(text)
     if own.errata:
         yield Heading(say(_("Mistakes of the source")), 2)
-        yield from errata_blocks(own.errata, own.source or problem.source, say)
+        yield from errata_blocks(own.errata, in_language(own.source or problem.source, language), say)
 
 
 def _chapters(problem: Problem, found: Result, own: Settings, say: Say, language: str) -> Iterator[Block]:
     """Heading, purpose, given data, sketch, solution and results."""
-    yield Heading(literal(title_said(found.title, language)), 1)
+    yield Heading(literal(in_language(found.title, language)), 1)
     purpose, source = (
         in_language(each, language) for each in (own.purpose or problem.purpose, own.source or problem.source)
     )
@@ -126,7 +125,7 @@ def _sketch(problem: Problem, say: Say, language: str) -> Iterator[Block]:
         yield Heading(say(_("Sketch")), 2)
         yield Figure(
             say(
-                _("Supports, loads and dimensions: {name}", name=literal(title_said(problem.name, language)))
+                _("Supports, loads and dimensions: {name}", name=literal(in_language(problem.name, language)))
             ),
             ((drawn.svg, WIDE),),
             tallest=TALLEST,
@@ -137,7 +136,7 @@ def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
     """Its own drawing, where it has one, and its diagrams."""
     draw = getattr(found, "draw", None)
     if draw is not None:
-        yield Figure(literal(title_said(found.title, language)), ((draw(language=language).svg, 0.5),))
+        yield Figure(literal(in_language(found.title, language)), ((draw(language=language).svg, 0.5),))
     from linkwright.plot.diagrams.base import RESULT_DIAGRAMS
 
     for kind in sorted(RESULT_DIAGRAMS, key=lambda each: not RESULT_DIAGRAMS[each].usual):
@@ -150,6 +149,6 @@ def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
                 yield Paragraph(literal(error.say(language)), "missing")
             continue
         yield Figure(
-            f"{literal(title_said(found.title, language))}: {say(RESULT_DIAGRAMS[kind].title)}",
+            f"{literal(in_language(found.title, language))}: {say(RESULT_DIAGRAMS[kind].title)}",
             ((svg, 0.75),),
         )

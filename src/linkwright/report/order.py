@@ -13,7 +13,7 @@ from linkwright.report.section import SECTIONS, Section, section_names
 from linkwright.report.settings import BESIDE_SECTIONS, Chapter, Settings
 from linkwright.synthesis.task_file import TaskFile
 from linkwright.words import _
-from linkwright.words.titles import title_said
+from linkwright.words.sentence import in_language
 
 REST, CALCULATIONS = BESIDE_SECTIONS
 #: The section that reports on calculations alone have, too.
@@ -29,7 +29,7 @@ class Calculation:
 
     def title(self, language: str) -> str:
         """Its name in a language."""
-        return title_said(self.problem.name, language)
+        return in_language(self.problem.name, language)
 
 
 @dataclass(frozen=True)

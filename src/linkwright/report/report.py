@@ -25,7 +25,6 @@ from linkwright.report.settings import settings, worked_place
 from linkwright.synthesis.task_file import TaskFile, task_file
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import _
-from linkwright.words.titles import title_said
 
 ENDINGS = (".pdf", ".html", ".docx", ".typ")
 
@@ -213,7 +212,7 @@ def _cases(
         if isinstance(each, TaskFile):
             found.append(Calculation(each, settings(each.report, language, None, _beside(folder, each.file))))
             continue
-        mechanism = each if isinstance(each, Mechanism) else _loaded(str(each), language)
+        mechanism = each if isinstance(each, Mechanism) else load(str(each))
         mechanism = mechanism.said_in(language)
         source = next(files, "" if isinstance(each, Mechanism) else str(each))
         own = dict(mechanism.report)
@@ -236,11 +235,3 @@ def _cases(
 def _beside(folder: str | Path, file: str) -> str:
     """Where pictures lie: a folder that is named, else that of the file."""
     return str(folder) if folder or file.startswith(GALLERY) else os.path.dirname(file)
-
-
-def _loaded(source: str, language: str) -> Mechanism:
-    """The model of a file; one of the gallery has its title in the language."""
-    mechanism = load(source)
-    if not source.startswith(GALLERY):
-        return mechanism
-    return replace(mechanism, name=title_said(mechanism.name, language))

@@ -25,7 +25,6 @@ from linkwright.sheets.written import svg
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import _
 from linkwright.words.sentence import in_language
-from linkwright.words.titles import title_said
 
 #: Size of a kind of sheet where none is asked for, if it is not A1.
 USUAL = {"cam": "A2"}
@@ -138,7 +137,7 @@ def sheet(
         own = section
     chosen = kind or ("mechanism" if isinstance(drawn, Mechanism) else str(drawn.kind))
     report = drawn.report if isinstance(drawn, Mechanism) else {}
-    name = title_said(in_language(drawn.name, language), language)
+    name = in_language(drawn.name, language)
     wanted = settings(own, language, size=size or "", report=report, name=name, usual=USUAL.get(chosen, "A1"))
     if chosen not in SHEETS:
         raise RequestError(

@@ -14,9 +14,8 @@ from linkwright.fields.reading import Place
 from linkwright.files.model_file import is_task, read_nodes
 from linkwright.files.read_model import HEADER, TASK_KEYS
 from linkwright.files.reader import Reader
-from linkwright.files.source import GALLERY, read_source
+from linkwright.files.source import read_source
 from linkwright.words.sentence import in_language
-from linkwright.words.titles import title_said
 
 HEADING = tuple(key for key in TASK_KEYS if key in HEADER and key not in ("expected", "synthesis"))
 
@@ -32,11 +31,10 @@ class TaskFile:
     report: Mapping[str, Any] = field(default_factory=dict)
 
     def said_in(self, language: str) -> TaskFile:
-        """The same with its texts in a language; one of the gallery has its title there."""
-        name = in_language(self.name, language)
+        """The same with its texts in a language."""
         return replace(
             self,
-            name=title_said(name, language) if self.file.startswith(GALLERY) else name,
+            name=in_language(self.name, language),
             purpose=in_language(self.purpose, language),
             source=in_language(self.source, language),
         )

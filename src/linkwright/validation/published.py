@@ -12,6 +12,7 @@ from linkwright import gallery
 from linkwright.core.dataclass import dataclass
 from linkwright.files.model_file import load
 from linkwright.words import _
+from linkwright.words.sentence import Worded
 
 #: Units of the last printed digit by which a rounded number may differ.
 ROUNDED = 0.51
@@ -64,7 +65,7 @@ def from_data() -> Iterator[Published]:
 
     folder = files(__package__) / "data"
     for entry in yaml.safe_load((folder / "published.yaml").read_text("utf-8")):
-        head = entry["case"], entry["source"], entry["probe"]
+        head = Worded(entry["case"]), entry["source"], entry["probe"]
         within = float(entry.get("within", ROUNDED))
         if "table" in entry:
             rows = csv.DictReader((folder / entry["table"]).read_text("utf-8").splitlines())

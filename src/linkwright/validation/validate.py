@@ -14,7 +14,6 @@ from linkwright.validation.probes import PROBES
 from linkwright.validation.published import Published, Reference, published
 from linkwright.words import _
 from linkwright.words.sentence import in_language
-from linkwright.words.titles import title_said
 
 
 @dataclass(frozen=True)
@@ -84,7 +83,7 @@ class Validation:
             worst = max(checks, key=lambda each: abs(each.digits))
             agree = sum(each.ok for each in checks)
             counts = len(checks), _printed(checks), agree
-            rows.append([title_said(case, language), *counts, Amount(abs(worst.digits), digits=2)])
+            rows.append([in_language(case, language), *counts, Amount(abs(worst.digits), digits=2)])
         lines = Table(head, rows).lines(language, width)
         shown = self.checks if every else [each for each in self.checks if not each.ok or each.erratum]
         lines += ["", *(line(each, language) for each in shown)] if shown else []
@@ -134,7 +133,7 @@ class Validation:
         for (case, source), checks in self.cases().items():
             agree, worst = sum(each.ok for each in checks), max(abs(each.digits) for each in checks)
             counts = len(checks), _printed(checks), agree
-            cells = (title_said(case, language), source, *counts, f"{worst:.1f}")
+            cells = (in_language(case, language), in_language(source, language), *counts, f"{worst:.1f}")
             lines.append(f"| {' | '.join(str(each).replace('|', '/') for each in cells)} |")
         return "\n".join(lines)
 
@@ -149,7 +148,7 @@ def line(each: Checked, language: str) -> str:
     say = speaker(language)
     number = each.reference.text
     words = {
-        "case": f"{title_said(each.case.case, language)} {each.case.place}".rstrip(),
+        "case": f"{in_language(each.case.case, language)} {each.case.place}".rstrip(),
         "what": each.reference.what,
         "given": say(
             (_("printed {number}") if each.reference.printed else _("derived {number}")).format(number=number)

@@ -31,7 +31,7 @@ from linkwright.report.section import SECTIONS
 from linkwright.report.sections.reactions import loaded_joints
 from linkwright.report.settings import settings
 from linkwright.words import LANGUAGES, _, pgettext, say
-from linkwright.words.titles import title_said
+from linkwright.words.sentence import in_language
 
 typst = pytest.importorskip("typst")
 LIGHT = ["task", "structure", "method", "tables", "torque", "limits", "appendix", "references"]
@@ -106,7 +106,9 @@ def test_calculations_and_cams_have_reports_beside_machines(name: str) -> None:
     found = report(["gallery:crank_rocker", f"gallery:{name}"], sections=["structure"], language="zh")
     titles = [plain(b.text) for b in found.document.blocks if isinstance(b, Heading) and b.level == 1]
     problem = lw.parts.load(f"gallery:{name}")
-    assert titles == [title_said(name, "zh") for name in (lw.load("gallery:crank_rocker").name, problem.name)]
+    assert titles == [
+        in_language(name, "zh") for name in (lw.load("gallery:crank_rocker").name, problem.name)
+    ]
     printed = {
         cell
         for b in found.document.blocks

@@ -12,6 +12,7 @@ from linkwright.cli.session import Session
 from linkwright.errors import with_remedy
 from linkwright.registry import nearest
 from linkwright.words import _
+from linkwright.words.sentence import Worded, in_language
 
 SUMMARY = _("machines and calculations that come with Linkwright: list, show, copy")
 DESCRIPTION = _(
@@ -60,24 +61,21 @@ def run(options: argparse.Namespace, session: Session) -> int:
 def _list(options: argparse.Namespace, session: Session) -> int:
     from linkwright import gallery
 
-    models = [_heading(name) for name in gallery.names() if options.name is None or options.name in name]
-    parts = [
-        _heading(name) for name in gallery.calculations() if options.name is None or options.name in name
-    ]
-    tasks = [_heading(name) for name in gallery.tasks() if options.name is None or options.name in name]
+    models, parts, tasks = (
+        [title_and_purpose(name) for name in names if (options.name or "") in name]
+        for names in (gallery.names(), gallery.calculations(), gallery.tasks())
+    )
     entries = [*models, *parts, *tasks]
     if session.json:
         session.show_data(entries)
         return 0
-    from linkwright.words.titles import title_said
-
     wide = max((len(entry["name"]) for entry in entries), default=0)
     for entry in entries:
         if parts and entry is parts[0]:
             session.show(f"\n{session.say(CALCULATIONS)}")
         if tasks and entry is tasks[0]:
             session.show(f"\n{session.say(TASKS)}")
-        name, title = entry["name"], title_said(entry["title"], session.language)
+        name, title = entry["name"], in_language(entry["title"], session.language)
         session.show(f"{session.strong(name)}{' ' * (wide - len(name))}  {title}")
     session.show()
     session.show(
@@ -89,7 +87,7 @@ def _list(options: argparse.Namespace, session: Session) -> int:
 def _show(options: argparse.Namespace, session: Session) -> int:
     name, text = _text(options)
     if session.json:
-        session.show_data({**_heading(name), "text": text})
+        session.show_data({**title_and_purpose(name), "text": text})
     else:
         session.show_as_is(text.rstrip("\n"))
     return 0
@@ -130,16 +128,14 @@ def _text(options: argparse.Namespace) -> tuple[str, str]:
     return name, gallery.file(name).read_text(encoding="utf-8")
 
 
-def _heading(name: str) -> dict[str, str]:
+def title_and_purpose(name: str) -> dict[str, str]:
     """Title and purpose from the first lines of a gallery file, without reading the model."""
     from linkwright import gallery
+    from linkwright.files.model_file import read_nodes
+    from linkwright.files.reader import Reader
 
-    found = {"name": name, "title": "", "purpose": ""}
-    keys = {"name": "title", "purpose": "purpose"}
-    for line in gallery.file(name).read_text(encoding="utf-8").splitlines():
-        key, _unused, value = line.partition(": ")
-        if key in keys and not found[keys[key]]:
-            found[keys[key]] = value.strip().strip("\"'")
-        if all(found.values()):
-            break
-    return found
+    first, _unused, _unused2 = gallery.file(name).read_text(encoding="utf-8").partition("\nsource:")
+    root, _unused3 = read_nodes(first, name)
+    assert root is not None
+    given = Reader(name).free(root)
+    return {"name": name, "title": Worded(given["name"]), "purpose": Worded(given["purpose"])}

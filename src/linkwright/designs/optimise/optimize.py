@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -41,7 +40,6 @@ from linkwright.kinematics.outcome import PositionError
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, _
-from linkwright.words.titles import title_said
 
 #: Evaluations where designs go one after the other and nobody says how many; the name of a population that is kept.
 SLOW, POPULATION = 400, "population"
@@ -139,7 +137,7 @@ def _source(
             _(
                 '{name} has no section "optimize"; add one with vary: and minimize:, or give them here',
                 code="optimize.no_section",
-                name=partial(title_said, mechanism.name),
+                name=mechanism.name,
             )
         )
     return mechanism, document, given
@@ -415,7 +413,7 @@ class _Run:
 
     def _nothing(self, judged: Judged) -> Message:
         """Why no design has all numbers: none of them moves, or some numbers have no value for any."""
-        name = partial(title_said, self.task.problem.mechanism.name)
+        name = self.task.problem.mechanism.name
         none = tuple(text for text, each in judged.values.items() if not np.isfinite(each).any())
         asked, nearest = self.task.problem, list[tuple[int, str, PositionError]]()
         addresses = [each.address for each in asked.variables]

@@ -12,7 +12,6 @@ from linkwright.designs.finished_parts import RESUME
 from linkwright.designs.optimise.optimum import Choice, Optimum
 from linkwright.errors import speaker
 from linkwright.words import Say, _
-from linkwright.words.titles import title_said
 
 #: Designs of a front that are listed.
 LISTED = 24
@@ -21,7 +20,7 @@ LISTED = 24
 def text(found: Optimum, language: str = "en") -> str:
     """Title, the best design beside the start, the front, and notes."""
     tell = speaker(language)
-    name = title_said(found.problem.mechanism.name, language)
+    name = found.problem.mechanism.name
     lines = [tell(_("{name}: {goals}", name=name, goals=_goals(found, language))), ""]
     lines += comparison(found, found.best, language).lines()
     if len(found.problem.goals) > 1:
