@@ -25,10 +25,11 @@ INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE, TEAL = (
 COLOURS = (INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE, TEAL)
 
 
-def arrow_rules(name: str, colour: str, width: float = 2.0) -> str:
+def arrow_rules(name: str, colour: str, width: float = 2.0, dash: str = "") -> str:
     """The rules of an arrow's line, head and name."""
+    dashes = f";stroke-dasharray:{dash}" if dash else ""
     return (
-        f".lw-{name}-line{{fill:none;stroke:{colour};stroke-width:{width}}}"
+        f".lw-{name}-line{{fill:none;stroke:{colour};stroke-width:{width}{dashes}}}"
         f".lw-{name}-head{{fill:{colour};stroke:none}}.lw-{name}-name{{fill:{colour};font-style:italic}}"
     )
 

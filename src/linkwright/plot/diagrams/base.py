@@ -65,10 +65,14 @@ class Request:
             else told
         )
 
+    def heading(self, title: str) -> str:
+        """What stands above a diagram: the title that is asked for, else its own."""
+        return title if self.title is None else self.title
+
 
 def framed(figure: Figure, title: str, request: Request, legend: Legend | None = None) -> None:
     """The title: the one asked for, or this one; none where an empty one is asked for. The legend goes below."""
-    text = printable(title if request.title is None else request.title)
+    text = printable(request.heading(title))
     if text:
         figure.suptitle(wrapped(text, figure.get_size_inches()[0]), x=0.02, ha="left", color=INK)
     if legend is not None:

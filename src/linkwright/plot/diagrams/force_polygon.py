@@ -92,12 +92,11 @@ class ForcePolygon(Kind):
         cells = [position_cell(forces.motion, say), *(polygon_cell(forces, *each) for each in parts.items())]
         roles = {PLAIN.get(force.role, force.role) for each in parts.values() for force in each}
         wide = page_width(cells[:IN_ROW], IN_ROW)
-        heading = request.titled(source.label, f"{say(self.title)}, {source.place_text(forces.motion, say)}")
+        title = request.titled(source.label, f"{say(self.title)}, {source.place_text(forces.motion, say)}")
         numbered = fold(", ".join(links_said(link_numbers(forces.mechanism), request.language)), wide, SIZE)
         below = [key([(say(ROLES[role]), style) for role, style in STYLES.items() if role in roles])]
         below += [[((line, "lw-legend"), 0.0)] for line in numbered]
-        shown = heading if request.title is None else request.title
-        return page(cells, IN_ROW, below, shown, heading)
+        return page(cells, IN_ROW, below, request.heading(title), title)
 
 
 def polygon_cell(forces: Forces, link: str, found: Sequence[Action]) -> Cell:

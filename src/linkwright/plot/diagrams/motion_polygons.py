@@ -55,10 +55,7 @@ LOOKS = {
     "coriolis": (PURPLE, "6 3"),
     "sliding": (TEAL, "6 3"),
 }
-CSS = "".join(
-    f"{arrow_rules(role, colour, 1.8)}.lw-{role}-line{{stroke-dasharray:{dash or 'none'}}}"
-    for role, (colour, dash) in LOOKS.items()
-)
+CSS = "".join(arrow_rules(role, colour, 1.8, dash) for role, (colour, dash) in LOOKS.items())
 #: What the parts of a polygon are.
 ROLES = {
     "absolute": _("absolute"),
@@ -105,15 +102,15 @@ class MotionPolygons(Kind):
         self, source: Source, motion: Motion, polygon: MotionPolygon, scale: float, request: Request
     ) -> Drawing:
         say = request.say
-        title = scale_title(say(_("polygon")), self.letter, f"{significant(scale)} {self.unit}/mm")
+        scale_text = scale_title(say(_("polygon")), self.letter, f"{significant(scale)} {self.unit}/mm")
         bar = f"{significant(BAR * MILLIMETRE * scale)} {self.unit}"
         cells = [
             position_cell(motion, say),
-            Cell(_sketch(polygon, scale, self.prime), (title,), bar),
+            Cell(_sketch(polygon, scale, self.prime), (scale_text,), bar),
         ]
         roles = {step.role for step in polygon.steps}
         subject = f"{say(self.title)}, {source.place_text(motion, say)}"
-        heading = request.titled(source.label, subject)
+        title = request.titled(source.label, subject)
         return page(
             cells,
             2,
@@ -121,8 +118,8 @@ class MotionPolygons(Kind):
                 key([(say(ROLES[role]), f"lw-{role}") for role in LOOKS if role in roles]),
                 *_columns(_table(polygon, self.unit), page_width(cells, 2)),
             ],
-            heading if request.title is None else request.title,
-            heading,
+            request.heading(title),
+            title,
             CSS,
         )
 

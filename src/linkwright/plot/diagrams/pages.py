@@ -35,8 +35,7 @@ class FlowChart(Kind):
         (source,) = sources
         nodes = flow_chart_steps(source.motion, range(source.motion.steps), request.language)
         title = request.titled(source.label)
-        heading = title if request.title is None else request.title
-        (svg,) = flow_chart_pages(nodes, title, columns=len(nodes), heading=heading)
+        (svg,) = flow_chart_pages(nodes, title, columns=len(nodes), heading=request.heading(title))
         return Drawing(svg)
 
 
@@ -70,6 +69,6 @@ class FreeBodies(Kind):
             of=links,
             columns=3 if len(forces.mechanism.links) > 4 else 2,
             tallest=math.inf,
-            heading=title if request.title is None else request.title,
+            heading=request.heading(title),
         )
         return Drawing(svg)

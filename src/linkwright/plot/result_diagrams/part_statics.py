@@ -54,9 +54,9 @@ def _polygons(vectors: Mapping[str, Floats], sought: Container[str], total: Floa
     ]
 
 
-def _page(cells: Sequence[Cell], title: str, request: Request) -> Drawing:
-    heading = request.titled(title)
-    return page(cells, len(cells), (), heading if request.title is None else request.title, heading)
+def _page(cells: Sequence[Cell], name: str, request: Request) -> Drawing:
+    title = request.titled(name)
+    return page(cells, len(cells), (), request.heading(title), title)
 
 
 @result_diagram("resultant", _("force polygon"), Resultant)

@@ -10,6 +10,7 @@ from linkwright.report.document import Block, Figure, Heading, Paragraph, litera
 from linkwright.report.machine_results import Case, Missing, picture
 from linkwright.report.section import section
 from linkwright.report.sections.method import printed
+from linkwright.report.sections.worked_position import to_scale
 from linkwright.report.settings import Settings
 from linkwright.synthesis.result import Synthesis, SynthesisError
 from linkwright.synthesis.task_file import TaskFile
@@ -83,13 +84,16 @@ def _figure(found: Synthesis, kind: str, language: str) -> Iterator[Block]:
 
     if not RESULT_DIAGRAMS[kind].suits(found):
         return
-    caption = speaker(language)(CAPTIONS[kind])
+    say = speaker(language)
     try:
-        yield Figure(
-            caption, ((picture(found.plot(kind, language=language, title="")), _width(found, kind)),)
-        )
+        shown = picture(found.plot(kind, language=language, title=""))
     except LinkwrightError as error:
         yield Paragraph(literal(error.say(language)), "missing")
+        return
+    if kind == "construction":
+        yield to_scale(say, say(CAPTIONS[kind]), shown)
+    else:
+        yield Figure(say(CAPTIONS[kind]), ((shown, _width(found, kind)),))
 
 
 def _width(found: Synthesis, kind: str) -> float:

@@ -21,7 +21,7 @@ from linkwright.report.document import (
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
 from linkwright.report.sections.method import printed
-from linkwright.words import _
+from linkwright.words import Say, _
 from linkwright.worked.solution import Worked
 
 #: A point, the width of the text and the tallest polygon, mm.
@@ -92,7 +92,10 @@ def _polygons(case: Case) -> Iterator[Block]:
             half = len(links) // 2
             pages[:0] = [(kind, links[:half]), (kind, links[half:])]
             continue
-        yield to_scale(case, kind, picture, again=kind in drawn)
+        caption = case.say(CAPTIONS[kind])
+        again = kind in drawn
+        shown = case.say(_("{caption} (continued)", caption=caption)) if again else caption
+        yield to_scale(case.say, shown, picture, "" if again else kind)
         drawn.append(kind)
 
 
@@ -114,18 +117,15 @@ def share_of(picture: str) -> float:
     return min(1.0, TEXT / wide, TALLEST / high)
 
 
-def to_scale(case: Case, kind: str, picture: str, *, again: bool = False) -> Figure:
-    """A polygon in its own size, so that a millimetre is one; where it must be smaller the caption says so."""
+def to_scale(say: Say, caption: str, picture: str, label: str = "") -> Figure:
+    """A picture in its own size, so that a millimetre is one; where it must be smaller the caption says so."""
     wide, share = natural_size(picture)[0] / PIXELS, share_of(picture)
-    caption = case.say(CAPTIONS[kind])
-    if again:
-        caption = case.say(_("{caption} (continued)", caption=caption))
     if share < 0.995:
-        caption = case.say(
+        caption = say(
             _(
                 "{caption} (printed at {percent} % of the scale that it states)",
                 caption=caption,
                 percent=f"{100 * share:.0f}",
             )
         )
-    return Figure(caption, ((picture, share * wide / TEXT),), "" if again else kind, TALLEST)
+    return Figure(caption, ((picture, share * wide / TEXT),), label, TALLEST)
