@@ -160,9 +160,8 @@ def _growth(count: int) -> float:
 
     def sweep(count: int) -> tuple[object, object]:
         columns = around(crusher, LENGTHS[1:3], count)
-        return columns, lw.sweep(
-            crusher, columns, outputs=["driver.effort max", "driver.effort rms"], threads=1
-        )
+        outputs = ["driver.effort max", "driver.effort rms"]
+        return columns, lw.sweep(crusher, columns, outputs=outputs, steps=360, threads=1)
 
     kept = sweep(count // 100)
     before = _peak()

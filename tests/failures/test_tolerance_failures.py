@@ -136,6 +136,6 @@ def test_teeth_of_a_module_take_a_tolerance_within_their_clearance() -> None:
     head = HEAD.replace("crank_rocker", "gear_differential") + "of: [sun_2.angular_velocity max]\n"
     found = parts.loads(f"{head}dimensions: {{carrier.A.x: 0.05 mm}}\n", "t.yaml").solve()
     (name,) = found.summaries
-    assert found.derivatives.gradient(name) == pytest.approx([0.0], abs=1e-12)
+    assert found.gradients.gradient(name) == pytest.approx([0.0], abs=1e-12)
     with faulty("wheels", "dimensions.carrier.A.x", mesh="external", wanted="0.06 m"):
         parts.loads(f"{head}dimensions: {{carrier.A.x: 0.6 mm}}\n", "t.yaml").solve()

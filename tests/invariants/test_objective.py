@@ -50,7 +50,7 @@ def swing(forces):
 )
 def test_value_and_gradient_through_the_load_between_limit_positions(term, number, names, backend):
     crusher = stored(SIXBAR)
-    f = lw.objective(crusher, term, vary=names, backend=backend)
+    f = lw.objective(crusher, term, vary=names, steps=360, backend=backend)
     value, gradient = f(f.start)
     assert value == pytest.approx(number(loaded(SIXBAR)), rel=1e-12)
 
@@ -70,7 +70,8 @@ def test_a_peak_is_the_larger_side_whatever_its_sign(direction):
 
 def test_a_load_over_an_interval_of_the_input():
     conveyor = stored("swing_conveyor")
-    f = lw.objective(conveyor, "driver.effort rms", vary=["coupler.length", "loads.resistance.magnitude"])
+    names = ["coupler.length", "loads.resistance.magnitude"]
+    f = lw.objective(conveyor, "driver.effort rms", vary=names, steps=360)
     value, gradient = f(f.start)
     assert value == pytest.approx(torque_rms(lw.solve_forces(conveyor)), rel=1e-12)
 
@@ -198,10 +199,9 @@ def test_groups_that_newton_solves_have_values_and_gradients(phase, speed, steps
 
 
 def test_groups_that_newton_solves_are_refused_at_inputs_and_loads_by_four_limits():
+    pushed = pushed_triad("of: bar_2, from: max, to: min", 6.0)
     with refused("study.objective_iterates"):
-        lw.objective(
-            pushed_triad("of: bar_2, from: max, to: min", 6.0), "driver.effort rms", vary=["plate.R.y"]
-        )
+        lw.objective(pushed, "driver.effort rms", vary=["plate.R.y"], steps=360)
     with refused("study.objective_iterates"):
         lw.objective(stored("triad"), "driver.effort rms", vary=["plate.R.y"], at=[0.0, 0.1])
 
@@ -341,7 +341,7 @@ def test_design_numbers_go_through_wheels_on_links_that_a_dyad_places(machine, n
 @pytest.mark.rotating
 def test_a_force_between_limits_of_a_rack_on_a_rocker_has_its_gradient():
     mechanism = rack_cutting_one_way()
-    f = lw.objective(mechanism, "driver.effort rms", vary=["coupler.length", "rocker.length"])
+    f = lw.objective(mechanism, "driver.effort rms", vary=["coupler.length", "rocker.length"], steps=360)
     value, gradient = f(f.start)
     assert value == pytest.approx(torque_rms(lw.solve_forces(mechanism)), rel=1e-12)
     assert gradient == pytest.approx(differences(lambda x: f(x)[0], f.start), rel=1e-6)

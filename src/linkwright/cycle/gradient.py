@@ -89,8 +89,8 @@ class Backward:
         k, kind = self.cycle.number[signal], part.kind
         values = every.values(k)
         if signal.squared or kind == "rms":
-            with np.errstate(divide="ignore", invalid="ignore"):
-                bar = np.where(bar == 0.0, 0.0, bar / (2.0 * self.solved.values[text]))
+            size = self.solved.values[text]
+            bar = np.divide(bar, 2.0 * size, out=np.zeros_like(bar), where=(bar != 0.0) & (size != 0.0))
         if kind in ("mean", "rms"):
             return self._of_mean(values, bar, square=kind == "rms" and not signal.squared)
         if kind == "excess":

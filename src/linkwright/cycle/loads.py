@@ -90,8 +90,9 @@ class OnStrokes(Acting):
         found, acts, since = self.strokes.at(design, middle)
         if not self.ramp:
             return self._named(acts, since, since)
-        begin = self._along(design, since)
-        length = np.where(acts, self._along(design, since + self.strokes.length[found]) - begin, 1.0)
+        begin, length = self._along(design, since), np.ones(len(design))
+        if len(self.strokes.length):
+            length = np.where(acts, self._along(design, since + self.strokes.length[found]) - begin, 1.0)
         if self.backwards:
             begin, length = begin + length, -length
         return self._named(acts, begin, length)
@@ -113,7 +114,7 @@ class OnStrokes(Acting):
     def pull(self, design: Indices, middle: Floats, by_columns: Mapping[str, Floats]) -> None:
         found, acts, since = self.strokes.at(design, middle)
         bars = self._bars(acts, by_columns)
-        if bars is None:
+        if bars is None or not len(self.strokes.length):
             return
         by_begin, by_end = bars[0] - bars[1], bars[1]
         if self.backwards:
@@ -121,8 +122,6 @@ class OnStrokes(Acting):
         if not self.by_time:
             by_begin = by_begin * self._input(since)[1]
             by_end = by_end * self._input(since + self.strokes.length[found])[1]
-        if not len(self.strokes.begin):
-            return
         period, until = self.span.period[design], since + self.strokes.length[found]
         for events, place, time, bar in (
             (self.strokes.start, self.strokes.begin[found], since, by_begin),

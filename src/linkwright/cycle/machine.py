@@ -225,7 +225,8 @@ _traces: Recent[ForcePrograms, Traces] = Recent(32)
 
 
 class Machine:
-    """One mechanism over a course of its input, or many designs of it with some dimensions ``varied``.
+    """One mechanism over a course of its input, or many designs of it with some dimensions ``varied``; ``unloaded``
+    where nothing but the motion is wanted, whatever loads and friction there are.
 
     Raises NotTogether where its cycle is no formula of one position: it passes change points or not all of its
     cycle, a load has no formula, or an angle that one takes turns through.
@@ -238,8 +239,10 @@ class Machine:
         varied: Iterable[str] = (),
         *,
         static: bool = False,
+        unloaded: bool = False,
     ) -> None:
-        self.mechanism, self.nominal, self.varied = mechanism, nominal, tuple(varied)
+        self.mechanism = replace(mechanism, loads={}) if unloaded else mechanism
+        self.nominal, self.varied = nominal, tuple(varied)
         if not nominal.whole or nominal.modes or nominal.steps < 3 or not mechanism.drivers:
             raise NotTogether
         self.loads = self._traced_loads()
@@ -247,7 +250,7 @@ class Machine:
         self.terms: tuple[FrictionTerm, ...] = ()
         manner = Manner(frozenset(self.varied), iterations=ITERATIONS if iterated(nominal.structure) else 1)
         solver = MotionSolver(mechanism, manner, nominal.solver.assembly)
-        rubbing = any(joint.friction_arm for joint in mechanism.joints.values())
+        rubbing = not unloaded and any(joint.friction_arm for joint in mechanism.joints.values())
         names = frozenset(acts_name(name) if self._phased(name) else name for name in self.loads.names)
         programs = force_programs(solver.programs, inertia=not static, along_input=names, rubbing=rubbing)
         if rubbing:

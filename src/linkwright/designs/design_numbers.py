@@ -16,7 +16,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics import Analysis
-from linkwright.metrics.by_name import ask, measured
+from linkwright.metrics.by_name import ask, measured, needs_forces
 from linkwright.metrics.evaluate import unloaded
 from linkwright.metrics.hulls_of_designs import hulls_of_designs, swept
 from linkwright.metrics.of_designs import MetricsOfDesigns, numbers_of_designs
@@ -69,7 +69,12 @@ def numbers_of(
     count = len(next(iter(columns.values())))
     values = {name: np.full(count, np.nan) for name in names}
     dimensions: dict[str, str] = {}
-    cycles = side_by_side(mechanism, columns, names)
+    try:
+        cycles = side_by_side(mechanism, columns, names)
+    except RequestError:
+        raise
+    except LinkwrightError:  # of the machine as it is; designs tell for themselves
+        cycles = []
     certain = np.full(len(designs), bool(cycles))
     compiled = backend == "auto" and available()
     whole = progress is None or (compiled and len(designs) <= FEW)
@@ -122,7 +127,9 @@ def _alone(
     found: dict[str, tuple[float, str]] = {}
     why = ""
     try:
-        analysis = Analysis.of(solve_forces(solve_motion(design, failures="mark") if partial else design))
+        motion = solve_motion(design, failures="mark" if partial else "raise")
+        forces = any(needs_forces(name, design) for name in names)
+        analysis = Analysis.of(solve_forces(motion) if forces else motion)
     except RequestError:
         raise
     except LinkwrightError as error:

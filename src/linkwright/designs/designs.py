@@ -53,8 +53,8 @@ class Sweep(Plotted, Frozen):
     put together, or with ``partial`` that it reaches on its way from the first of them, as ``Motion.ok`` counts;
     ``ok``: which designs pass the whole cycle, (designs,);
     ``result["driver.effort", "rms"]`` or ``result["driver.effort rms"]`` a summary, NaN for designs
-    that do not pass the whole cycle (unless ``partial`` was asked for); those of outputs are of the ``steps``
-    positions, and ``notes`` says how far they are off. ``branch_margin`` (designs,): how far the
+    that do not pass the whole cycle (unless ``partial`` was asked for). Where ``steps`` were given, those of outputs
+    are of these positions, and ``notes`` says how far they are off. ``branch_margin`` (designs,): how far the
     step nearest to another assembly was from being refused, 1 far, 0 at the edge, where groups without closed form
     are followed (their steps keep the determinant's sign, the correction small and both ends' exact rates on one
     curve); None where all groups have a closed form.
@@ -63,7 +63,7 @@ class Sweep(Plotted, Frozen):
     mechanism: Mechanism
     varied: Mapping[str, Floats]
     positions: int
-    steps: int
+    steps: int | None
     assembled: Whole
     ok: Flags
     summaries: Mapping[Summary, Floats]
@@ -76,6 +76,8 @@ class Sweep(Plotted, Frozen):
     @cached_property
     def notes(self) -> tuple[str, ...]:
         """Notes on the machine as it is: on its motion, and how far summaries of the positions are off."""
+        if self.steps is None:
+            return self.of_motion
         kinds = (self.dimension(each) for each in self.summaries)
         told = note_of_positions(self.mechanism, self.steps, self.summaries, kinds)
         return self.of_motion if told is None else (*self.of_motion, told)
@@ -144,13 +146,13 @@ def sweep(
     vary: Mapping[str, ArrayLike],
     *,
     outputs: Iterable[str | tuple[str, str]],
-    steps: int = STEPS,
+    steps: int | None = None,
     partial: bool = False,
     threads: int | None = None,
     backend: Backend = "auto",
     progress: Progress | None = None,
 ) -> Sweep:
-    """Summaries over the cycle of many designs of one mechanism, computed without storing the positions.
+    """Summaries over the cycle of many designs of one mechanism, the numbers of :func:`metrics` and :func:`study`.
 
     Args:
         mechanism: the design to start from; its assembly modes hold for all.
@@ -160,18 +162,17 @@ def sweep(
             ``couple guide on slider``, ``driver.effort``, ``input_torque``, ``power``, ``shaking_force``,
             ``closeness`` (to a singular position, 0 there), ``transmission_angle B``. Kinds: min, max, mean, rms,
             range, peak, argmin, argmax (see :class:`Summary`). Design numbers as well, with a subject if wanted:
-            ``rms_input_torque``, ``peak_reaction O5``, exact between positions; those that are no formulas of such
-            summaries (``double_point``, ``range_of_motion``) are found one by one.
-        steps: positions over the cycle.
-        partial: keep summaries over the positions that a design reaches on its way from the first one that it can
-            be in, where it does not reach all, and design numbers of what it reaches; such designs are found one by
-            one.
+            ``rms_input_torque``, ``peak_reaction O5``; those that are no formulas of such summaries
+            (``double_point``, ``range_of_motion``) are found one by one.
+        steps: None for summaries of the cycle, exact between positions. A number for those of so many positions, off
+            by some 1e-4 of smooth outputs, by percents where a load switches on between two of them
+            (:attr:`Sweep.notes` says how far for the machine as it is), in a fraction of the time where nothing but
+            the motion is asked. Design numbers are exact in both.
+        partial: keep numbers of what designs reach of the cycle, where they do not reach all, each found by itself;
+            of positions from the first one on that it can be in.
         threads: None for all cores; results do not depend on it.
         backend: ``numpy``, ``llvm`` (compiled), or ``auto``.
         progress: called with (designs done, designs); what it raises stops the sweep.
-
-    Summaries of outputs are those of the positions, off by some 1e-4 of smooth ones, by percents where a load
-    switches on between two positions; :attr:`Sweep.notes` says how far for the machine as it is.
 
     Raises:
         LinkwrightError: unknown names (nearest ones offered), values that no design can have, dimensions that
@@ -184,33 +185,28 @@ def sweep(
     require(mechanism, Mechanism)
     one_of("backend", backend, BACKENDS)
     threads = None if threads is None else whole("threads", threads, 1)
-    positions = over_cycle(mechanism, steps)
+    positions = over_cycle(mechanism, STEPS if steps is None else steps)
     columns = design_values(mechanism, vary)
     refuse_moved_positions(mechanism, positions, columns)
     asked = wanted(outputs)
     client, backend = current(), _of_all(backend, columns)
-    over_positions = tuple(each for each in asked if each.kind)
+    sampled = steps is not None or not mechanism.drivers  # which rests in one position
+    numbers = [each.name for each in asked if not (sampled and each.kind)]
     progress = progress or current_progress()
-    stages = 1 + any(not each.kind for each in asked)
-    run = SweepRun(
-        mechanism,
-        columns,
-        over_positions,
-        positions,
-        Manner(partial, threads, backend, part_of(progress, 0, stages)),
-    )
+    stages = 1 + bool(numbers)
+    manner = Manner(partial, threads, backend, part_of(progress, 0, stages), sampled)
+    run = SweepRun(mechanism, columns, tuple(each for each in asked if each.kind), positions, manner)
     if client is not None and run.designs > SHARED:
         return _shared(client, run, asked, steps)
     assembled, passed, values = run.swept()
-    numbers = [each.output for each in asked if not each.kind]
     dimensions: dict[str, str] = {}
     if numbers:
-        chosen = np.flatnonzero(assembled > 0 if partial else assembled == positions.count)
+        chosen = np.flatnonzero(assembled > 0 if partial else passed)
         found, dimensions, failed = numbers_of(
             mechanism, columns, numbers, chosen, partial=partial, threads=threads, backend=backend,
             progress=part_of(progress, 1, stages),
         )  # fmt: skip
-        values |= {Summary(name, ""): column for name, column in found.items()}
+        values |= {each: found[each.name] for each in asked if each.name in found}
         run.unloaded |= failed
         passed[list(failed)] = False
         if progress is not None:
@@ -219,7 +215,7 @@ def sweep(
         mechanism,
         columns,
         positions.count,
-        positions.steps,
+        steps,
         assembled,
         passed,
         {each: values[each] for each in asked},
@@ -237,10 +233,9 @@ def _of_all(backend: Backend, columns: Mapping[str, Floats]) -> Backend:
     return "llvm" if backend == "auto" and many and available() else backend
 
 
-def _shared(client: Any, run: SweepRun, asked: Sequence[Summary], steps: int) -> Sweep:
+def _shared(client: Any, run: SweepRun, asked: Sequence[Summary], steps: int | None) -> Sweep:
     """The same sweep in pieces on a cluster."""
-    names = [each.name.strip() for each in asked]
-    places, tasks = _tasks(run, names, steps, run.manner.partial, run.manner.backend)
+    places, tasks = _tasks(run, [each.name for each in asked], steps, run.manner.partial, run.manner.backend)
     found: dict[int, _Piece] = {}
     for number, piece in in_turn(client, _piece, tasks, run.own):
         found[number] = piece
@@ -249,7 +244,7 @@ def _shared(client: Any, run: SweepRun, asked: Sequence[Summary], steps: int) ->
         *map(found.get, range(len(tasks))), strict=True
     )
     return Sweep(
-        run.mechanism, run.columns, run.positions.count, run.positions.steps, np.concatenate(assembled),
+        run.mechanism, run.columns, run.positions.count, steps, np.concatenate(assembled),
         np.concatenate(passed),
         dict(zip(asked, map(np.concatenate, zip(*summaries, strict=True)), strict=True)), run.quantities,
         {each.start + k: why for each, some in zip(places, unloaded, strict=True) for k, why in some.items()},
@@ -269,7 +264,7 @@ def _piece(
     mechanism: Mechanism,
     columns: Mapping[str, Floats],
     outputs: list[str],
-    steps: int,
+    steps: int | None,
     partial: bool,
     backend: Backend,
 ) -> _Piece:

@@ -14,8 +14,8 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS, one_of, require
 from linkwright.core.outputs import Output
 from linkwright.designs.design_numbers import side_by_side
-from linkwright.designs.objective_terms import PathError, Terms, number_of_points, weighted
-from linkwright.designs.over_positions import Builder
+from linkwright.designs.objective_terms import PathError, Terms, differentiable, number_of_points, weighted
+from linkwright.designs.over_positions import NO_GRADIENTS, Builder
 from linkwright.designs.varied_dimensions import checked_addresses, refuse_moved_positions
 from linkwright.errors import RequestError
 from linkwright.formula.machine_code import available
@@ -56,7 +56,7 @@ class Part(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class OverMetrics:
-    """Registered design numbers with their weights."""
+    """Design numbers, and summaries of the cycle, with their weights."""
 
     names: tuple[str, ...]
     cycle: MetricsOfDesigns
@@ -145,7 +145,7 @@ def objective(
     terms: Terms,
     *,
     vary: Iterable[str],
-    steps: int = STEPS,
+    steps: int | None = None,
     at: ArrayLike | None = None,
     backend: Backend = "auto",
 ) -> Objective:
@@ -153,16 +153,16 @@ def objective(
 
     Args:
         mechanism: the design to start from; its assembly modes hold for all.
-        terms: design numbers (``"peak_reaction O5"``, ``"rms_input_torque"``, those of :func:`metrics`, exact between
-            positions), summaries such as ``"driver.effort rms"`` (see :func:`sweep`; kinds min, max, mean, rms,
-            range, peak), and :class:`PathError`; several with their weights in a mapping.
+        terms: design numbers (``"peak_reaction O5"``, ``"rms_input_torque"``, those of :func:`metrics`), summaries
+            such as ``"driver.effort rms"`` (see :func:`sweep`; kinds min, max, mean, rms, range, peak), and
+            :class:`PathError`; several with their weights in a mapping.
         vary: addresses of dimensions, or names of parameters.
-        steps: positions over the cycle; a path error sets them itself.
-        at: inputs of the first driver, rad or m, instead of the cycle.
+        steps: None for summaries of the cycle, exact between positions, as design numbers always are; a number for
+            those of so many positions. A path error has as many positions as points.
+        at: inputs of the first driver, rad or m, instead of the cycle: summaries and path errors are of these.
         backend: ``numpy``, ``llvm`` (compiled once, in some tenths of a second), or ``auto``: that where llvmlite is.
 
-    Extremes of summaries are those of the positions; loads are included, limit positions with their derivatives;
-    friction too, NaN where it is near locking.
+    Loads are included, limit positions with their derivatives; friction too, NaN where it is near locking.
 
     Raises:
         LinkwrightError: unknown names; the friction and loads that :func:`sweep` finds design by design; positions
@@ -179,14 +179,20 @@ def objective(
             )
         )
     given = weighted(terms)
-    numbers = {term: weight for term, weight in given.items() if isinstance(term, str) and is_metric(term)}
+    sampled = steps is not None or at is not None or not mechanism.drivers
+    numbers = {
+        term: weight
+        for term, weight in given.items()
+        if isinstance(term, str) and (is_metric(term) or not sampled)
+    }
     others = {term: weight for term, weight in given.items() if term not in numbers}
     compiled: Backend = "llvm" if backend == "auto" and available() else backend
     parts: list[Part] = []
     if numbers:
-        parts += over_metrics(mechanism, names, numbers, steps, compiled)
+        named = {differentiable(term).name: weight for term, weight in numbers.items()}
+        parts += over_metrics(mechanism, names, named, compiled)
     if others:
-        parts.append(_of_positions(mechanism, names, others, steps, at, compiled))
+        parts.append(_of_positions(mechanism, names, others, steps or STEPS, at, compiled))
     idle = [name for name in names if not any(name in part.names for part in parts)]
     if idle:
         raise RequestError(
@@ -201,13 +207,14 @@ def objective(
 
 
 def over_metrics(
-    mechanism: Mechanism, names: tuple[str, ...], weights: Mapping[str, float], steps: int, backend: Backend
+    mechanism: Mechanism, names: tuple[str, ...], weights: Mapping[str, float], backend: Backend
 ) -> list[OverMetrics]:
-    """The weighted sum of registered metrics, by what finds them; raises RequestError where one has no gradient."""
-    found = side_by_side(mechanism, names, [*weights], steps=steps)
+    """The weighted sum of metrics and summaries of the cycle, by what finds them; raises RequestError where one has
+    no gradient."""
+    found = side_by_side(mechanism, names, [*weights])
     missing = [name for name in weights if not any(name in each.kinds for each in found)]
     if missing:
-        raise RequestError(_refusal(mechanism, names, missing, steps))
+        raise RequestError(_refusal(mechanism, names, missing))
     for each in found:
         if isinstance(each, NumbersOfDesigns):
             refuse_obstacles(each)
@@ -222,7 +229,7 @@ def over_metrics(
     ]
 
 
-def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str], steps: int) -> Message:
+def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str]) -> Message:
     """Why metrics of a mechanism have no gradient."""
     if hulls := tuple(name for name in missing if swept(name, mechanism)):
         return _(
@@ -233,7 +240,7 @@ def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str], s
             names=hulls,
             name=mechanism.name,
         )
-    if numbers_of_designs(mechanism, names, missing, steps=steps) is not None:
+    if numbers_of_designs(mechanism, names, missing) is not None:
         return _(
             "{names} of {name!r} is no number over the cycle that has a gradient, or does not "
             "apply to it; choose another one",
@@ -241,8 +248,8 @@ def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str], s
             names=tuple(missing),
             name=mechanism.name,
         )
-    _refuse_moved_cycle(mechanism, names, over_cycle(mechanism, steps))
-    signals = MotionSignals(solve_motion(mechanism, steps=steps))
+    _refuse_moved_cycle(mechanism, names, over_cycle(mechanism, STEPS))
+    signals = MotionSignals(solve_motion(mechanism))
     for name, load in mechanism.loads.items():
         output = load.reverses(mechanism)
         count = len(signals.limits(output)) if isinstance(output, Output) else 0
@@ -251,19 +258,9 @@ def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str], s
             return _(
                 "{name!r}: the load {load!r} has the sign of the rate of {output}, which changes it "
                 "{count} times in a turn, where gradients beside groups without closed form take two "
-                "changes; for outputs use sensitivity, for design numbers study",
+                "changes; for summaries use sensitivity with steps, for design numbers study",
             ).format(name=mechanism.name, **values)
-    return _(
-        "{name!r} has friction in more than 16 pairs of one group, or (for design numbers) "
-        "beside cams or groups without closed form, on a guide that is pressed from both "
-        "sides or teeth and chains that pull both ways, loads that divide by an output or "
-        "follow a link that turns through, or, over other cycles than whole turns at "
-        "constant speed, phases by outputs with more limits than two, groups without closed "
-        "form, or dimensions that move the inputs, so no gradient of many designs is found; "
-        "for outputs use sensitivity, which takes one design at a time, for design numbers "
-        "study",
-        name=mechanism.name,
-    )
+    return NO_GRADIENTS.format(name=mechanism.name)
 
 
 def of_path(mechanism: Mechanism, names: tuple[str, ...], path: PathError, backend: Backend) -> Part:

@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
+from linkwright.cycle.summary import Summary
 from linkwright.errors import RequestError
-from linkwright.metrics.by_name import NO_OUTPUTS, NO_TEXT
+from linkwright.metrics.by_name import NO_OUTPUTS, NO_TEXT, wanted
 from linkwright.words import _
 
 _BAD_TARGET = _(
@@ -48,6 +49,20 @@ def weighted(terms: Terms) -> dict[str | PathError, float]:
     for term in found:
         if not isinstance(term, str | PathError):
             raise RequestError(NO_TEXT.format(given=repr(term)[:60]))
+    return found
+
+
+def differentiable(asked: str | tuple[str, str]) -> Summary:
+    """The summary, or design number, that is asked for; raises RequestError for a place."""
+    found = wanted([asked])[0]
+    if found.kind in ("argmin", "argmax"):
+        raise RequestError(
+            _(
+                "{name!r} is a place, which has no derivative here; ask for its extreme",
+                code="study.place_without_slope",
+                name=found.name,
+            )
+        )
     return found
 
 

@@ -39,8 +39,8 @@ def note_of_positions(
         worst = None
     if worst is None:
         return _(
-            "minima, maxima and means of outputs are those of the {steps} positions; metrics, "
-            "such as peak_input_torque, are found between them",
+            "minima, maxima and means of outputs are those of the {steps} positions; those of the "
+            "cycle are found without steps",
             steps=steps,
         )
     summary, sampled, exact, dimension = worst
@@ -52,8 +52,7 @@ def note_of_positions(
     return _(
         "minima, maxima and means of outputs are those of the {steps} positions: {name} of "
         "the machine as it is is {there} there, but {between} between them ({share} % of the "
-        "largest value apart); use a metric, such as peak_input_torque, which is found "
-        "between the positions, or more steps",
+        "largest value apart); leave steps out for those of the cycle, or give more of them",
         code="study.of_positions_off",
     ).format(steps=steps, name=summary.name, **values)
 

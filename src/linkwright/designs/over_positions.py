@@ -14,7 +14,7 @@ from linkwright.cycle.load_limits import FoundLimits
 from linkwright.cycle.machine import CLEAR
 from linkwright.cycle.summary import KINDS, Summary
 from linkwright.designs.loaded_cycle import LoadedCycle, friction_doubt, loaded_cycle
-from linkwright.designs.objective_terms import PathError
+from linkwright.designs.objective_terms import PathError, differentiable
 from linkwright.designs.traced_outputs import VALID, Traced
 from linkwright.errors import RequestError
 from linkwright.events.following import ITERATIONS
@@ -32,11 +32,20 @@ from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.by_name import wanted
 from linkwright.units import LARGEST
 from linkwright.words import _
 
 VALUE = "objective"
+NO_GRADIENTS = _(
+    "{name!r} has friction in more than 16 pairs of one group, or (for numbers of the cycle) passes "
+    "change points, or has friction beside cams or groups without closed form, on a guide that is pressed"
+    " from both sides or teeth and chains that pull both ways, loads that divide by an output or follow a"
+    " link that turns through, or, over other cycles than whole turns at constant speed, phases by "
+    "outputs with more limits than two, groups without closed form, or dimensions that move the inputs, "
+    "so no gradient of many designs is found; for summaries use sensitivity with steps, which takes one "
+    "design at a time, for design numbers study",
+    code="study.objective_loads",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,20 +129,7 @@ class Builder:
         if self.iterated:
             self._refuse_ways(plain, loaded)
         if loaded is None:
-            raise RequestError(
-                _(
-                    "{name!r} has friction in more than 16 pairs of one group, or (for design numbers) "
-                    "beside cams or groups without closed form, on a guide that is pressed from both "
-                    "sides or teeth and chains that pull both ways, loads that divide by an output or "
-                    "follow a link that turns through, or, over other cycles than whole turns at "
-                    "constant speed, phases by outputs with more limits than two, groups without closed "
-                    "form, or dimensions that move the inputs, so no gradient of many designs is found; "
-                    "for outputs use sensitivity, which takes one design at a time, for design numbers "
-                    "study",
-                    code="study.objective_loads",
-                    name=mechanism.name,
-                )
-            )
+            raise RequestError(NO_GRADIENTS.format(name=mechanism.name))
         self.loaded, self.loads, self.traced = loaded, loaded.loads, loaded.traced
 
     def _refuse_ways(self, plain: Traced, loaded: LoadedCycle | None) -> None:
@@ -146,8 +142,8 @@ class Builder:
                 _(
                     "{name!r} has a group without closed form, and passes change points, is given inputs "
                     "other than its cycle, or has loads by an output with more than two limits, so no "
-                    "gradient of many designs is found; for outputs use sensitivity, for design numbers "
-                    "study",
+                    "gradient of many designs is found; for summaries use sensitivity with steps, for "
+                    "design numbers study",
                     code="study.objective_iterates",
                     name=plain.mechanism.name,
                 )
@@ -156,7 +152,7 @@ class Builder:
     @cached_property
     def summaries(self) -> dict[Summary, float]:
         """The summaries with their weights."""
-        return {wanted([term])[0]: weight for term, weight in self.terms.items() if isinstance(term, str)}
+        return {differentiable(term): weight for term, weight in self.terms.items() if isinstance(term, str)}
 
     @cached_property
     def quantities(self) -> dict[str, Quantity]:
@@ -255,14 +251,6 @@ def counted_turns(traced: Traced) -> dict[str, Floats]:
 
 def _summary(t: Trace, summary: Summary, quantity: Quantity) -> Scalar:
     """A summary in its unit from the reductions of its carrier."""
-    if summary.kind in ("argmin", "argmax"):
-        raise RequestError(
-            _(
-                "{name!r} is a place, which has no derivative here; ask for its extreme",
-                code="study.place_without_slope",
-                name=summary.name,
-            )
-        )
     parts = [t.parameter(f"{summary.output}.{kind}") for kind in KINDS[summary.kind]]
     shown = [replace(quantity, carrier=part).value for part in parts]
     if summary.kind == "range":

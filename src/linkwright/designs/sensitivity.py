@@ -17,6 +17,7 @@ from linkwright.core.table import Amount, Cell, Table, unused
 from linkwright.cycle.summary import Summary
 from linkwright.designs.known_loads import known_loads
 from linkwright.designs.objective import over_metrics
+from linkwright.designs.objective_terms import differentiable
 from linkwright.designs.one_by_one import OF_VALUES
 from linkwright.designs.slopes import Slopes
 from linkwright.designs.traced_outputs import Traced
@@ -27,7 +28,7 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.friction_stage import MOST
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.by_name import NO_OUTPUTS
+from linkwright.metrics.by_name import NO_OUTPUTS, wanted
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -160,7 +161,7 @@ def sensitivity(
     *,
     of: Iterable[str | tuple[str, str]],
     by: Iterable[str],
-    steps: int = STEPS,
+    steps: int | None = None,
     way: Way = "auto",
     backend: Backend = "auto",
 ) -> Sensitivity:
@@ -169,12 +170,12 @@ def sensitivity(
     Args:
         mechanism: where the derivatives are taken.
         of: outputs (see :func:`sweep`), alone for their curves, or with a kind: ``driver.effort rms``. Kinds: min,
-            max, mean, rms, range, peak; the extremes are those of the positions. Or design numbers, as in
-            :func:`objective`.
+            max, mean, rms, range, peak. Or design numbers, as in :func:`objective`.
         by: addresses of dimensions (``pitman.length``, ``jaw.mass``) or names of parameters.
-        steps: positions over the cycle.
-        way: ``forward`` carries a derivative per dimension along with every line of the program, ``reverse`` sweeps
-            back from a summary to all dimensions at once; ``auto`` chooses.
+        steps: None for summaries of the cycle, exact between positions, as design numbers always are; a number for
+            those of so many positions, as curves have (without it 360).
+        way: of summaries of positions: ``forward`` carries a derivative per dimension along with every line of the
+            program, ``reverse`` sweeps back from a summary to all dimensions at once; ``auto`` chooses.
         backend: ``numpy``, ``llvm`` (compiled), or ``auto``.
 
     Returns:
@@ -191,7 +192,7 @@ def sensitivity(
     require(mechanism, Mechanism)
     one_of("way", way, get_args(Way))
     one_of("backend", backend, BACKENDS)
-    positions = over_cycle(mechanism, steps)
+    positions = over_cycle(mechanism, STEPS if steps is None else steps)
     dimensions = checked_addresses(mechanism, by)
     if not dimensions:
         raise RequestError(
@@ -210,26 +211,15 @@ def sensitivity(
         raise traced.nominal.refusal()
     if traced.nominal.modes:
         traced = Traced(mechanism, dimensions, positions, turning=True, flipping=True)
-    return _Derivation(traced, dimensions, asked, steps, way, backend).result()
+    sampled = steps is not None or not mechanism.drivers
+    return _Derivation(traced, dimensions, asked, way, backend, sampled=sampled).result()
 
 
 def split(each: str | tuple[str, str]) -> str | Summary:
     """An output alone, or a summary of it; raises LinkwrightError for a kind that has no derivative."""
-    from linkwright.metrics.by_name import wanted
-
-    output = each if isinstance(each, str) else None
-    found = wanted([each])
-    if len(found) == 2 and output is not None:
-        return output
-    if found[0].kind in ("argmin", "argmax"):
-        raise RequestError(
-            _(
-                "{name!r} is a place, which has no derivative here; ask for its extreme",
-                code="study.place_without_slope",
-                name=found[0].name,
-            )
-        )
-    return found[0]
+    if isinstance(each, str) and len(wanted([each])) == 2:
+        return each
+    return differentiable(each)
 
 
 def _refuse_input(by: Iterable[str]) -> None:
@@ -253,17 +243,22 @@ class _Derivation:
         traced: Traced,
         by: tuple[str, ...],
         asked: list[str | Summary],
-        steps: int,
         way: Way,
         backend: Backend,
+        *,
+        sampled: bool,
     ) -> None:
-        self.traced, self.by, self.asked, self.steps = traced, by, asked, steps
-        names = [each.output if isinstance(each, Summary) else each for each in asked if not _is_number(each)]
+        self.by, self.alone = by, [each for each in asked if isinstance(each, str)]
+        summaries = [each for each in asked if isinstance(each, Summary)]
+        self.numbers = [each for each in summaries if not (sampled and each.kind)]
+        self.sampled = [each for each in summaries if sampled and each.kind]
+        names = [*self.alone, *(each.output for each in self.sampled)]
         loads = known_loads(traced, traced.program(traced.quantities(names)).fields, by)
         if loads.names or loads.rubbing:
-            self.traced = traced = traced.with_loads(loads.names, rubbing=loads.rubbing)
-        self.quantities = traced.quantities(names)
-        self.work = Slopes(traced, self.quantities, by, backend, loads)
+            traced = traced.with_loads(loads.names, rubbing=loads.rubbing)
+        self.traced = traced
+        self.quantities = traced.quantities([*names, *(each.output for each in self.numbers if each.kind)])
+        self.work = Slopes(traced, {name: self.quantities[name] for name in names}, by, backend, loads)
         if not self.work.certain:
             raise LinkwrightError(
                 _(
@@ -277,18 +272,14 @@ class _Derivation:
         self.back = way == "reverse" or (way == "auto" and len(by) >= REVERSE_PAYS)
 
     def result(self) -> Sensitivity:
-        alone = [each for each in self.asked if isinstance(each, str)]
-        summaries = [each for each in self.asked if isinstance(each, Summary) and each.kind]
-        numbers = [each for each in self.asked if isinstance(each, Summary) and not each.kind]
         slopes: dict[tuple[str, str], Floats] = {}
         curves: dict[str, Floats] = {}
-        for name in alone:
+        for name in self.alone:
             curves[name] = self._curve(name)
             slopes |= {(name, by): row for by, row in zip(self.by, self.work.forward(name), strict=True)}
-        values = {summary: self._value(summary) for summary in summaries}
-        gradients = {summary: self._gradient(summary) for summary in summaries}
-        for number in numbers:
-            values[number], gradients[number] = self._number(number.output)
+        found = {each: (self._value(each), self._gradient(each)) for each in self.sampled} | self._of_cycle()
+        values = {each: found[each][0] for each in (*self.sampled, *self.numbers)}
+        gradients = {each: found[each][1] for each in values}
         input_ = self.traced.nominal.input if self.traced.mechanism.drivers else np.zeros(1)
         return Sensitivity(
             self.traced.mechanism, self.by, input_, curves, slopes, values, gradients, self.quantities
@@ -306,14 +297,18 @@ class _Derivation:
         curve = self._curve(summary.output)
         return float(OF_VALUES[summary.kind](curve))
 
-    def _number(self, name: str) -> tuple[float, Floats]:
-        """A design number with its gradient."""
-        mechanism, found = self.traced.mechanism, np.zeros(len(self.by))
-        (objective,) = over_metrics(mechanism, self.by, {name: 1.0}, self.steps, "numpy")
+    def _of_cycle(self) -> dict[Summary, tuple[float, Floats]]:
+        """Design numbers and summaries of the cycle with their gradients."""
+        mechanism, asked = self.traced.mechanism, {each.name: each for each in self.numbers}
+        every: dict[Summary, tuple[float, Floats]] = {}
         columns = {by: np.array([mechanism.dimension(by)]) for by in self.by}
-        value, slopes = objective.many(columns, 1)
-        found[[self.by.index(by) for by in objective.names]] = slopes[0]
-        return float(value[0]), found
+        backend = self.work.backend
+        for part in over_metrics(mechanism, self.by, dict.fromkeys(asked, 1.0), backend) if asked else []:
+            sums = [{name: 1.0} for name in part.weights]
+            found, slopes = part.cycle.gradients(sums, columns, self.by, backend=backend)
+            for name, value, slope in zip(part.weights, found, slopes, strict=True):
+                every[asked[name]] = float(value[0]), slope[0]
+        return every
 
     def _gradient(self, summary: Summary) -> Floats:
         """Derivatives of a summary, as a weighted sum of those at the positions."""
@@ -342,7 +337,3 @@ class _Derivation:
         if summary.kind in ("min", "range"):
             weights[int(curve.argmin())] -= 1.0 if summary.kind == "range" else -1.0
         return weights
-
-
-def _is_number(each: str | Summary) -> bool:
-    return isinstance(each, Summary) and not each.kind

@@ -54,12 +54,14 @@ CHECKED, CHECK_STEPS = 3, 24
 
 @dataclass(frozen=True)
 class Manner:
-    """How a sweep is done; see :func:`linkwright.designs.designs.sweep`."""
+    """How a sweep is done; see :func:`linkwright.designs.designs.sweep`. ``sampled``: summaries are those of the
+    positions, else nothing but the motion is wanted of these."""
 
     partial: bool = False
     threads: int | None = None
     backend: Backend = "auto"
     progress: Progress | None = None
+    sampled: bool = True
 
 
 #: Sentences of those of the first few designs of a mechanism that do not pass, by number.
@@ -79,17 +81,17 @@ class SweepRun:
         positions: Positions,
         manner: Manner,
     ) -> None:
-        self.mechanism, self.columns, self.asked = mechanism, columns, asked
+        self.mechanism, self.columns, self.asked = mechanism, columns, asked if manner.sampled else ()
         self.positions, self.manner = positions, manner
         self.progress, self.backend = manner.progress or current_progress(), manner.backend
         self._told = 0
         self.designs = len(next(iter(columns.values())))
         iterations = ITERATIONS if iterated(analysed(mechanism)) else 1
         self.traced = Traced(mechanism, columns, positions, iterations=iterations)
-        names = [summary.output for summary in asked]
-        self.quantities = self.traced.quantities(names)
-        self.reductions = [*reductions(asked, self.quantities), Reduction(NEAREST, "min")]
-        self.program = self.traced.program(self.quantities)
+        self.quantities = self.traced.quantities(summary.output for summary in asked)
+        self._reduced = {each.output: self.quantities[each.output] for each in self.asked}
+        self.reductions = [*reductions(self.asked, self.quantities), Reduction(NEAREST, "min")]
+        self.program = self.traced.program(self._reduced)
         given, carried = {*self.program.fields}, self.traced.solver.motion.next_states.keys()
         self._followed, self._under_loads = bool(given & carried), bool(given - carried)
         self.unloaded: dict[int, str] = {}
@@ -264,7 +266,7 @@ class SweepRun:
             partly = self.manner.partial or motion.breaks or motion.modes
             reached = motion.ok if partly else motion.outcome_codes == 0
             found[VALID_COUNT] = int(reached.sum())
-            outputs = outputs_alone(motion, self.quantities.values())
+            outputs = outputs_alone(motion, self._reduced.values())
             places = places_in(motion, self.positions)
             for each in self.asked:
                 values = outputs[each.output][places]
@@ -299,7 +301,7 @@ class SweepRun:
         if self._tracked is not None:
             motion = traced.solver.motion
             more[VALID] = motion.trace.logic("and", motion.valid, self._tracked.on_path)
-        return traced.program(traced.quantities(self.quantities), more)
+        return traced.program(traced.quantities(self._reduced), more)
 
     def _known(
         self, loaded: LoadedCycle, program: Program, part: Mapping[str, Floats]

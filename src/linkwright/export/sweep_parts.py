@@ -16,7 +16,7 @@ from linkwright.core import VERSION
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS, require, whole
+from linkwright.core.given import require, whole
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.designs.cluster import connected, current, in_turn
 from linkwright.designs.designs import sweep
@@ -47,7 +47,7 @@ class Plan:
     sampling: Sampling
     designs: int
     seed: int
-    steps: int
+    steps: int | None
     part: int
 
     @property
@@ -212,7 +212,7 @@ def sweep_parts(
     sampling: Sampling = "grid",
     samples: int = 65536,
     seed: int = 0,
-    steps: int = STEPS,
+    steps: int | None = None,
     part: int = PART,
     client: Any = None,
     threads: int | None = None,
@@ -263,7 +263,7 @@ def sweep_parts(
 
 def _plan(
     mechanism: Mechanism, vary: Mapping[str, str | ArrayLike], outputs: Iterable[str | tuple[str, str]],
-    sampling: Sampling, samples: int, seed: int, steps: int, part: int,
+    sampling: Sampling, samples: int, seed: int, steps: int | None, part: int,
 ) -> Plan:  # fmt: skip
     if sampling not in ("grid", "sobol"):
         raise RequestError(
@@ -287,7 +287,7 @@ def _plan(
                 most=MOST,
             )
         )
-    names = tuple(each.name.strip() for each in wanted(outputs))
+    names = tuple(each.name for each in wanted(outputs))
     size = 1 << max(0, (min(part, count) - 1).bit_length()) if part > 0 else PART
     return Plan(mechanism, ranges, names, sampling, count, seed, steps, size)
 

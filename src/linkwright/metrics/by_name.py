@@ -16,7 +16,8 @@ from linkwright.core.search import first_largest
 from linkwright.cycle.summary import KINDS, Summary, SummaryValue
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.formula.trace import Scalar, absolute, minimum, select
-from linkwright.kinematics.names import PHRASES
+from linkwright.kinematics.names import PHRASES, output_meant
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import METRICS, Metric, MetricValue, Number
 from linkwright.metrics.of_output import OWN, Asked, own_metric
@@ -130,6 +131,14 @@ def metric_named(name: str, asked: Asked | None = None) -> tuple[Metric, str] | 
         return own_metric(name, asked), ""
     found = metric_of(name)
     return None if found is None else (found[0](), found[1])
+
+
+def needs_forces(name: str, mechanism: Mechanism, asked: Asked | None = None) -> bool:
+    """Whether a metric, or a summary, takes more than the motion."""
+    if is_summary(name):
+        return not output_meant(mechanism, wanted([name])[0].output).of_motion
+    found = metric_named(name, asked)
+    return found is not None and found[0].needs_forces
 
 
 def number_named(name: str, analysis: Analysis, asked: Asked | None = None) -> Number | None:

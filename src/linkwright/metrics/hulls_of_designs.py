@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -40,14 +39,12 @@ def hulls_of_designs(
 ) -> HullsOfDesigns | None:
     """Areas of hulls, ``swept_area``, ``swept_area_of_link jaw``; None where the cycle is no formula of one position
     (see ``cycle.machine.Machine``), or the dimensions move its times."""
-    bare = replace(mechanism, loads={})
-    own = tuple(address for address in varied if address in bare.dimensions())
-    nominal = solve_motion(bare, failures="mark")
+    nominal = solve_motion(mechanism, failures="mark")
     try:
-        machine = Machine(bare, nominal, own)
+        machine = Machine(mechanism, nominal, varied, unloaded=True)
     except NotTogether:
         return None
-    if any(moves(bare, address, nominal.positions.steps) for address in own):
+    if any(moves(mechanism, address, nominal.positions.steps) for address in machine.varied):
         return None
     return HullsOfDesigns(machine, names)
 

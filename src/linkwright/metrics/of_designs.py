@@ -32,7 +32,7 @@ from linkwright.machine.steady_designs import SteadyDesigns
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.base import Number
-from linkwright.metrics.by_name import metric_named, number_named
+from linkwright.metrics.by_name import metric_named, needs_forces, number_named
 from linkwright.metrics.of_output import Asked
 from linkwright.metrics.true_speed import EFFORT, INERTIA, TrueSpeedSummary
 from linkwright.words import _
@@ -106,11 +106,12 @@ def _numbers(
     asked: Asked | None,
 ) -> NumbersOfDesigns | None:
     nominal = solve_motion(mechanism, steps=steps, failures="mark")
+    forces = any(needs_forces(name, mechanism, asked) for name in given)
     try:
-        machine = Machine(mechanism, nominal, addresses)
+        machine = Machine(mechanism, nominal, addresses, unloaded=not forces)
         if any(moves(mechanism, address, steps) for address in addresses):
             return None
-        analysis = Analysis.of(solve_forces(nominal))
+        analysis = Analysis.of(solve_forces(nominal) if forces else nominal)
         found = {name: number_named(name, analysis, asked) for name in given}
         numbers = {name: each for name, each in found.items() if each is not None and _fits(each, machine)}
         return NumbersOfDesigns(machine, numbers, analysis)

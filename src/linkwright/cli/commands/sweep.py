@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from linkwright.cli.commands.study import ranges_of, sampling_arguments, vary_argument
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.core.given import STEPS
 from linkwright.words import _, pgettext
 
 if TYPE_CHECKING:
@@ -49,7 +48,12 @@ def arguments(option: Options) -> None:
         ),
     )
     sampling_arguments(option, samples=65536)
-    option.count("--steps", STEPS, help=_("positions over the cycle (default 360)"))
+    option.count(
+        "--steps",
+        help=_(
+            "summaries of so many positions over the cycle (without it of the whole cycle, exact between them)"
+        ),
+    )
     option.count("--part", 16384, help=_("designs of a part, rounded up to a power of two (default 16384)"))
     option.cluster()
     option(

@@ -125,7 +125,7 @@ class Tolerances(OfMechanism):
     )
     samples: int = given(Whole(LEAST, doc="machines of the Monte Carlo study, 8192 unless given"), 8192)
     seed: int = given(Whole(0, 2**32 - 1, doc="seed of the random numbers"), 1)
-    steps: int = given(Whole(4, doc="positions over the cycle, 360 unless given"), STEPS)
+    steps: int = given(Whole(4, doc="positions of the curves over the cycle, 360 unless given"), STEPS)
     name: str = ""
     source: str = ""
 

@@ -15,6 +15,7 @@ from linkwright.core.quantity import shown
 from linkwright.core.table import PERCENT, Block, Row
 from linkwright.cycle.summary import Summary
 from linkwright.designs.designs import Sweep, sweep
+from linkwright.designs.one_by_one import OF_VALUES
 from linkwright.designs.sensitivity import Sensitivity, sensitivity
 from linkwright.designs.tolerance.curves import CurveSpread, curve_spreads
 from linkwright.designs.tolerance.pins_in_motion import FollowedPins, follow
@@ -106,7 +107,10 @@ class Spread(Result):
                         )
                     ]
                 )
-        _unused = self.derivatives
+        if self.summaries or not self._curves:
+            _unused = self.gradients
+        if self._curves:
+            _unused1 = self.derivatives
         if self.drawn:
             design_values(self.study.prepared, self.drawn)
         unseen = self.drawn and self.study.curves and not self.curves
@@ -124,13 +128,14 @@ class Spread(Result):
             )
         if self.study.holes("pressed"):
             _unused2 = self.forces
-            if not all(is_position(self.study, output) for output in self._over_positions):
+            if not all(is_position(self.study, output) for output in self._curves):
                 _unused3 = self.followed
 
     @property
-    def _over_positions(self) -> list[str]:
-        """Outputs over the positions: the curves, and those that the summaries are of."""
-        return [*self.study.curves, *(s.output for s in self.summaries.values() if s.kind)]
+    def _curves(self) -> tuple[str, ...]:
+        """Outputs over the positions: the curves, and those whose summaries pressed pins shift."""
+        shifted = (s.output for s in self.summaries.values() if self.study.holes("pressed"))
+        return tuple(dict.fromkeys([*self.study.curves, *shifted]))
 
     # linear ---------------------------------------------------------------------------------------
     @cached_property
@@ -145,11 +150,15 @@ class Spread(Result):
         return [*self.study.deviating, *(a for a in holes if a not in self.study.deviating)]
 
     @cached_property
+    def gradients(self) -> Sensitivity:
+        """Exact derivatives of summaries of the cycle."""
+        asked = [summary.name for summary in self.summaries.values()]
+        return sensitivity(self.study.prepared, of=asked, by=self.addresses)
+
+    @cached_property
     def derivatives(self) -> Sensitivity:
-        """Exact derivatives of summaries and curves."""
-        curves = dict.fromkeys(self._over_positions if self.study.holes("pressed") else self.study.curves)
-        asked = [*(summary.name for summary in self.summaries.values()), *curves]
-        return sensitivity(self.study.prepared, of=asked, by=self.addresses, steps=self.study.steps)
+        """Exact derivatives of curves."""
+        return sensitivity(self.study.prepared, of=self._curves, by=self.addresses, steps=self.study.steps)
 
     @cached_property
     def forces(self) -> Forces:
@@ -163,7 +172,7 @@ class Spread(Result):
 
     def nominal(self, text: str) -> float:
         """A summary of the nominal mechanism without clearances."""
-        return self.derivatives.values[self.summaries[text]]
+        return self.gradients.values[self.summaries[text]]
 
     def dimension(self, text: str) -> str:
         """Name of the dimension of a summary or a curve."""
@@ -171,12 +180,13 @@ class Spread(Result):
         if summary is not None and not summary.kind:
             assert self.swept is not None
             return self.swept.dimension(summary)
-        output = text if summary is None else summary.output
-        return self.derivatives.quantities[output].dimension
+        if summary is None:
+            return self.derivatives.quantities[text].dimension
+        return self.gradients.quantities[summary.output].dimension
 
     def shares(self, text: str) -> list[Share]:
         """What contributes to the linear spread of a summary, the largest first."""
-        gradient = self.derivatives.by_name(self.summaries[text].name)
+        gradient = self.gradients.by_name(self.summaries[text].name)
         parts = {
             self.study.written(address): (gradient[address], tolerance.deviation)
             for address, tolerance in self.study.deviating.items()
@@ -197,7 +207,7 @@ class Spread(Result):
 
     def worst_case(self, text: str) -> float:
         """Σ |∂y/∂p|·t: the largest deviation if all tolerances are used up at once."""
-        gradient = self.derivatives.by_name(self.summaries[text].name)
+        gradient = self.gradients.by_name(self.summaries[text].name)
         total = sum(abs(gradient[a]) * t.tolerance for a, t in self.study.deviating.items())
         for pin, pair in self.study.holes("free").items():
             total += math.hypot(*(gradient[a] for a in pair)) * self.study.clearances[pin].clearance
@@ -231,7 +241,8 @@ class Spread(Result):
         if not self.study.holes("pressed"):
             return 0.0
         curve = self.derivatives.curve(summary.output)
-        return _summed(summary.kind, curve + self.pressed(summary.output)) - _summed(summary.kind, curve)
+        moved, found = curve + self.pressed(summary.output), OF_VALUES[summary.kind]
+        return float(found(moved) - found(curve)) if np.isfinite(moved).all() else math.nan
 
     # Monte Carlo ----------------------------------------------------------------------------------
     @cached_property
@@ -260,7 +271,7 @@ class Spread(Result):
         if not self.drawn or not self.summaries:
             return None
         asked = [summary.name for summary in self.summaries.values()]
-        return sweep(self.study.prepared, self.drawn, outputs=asked, steps=self.study.steps)
+        return sweep(self.study.prepared, self.drawn, outputs=asked)
 
     @cached_property
     def curves(self) -> dict[str, CurveSpread]:
@@ -327,7 +338,7 @@ class Spread(Result):
         one = {address: np.array([self.study.prepared.dimension(address)])}
         asked = [("closeness", "min"), ("closeness", "argmin")]
         try:
-            found = sweep(self.study.prepared, one, outputs=asked, steps=self.study.steps)
+            found = sweep(self.study.prepared, one, outputs=asked)
         except LinkwrightError:
             return None
         return float(found["closeness", "min"][0]), float(found["closeness", "argmin"][0])
@@ -335,20 +346,15 @@ class Spread(Result):
     def bend(self, text: str) -> tuple[str, float]:
         """The largest contributor, and how much the summary bends over ±2σ of it: |y₊ + y₋ − 2y₀|/|y₊ − y₋|."""
         summary = self.summaries[text]
-        deviations = {a: (t.deviation, abs(self.derivatives.by_name(summary.name)[a]) * t.deviation)
+        deviations = {a: (t.deviation, abs(self.gradients.by_name(summary.name)[a]) * t.deviation)
                       for a, t in self.study.deviating.items()}  # fmt: skip
         for pair in self.study.holes("free").values():
             for a in pair:
                 size = self.study.clearances[a.split(".")[-2]].clearance / math.sqrt(2)
-                deviations[a] = size, abs(self.derivatives.by_name(summary.name)[a]) * size
+                deviations[a] = size, abs(self.gradients.by_name(summary.name)[a]) * size
         address = max(deviations, key=lambda a: deviations[a][1])
         at = self.study.prepared.dimension(address) + deviations[address][0] * np.array([-2.0, 0.0, 2.0])
-        found = sweep(
-            self.study.prepared,
-            {address: at},
-            outputs=[summary.name],
-            steps=self.study.steps,
-        )[summary.name]
+        found = sweep(self.study.prepared, {address: at}, outputs=[summary.name])[summary.name]
         low, middle, high = found.tolist()
         change = abs(high - low)
         return self.study.written(address), abs(high + low - 2 * middle) / change if change else math.inf
@@ -614,19 +620,3 @@ class Spread(Result):
         return found or [
             Step("1", say(_("σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)")))
         ]
-
-
-def _summed(kind: str, curve: Floats) -> float:
-    """A summary of a curve over the positions; ``peak`` is the largest size."""
-    match kind:
-        case "min":
-            return float(curve.min())
-        case "max":
-            return float(curve.max())
-        case "mean":
-            return float(curve.mean())
-        case "rms":
-            return float(np.sqrt((curve * curve).mean()))
-        case "range":
-            return float(np.ptp(curve))
-    return float(np.abs(curve).max())
