@@ -87,6 +87,8 @@ MEANINGS = {
     "numbers that are made greatest": "取最大的数",
     "demands on numbers, such as at least 40 deg": "对数的要求，如 at least 40 deg",
     "names for numbers, and errors of paths": "数的名称，以及轨迹误差",
+    "point that follows a path, such as coupler.P": "沿轨迹运动的点，如 coupler.P",
+    "places of the point, one for each position": "该点的位置，每个机构位置一处",
     "± of dimensions, such as 0.1 mm": "尺寸的公差 ±，如 0.1 mm",
     "how the tolerances count": "公差怎样计入",
     "share of the machines made that meets the demands; default 0.99": "制成的机器中满足要求的比例；默认 0.99",

@@ -1,6 +1,8 @@
 """The schema command: models, tasks and calculations, with an identity; it knows the whole gallery's keys."""
 
+import copy
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -71,7 +73,14 @@ def faults(value: Any, shape: dict[str, Any], place: str = "") -> list[str]:
     for word in ("oneOf", "anyOf"):
         if word in shape and all(faults(value, each, place) for each in shape[word]):
             found.append(f"{place}: fits no form")
-    kinds = {"object": dict, "array": list, "string": str, "number": (int, float)}
+    kinds = {
+        "object": dict,
+        "array": list,
+        "string": str,
+        "number": (int, float),
+        "integer": int,
+        "boolean": bool,
+    }
     wanted = shape.get("type", [])
     wanted = [wanted] if isinstance(wanted, str) else wanted
     if any(each in kinds for each in wanted) and not any(
@@ -79,7 +88,8 @@ def faults(value: Any, shape: dict[str, Any], place: str = "") -> list[str]:
     ):
         found.append(f"{place}: no {wanted}")
     if isinstance(value, dict):
-        known = shape.get("properties", {})
+        known, names = shape.get("properties", {}), shape.get("propertyNames", {})
+        found += [each for key in value for each in faults(key, {"enum": names.get("enum", [key])}, place)]
         more = shape.get("additionalProperties", True)
         for key, each in value.items():
             if key in known:
@@ -103,6 +113,51 @@ def test_the_schema_fits_every_calculation_of_the_gallery_and_no_misspelt_one(
     key = next(key for key in content if key not in ("format", "kind", "parameters"))
     assert faults({**content, f"{key}x": content[key]}, shape) != []
     assert faults({**content, "kind": "bem"}, shape) != []
+
+
+def shown_files() -> list[str]:
+    """Every machine and task of the gallery, and every whole file that the documentation prints."""
+    pages = sorted((Path(__file__).parents[2] / "docs").glob("*/**/*.md"))
+    blocks = [
+        each for page in pages for each in re.findall(r"```yaml\n(.*?)```", page.read_text("utf-8"), re.S)
+    ]
+    held = [gallery.content(name).decode() for name in (*gallery.names(), *gallery.tasks())]
+    return [*held, *(each for each in blocks if each.startswith("format: 1\n"))]
+
+
+def test_the_schema_fits_every_file_that_is_shown(printed: dict[str, Any]) -> None:
+    for text in every(shown_files(), least=90):
+        assert faults(yaml.load(text, Loader), printed) == [], text[:200]
+
+
+#: Sections with a value that is right, and where a key in it is misspelt.
+SECTIONS: list[tuple[str, dict[str, Any], tuple[str, ...]]] = [
+    ("course", {"at": "60 deg", "vary": {"a.length": ["1 m", "2 m"], "b.length": "8 %"}, "ask": ["b"]}, ()),
+    ("optimize", {"vary": {"a.length": "1..2 m"}, "minimize": ["x", "y"], "keep": {"x": "at most 3 m"}}, ()),
+    ("optimize", {"vary": {"a.length": {"values": ["1 m", "2 m"]}}}, ("vary", "a.length")),
+    ("optimize", {"keep": {"x": {"at_least": "3 m"}}}, ("keep", "x")),
+    ("optimize", {"define": {"p": {"point": "b.P", "target": [["1 m", "2 m"]]}, "T": "x"}}, ("define", "p")),
+    ("report", {"title": "x", "positions": ["0 deg", "limits"], "fluctuation": 0.03}, ()),
+    ("report", {"positions": {"from": "0 deg", "step": "15 deg", "count": 3}}, ("positions",)),
+    ("report", {"cover": {"school": "x"}}, ("cover",)),
+    ("report", {"zh": {"title": "x"}}, ("zh",)),
+    ("sheet", {"size": "A2", "panels": {"mechanism": {"scale": 2}}}, ("panels", "mechanism")),
+    ("synthesis", {"task": "toggle", "force_ratio": 30, "distance": "250 mm", "stroke": "140 mm"}, ()),
+]
+
+
+@pytest.mark.parametrize(("section", "value", "place"), SECTIONS)
+def test_the_schema_knows_the_keys_of_every_section(
+    section: str, value: dict[str, Any], place: tuple[str, ...]
+) -> None:
+    shape = json.loads(json.dumps(lw.json_schema()))["properties"][section]
+    assert faults(value, shape) == []
+    wrong = copy.deepcopy(value)
+    inner = wrong
+    for key in place:
+        inner = inner[key]
+    inner["nokey"] = 1
+    assert faults(wrong, shape) != []
 
 
 def test_a_file_with_a_task_alone_is_known(printed: dict[str, Any]) -> None:

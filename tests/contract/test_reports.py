@@ -21,7 +21,7 @@ CRANK = "gallery:crank_rocker"
     [
         ({"positoins": 3}, "unknown-key", "positoins", {"key_": "positoins", "offer": "positions"}),
         ({"positions": 1}, "bad-positions", "positions", {"text": "1", "most": 10_000}),
-        ({"fluctuation": "many"}, "bad-fluctuation", "fluctuation", {"text": "many"}),
+        ({"fluctuation": "many"}, "type", "fluctuation", {"text": "many"}),
         ({"sections": "task"}, "not-a-list", "sections", {}),
         ({"errata": [{"where": "here"}]}, "missing-key", "errata.0.printed", {"key_": "printed"}),
         ({"zh": {"titel": "x"}}, "unknown-key", "zh.titel", {"key_": "titel", "offer": "title"}),

@@ -152,9 +152,9 @@ def test_a_damaged_line_of_a_sheet_has_its_fault(
     ("section", "code", "key", "values"),
     [
         ("course: 5", "type", "course", {}),
-        ("course: {ask: 5}", "no-list", "course.ask", {"given": "5"}),
+        ("course: {ask: 5}", "type", "course.ask", {}),
         ("course: {ask: []}", "no-list", "course.ask", {"given": "[]"}),
-        ("course: {ask: rocker.angle}", "no-list", "course.ask", {"given": "rocker.angle"}),
+        ("course: {ask: rocker.angle}", "type", "course.ask", {}),
         ("course: {ask: [nope]}", "no-number", "course.ask.0", {"name": "nope"}),
         ("course: {at: 5 m}", "wrong-dimension", "course.at", {"text": "5 m"}),
         (
@@ -197,9 +197,9 @@ def test_both_ends_of_a_damaged_range_of_a_course_are_told(fails: Fails) -> None
         ),
         (
             "{vary: {coupler.length: {from: 3 m}}, maximize: transmission_angle}",
-            "optimize.no_bounds",
-            "optimize.vary.coupler.length",
-            {"given": "{from: 3 m}"},
+            "unknown-key",
+            "optimize.vary.coupler.length.from",
+            {"key_": "from"},
         ),
         (
             "{vary: {coupler.length: [3.2 m, nan m]}, maximize: transmission_angle}",

@@ -318,7 +318,7 @@ def test_check_tells_all_of_it_at_once(tmp_path: Path) -> None:
     assert code == 1 and len(found) == 3
     assert "none.png" in said(found, "wrong-picture", "report.sections.0.text").message
     assert '"b"' in said(found, "no-source", "report.sections.0.text").message
-    assert '"school"' in said(found, "unknown-key", "report.cover.scool").message
+    assert '"school"' in said(found, "unknown-key", "report.cover.scool").remedy
 
 
 def test_what_leads_nowhere_is_told(folder: Path) -> None:

@@ -347,7 +347,7 @@ def test_a_path_that_a_known_linkage_draws_is_followed() -> None:
     both = lw.optimize(start, vary=vary, minimize=["shape", "c"], define=define, evaluations=1200)
     assert min(each.numbers["shape"] for each in both) < 1e-7
     assert min(each.numbers["c"] for each in both) == pytest.approx(0.9 * 1.04, rel=1e-3)
-    with refused("target", lw.ModelError):
+    with refused("type", lw.ModelError):
         lw.optimize(
             start, vary=vary, minimize="shape", define={"shape": {"point": "coupler.P", "target": [3]}}
         )
@@ -464,7 +464,7 @@ def test_the_least_cam_whose_follower_presses_no_harder_on_its_guide() -> None:
         ({"minimize": "peak_reacton"}, "study.no_metric", None, {"name": "peak_reacton", "offer": "peak_reaction"}),
         ({"minimise": "r"}, "unknown-key", "optimize.minimise", {"offer": "minimize"}),
         ({"robust": "worst"}, "no-tolerance", "optimize.tolerance", {}),
-        ({"evaluations": 0}, "range", "optimize.evaluations", {"given": "0"}),
+        ({"evaluations": 0}, "range", "optimize.evaluations", {"text": "0"}),
     ],
 )  # fmt: skip
 def test_settings_that_cannot_be_read(

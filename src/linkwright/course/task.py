@@ -14,25 +14,45 @@ from linkwright.course.calculation_chain import Line
 from linkwright.course.mistakes import Sheet
 from linkwright.designs.ranges import dimension_of
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
-from linkwright.fields.base import Schema
-from linkwright.fields.tables import AsWritten, Keys
+from linkwright.fields.base import Text
+from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place, Reader
+from linkwright.fields.tables import ByAddress, Keys, Listed, Value
 from linkwright.files.reader import SectionReading
 from linkwright.files.write import flow
 from linkwright.kinematics.names import result_meant
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.units import DIMENSIONS, not_a_number
+from linkwright.units import DIMENSIONS
 from linkwright.words import _
 
-_SHARE: Schema = {"type": ["string", "number"]}
+
+@dataclass(frozen=True)
+class ShareOfAnswer(Value):
+    """How far an answer may be off: a share up to 0.2."""
+
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        value = super().read(reader, node, place, given)
+        found = None if value is None else _share(value)
+        if found is None or 0.0 < found <= 0.2:
+            return found
+        told = _(
+            '"{text}" is no tolerance; give a share up to 0.2, such as 0.01 or 1 %',
+            code="course.bad_tolerance",
+            text=flow(value),
+        )
+        reader.error(node, place, told, "", "bad-tolerance")
+        return None
+
+
 SECTION = Keys({
-    "vary": AsWritten(
-        {"type": "object", "additionalProperties": {"anyOf": [_SHARE, {"type": "array", "items": _SHARE}]}},
+    "vary": ByAddress(
+        Listed(Value(), "[0.3 m, 0.35 m]", alone=True),
         doc="dimensions that change, by a share (8 %) or between two values",
     ),
-    "ask": AsWritten({"type": "array", "items": {"type": "string"}}, doc="results that are asked for"),
-    "at": AsWritten({"type": "string"}, doc="input at which they are asked for, such as 60 deg"),
-    "tolerance": AsWritten(_SHARE, doc="how far an answer may be off, such as 1 %"),
+    "ask": Listed(Text(), "[rocker.angle, driver.effort]", doc="results that are asked for"),
+    "at": Value(doc="input at which they are asked for, such as 60 deg"),
+    "tolerance": ShareOfAnswer(doc="how far an answer may be off, such as 1 %"),
 })  # fmt: skip
 #: By how much lengths change, and how far an answer may be off, where nobody says.
 SHARE, TOLERANCE = 0.08, 0.01
@@ -103,12 +123,13 @@ class _Reading(SectionReading):
 
     def __init__(self, mechanism: Mechanism, given: Mapping[str, Any]) -> None:
         super().__init__(SECTION, "course", given)
-        self.mechanism, self.given = mechanism, self.values
+        self.mechanism = mechanism
+        self.given = {key: each for key, each in (self.values or {}).items() if each is not None}
 
     def task(self) -> Task:
         across = self.mechanism.across
         at = self._quantity("at", self.given.get("at", USUAL_PLACE[across]), across)
-        ranges, tolerance = self._ranges(), self._tolerance(self.given.get("tolerance", TOLERANCE))
+        ranges, tolerance = self._ranges(), self.given.get("tolerance", TOLERANCE)
         questions: tuple[Question, ...] = ()
         try:
             questions = () if at is None else self._questions(Sheet(self.mechanism, at))
@@ -120,26 +141,10 @@ class _Reading(SectionReading):
 
     def _quantity(self, key: str, given: Any, dimension: str) -> float | None:
         try:
-            if isinstance(given, Mapping | list | tuple):
-                raise not_a_number(flow(given), dimension)
             return amount(str(given), dimension)
         except QuantityError as error:
             self.note(key, error)
             return None
-
-    def _tolerance(self, value: Any) -> float:
-        found = _share(value)
-        if not 0.0 < found <= 0.2:
-            self.note(
-                "tolerance",
-                _(
-                    '"{text}" is no tolerance; give a share up to 0.2, such as 0.01 or 1 %',
-                    code="course.bad_tolerance",
-                    text=flow(value),
-                ),
-                "bad-tolerance",
-            )
-        return found
 
     def _ranges(self) -> dict[str, tuple[float, float]]:
         """Limits of the dimensions that change; the sizes of all links by a share where nothing is said."""
@@ -147,27 +152,20 @@ class _Reading(SectionReading):
         if given is None:
             sizes = {name: self.mechanism.dimension(name) for name in _usual_sizes(self.mechanism)}
             return {name: _by(SHARE, value) for name, value in sizes.items()}
-        if not isinstance(given, Mapping):
-            self.note(
-                "vary",
-                _NO_RANGE.format(text=flow(given)),
-                "bad-range",
-            )
-            return {}
         found = {}
         for address, limits in given.items():
             try:
-                value = self.mechanism.dimension(str(address))
+                value = self.mechanism.dimension(address)
             except LinkwrightError as error:
                 self.note(f"vary.{address}", error)
                 continue
-            if (between := self._limits(str(address), value, limits)) is not None:
-                found[str(address)] = between
+            if limits is not None and (between := self._limits(address, value, limits)) is not None:
+                found[address] = between
         return found
 
     def _limits(self, address: str, value: float, given: Any) -> tuple[float, float] | None:
         key = f"vary.{address}"
-        if isinstance(given, list | tuple) and len(given) == 2:
+        if isinstance(given, tuple) and len(given) == 2:
             kind = dimension_of(self.mechanism, address)
             dimension = next((name for name, each in DIMENSIONS.items() if each == kind), "dimensionless")
             low, high = (self._quantity(key, each, dimension) for each in given)
@@ -191,27 +189,29 @@ class _Reading(SectionReading):
         if given is None:
             return _usual_questions(sheet)
         names = {output.column: output for output in sheet.values}
-        if not isinstance(given, list | tuple) or not given:
+        if not given:
             told = _(
                 '"{given}" is no list of results; {hint}',
                 code="course.no_list",
-                given=flow(given),
+                given="[]",
                 hint=offered("", names),
             )
             self.note("ask", told, "no-list")
             return ()
         found = []
         for i, name in enumerate(given):
+            if name is None:
+                continue
             with suppress(RequestError):
-                meant = result_meant(self.mechanism, str(name), sheet.values)
+                meant = result_meant(self.mechanism, name, sheet.values)
                 if meant in sheet.values:
                     found.append(Question(meant))
                     continue
             told = _(
                 'there is no result "{name}" at this position; {hint}',
                 code="course.no_number",
-                name=str(name),
-                hint=offered(str(name), names),
+                name=name,
+                hint=offered(name, names),
             )
             self.note(f"ask.{i}", told, "no-number")
         return tuple(dict.fromkeys(found))

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import field, fields, replace
 from functools import cached_property
 from typing import Any, cast
@@ -133,10 +134,11 @@ class Quantity(Field):
     minimum: float | None = field(default=None, kw_only=True)
     above: float | None = field(default=None, kw_only=True)
     below: float | None = field(default=None, kw_only=True)
+    maximum: float | None = field(default=None, kw_only=True)
     nonzero: bool = field(default=False, kw_only=True)
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> float | None:
-        value = reader.quantity(node, place, self.dimension)
+        value = self._value(reader, node, place)
         limit = None if value is None else self.limit(value)
         if value is None or limit is None:
             return value
@@ -153,10 +155,13 @@ class Quantity(Field):
         )
         return None
 
+    def _value(self, reader: Reader, node: Node, place: Place) -> float | None:
+        return reader.quantity(node, place, self.dimension)
+
     def _fault(self, value: float) -> str:
         if value == 0:
             return _("zero", code="model.zero")
-        if self.below is not None and value >= self.below:
+        if (self.below is not None and value >= self.below) or value > (self.maximum or math.inf):
             return _("too large", code="model.too_large")
         return (
             _("negative", code="model.negative")
@@ -167,13 +172,22 @@ class Quantity(Field):
     def limit(self, value: float) -> Message | None:
         above = self.above is None or value > max(self.above, units.SMALLEST)
         within = above and (self.minimum is None or value >= self.minimum)
-        if within and (self.below is None or value < self.below) and not (self.nonzero and value == 0):
+        within &= (self.below is None or value < self.below) and value <= (self.maximum or math.inf)
+        if within and not (self.nonzero and value == 0):
             return None
         noun, least = (
             units.NOUNS[self.dimension],
             self.minimum if self.above is None else self.above,
         )
-        if self.below is not None and self.above is None:
+        most = self.below or self.maximum
+        if most is not None and self.above is not None:
+            told = (
+                _("{noun} above {low} and below {high}")
+                if self.below
+                else _("{noun} above {low}, up to {high}")
+            )
+            return told.format(noun=noun, low=f"{self.above:g}", high=units.format(most, self.dimension))
+        if self.below is not None:
             unit = "deg" if self.dimension == "angle" else None
             low, high = (units.format(each, self.dimension, unit) for each in (least or 0.0, self.below))
             return _(
@@ -199,6 +213,27 @@ class Quantity(Field):
 
     def written(self, value: Any) -> Any:
         return written_quantity(value, self.dimension)
+
+
+@dataclass(frozen=True)
+class Number(Quantity):
+    """A number without a unit, written out: no expression of parameters."""
+
+    dimension: str = "dimensionless"
+
+    def _value(self, reader: Reader, node: Node, place: Place) -> float | None:
+        text = reader.text(node, place)
+        if text is None:
+            return None
+        with suppress(ValueError):
+            if math.isfinite(found := float(text)):
+                return found
+        told = _('"{text}" is no number; write it with a point and without a unit, such as 0.9', text=text)
+        reader.error(node, place, told, "", "type")
+        return None
+
+    def shape(self) -> Schema:
+        return {"type": "number"}
 
 
 @dataclass(frozen=True)

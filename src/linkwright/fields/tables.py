@@ -10,7 +10,7 @@ from typing import Any
 from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Schema, given_by_file, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar
+from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.fields.reading import Place, Reader, Sayings
 from linkwright.words import Message, _
 
@@ -96,12 +96,15 @@ class ByAddress(Named):
 
 @dataclass(frozen=True)
 class Listed(Field):
-    """A list with items of one field."""
+    """A list with items of one field; ``alone``: or a single one."""
 
     item: Field
     form: str = "[…, …]"
+    alone: bool = dataclasses.field(default=False, kw_only=True)
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        if self.alone and not isinstance(node, Sequence):
+            return self.item.read(reader, node, place, given)
         items = reader.items(node, place, None, self.form)
         if items is None:
             return None
@@ -110,7 +113,8 @@ class Listed(Field):
         )
 
     def shape(self) -> Schema:
-        return {"type": "array", "items": self.item.schema()}
+        found = {"type": "array", "items": self.item.schema()}
+        return {"anyOf": [self.item.shape(), found]} if self.alone else found
 
 
 @dataclass(frozen=True)
@@ -140,16 +144,11 @@ class Line(Field):
 
 
 @dataclass(frozen=True)
-class AsWritten(Field):
-    """Any value, kept as plain data; ``of``: its JSON Schema."""
-
-    of: Schema = dataclasses.field(default_factory=dict)
+class Value(Line):
+    """A text or a number, kept as plain data: a bare number is one in SI."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        return reader.free(node)
-
-    def shape(self) -> Schema:
-        return self.of
+        return None if super().read(reader, node, place, given) is None else reader.free(node)
 
 
 @dataclass(frozen=True)

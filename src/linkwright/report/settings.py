@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
-from linkwright.events.position_list import PositionList, known_outputs, of_value
+from linkwright.events.position_list import STEPPED, PositionList, known_outputs, of_value
 from linkwright.fields.base import Field, Schema, Text, given, given_by_file, table_schema
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader, Saying, Sayings
-from linkwright.fields.tables import AsWritten, ByAddress, Either, Keys, Line, Listed, Table
+from linkwright.fields.tables import ByAddress, Either, Keys, Line, Listed, Table, Value
 from linkwright.files.reader import SectionReading
 from linkwright.files.write import flow
 from linkwright.kinematics.names import place_meant
-from linkwright.machine.flywheel import FLUCTUATION
+from linkwright.machine.flywheel import COEFFICIENT, FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import listed
 from linkwright.words import LANGUAGES, Message, _
@@ -207,11 +207,12 @@ class Settings:
     references: Mapping[str, str] = given(
         Listed(Either(Line(), Table.of(OwnSource)), doc="own sources"), dict
     )
-    positions: int | PositionList | None = given(AsWritten(doc="numbered positions of the tables"), None)
+    positions: int | PositionList | None = given(
+        Listed(Either(Value(), Table({key: Value() for key in STEPPED})), alone=True,
+               doc="numbered positions of the tables"), None
+    )  # fmt: skip
     numbered_from: str = given(Line(doc="limit position that is number 1, such as rocker min"), "")
-    fluctuation: float = given(
-        AsWritten({"type": ["string", "number"]}, doc="coefficient of speed fluctuation"), FLUCTUATION
-    )
+    fluctuation: float = given(COEFFICIENT, FLUCTUATION)
     folder: str = ""
 
     @property
@@ -283,7 +284,6 @@ class _Reading(SectionReading):
             **given,
             **more,
             "positions": self.positions(given["positions"]) if "positions" in given else None,
-            "fluctuation": self.fluctuation(given.get("fluctuation", FLUCTUATION)),
             "cover": self.cover(given, places["cover"]),
             "references": sources,
             "folder": self.folder,
@@ -408,20 +408,6 @@ class _Reading(SectionReading):
         law = next((each.law for each in self.mechanism.drivers.values()), None)
         constant = law is None or law.constant_speed is not None
         return (self.mechanism.across, "time") if constant else ("time",)
-
-    def fluctuation(self, value: Any) -> float:
-        try:
-            found = float(value)
-        except (TypeError, ValueError):
-            found = 0.0
-        if not 0.0 < found < 1.0:
-            told = _(
-                '"{text}" is no coefficient; give a number between 0 and 1, such as 0.02',
-                code="report.bad_fluctuation",
-                text=flow(value),
-            )
-            self.note("fluctuation", told, "bad-fluctuation")
-        return found
 
 
 def _present(given: Mapping[str, Any]) -> dict[str, Any]:

@@ -4,52 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
-from linkwright.core.expressions import amount
 from linkwright.designs.objective import Part, of_path
 from linkwright.designs.objective_terms import PathError
 from linkwright.designs.optimise.path_curvature import path_curvature
-from linkwright.errors import QuantityError
-from linkwright.files.write import flow
 from linkwright.formula.summaries import Backend
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words import _
 
 #: Designs that one thread takes.
 ALONE = 512
-
-
-def path_error(given: Any) -> PathError | None:
-    """A path error from ``{point: coupler.P, target: [[30 mm, 40 mm], …]}``; None: something else is meant.
-
-    Raises QuantityError where the target cannot be read.
-    """
-    if isinstance(given, PathError):
-        return given
-    if not isinstance(given, Mapping) or set(given) != {"point", "target"}:
-        return None
-    rows = given["target"]
-    if not isinstance(rows, Sequence) or not rows or any(not _is_pair(row) for row in rows):
-        raise QuantityError(
-            _(
-                "target: {given} is no list of places; write [[30 mm, 40 mm], [32 mm, 41 mm], …], "
-                "one a position",
-                given=flow(rows)[:40],
-            ),
-            code="target",
-        )
-    places = [
-        [each if isinstance(each, float) else amount(str(each), "length") for each in row] for row in rows
-    ]
-    return PathError(str(given["point"]), places)
-
-
-def _is_pair(row: Any) -> bool:
-    return isinstance(row, Sequence) and not isinstance(row, str) and len(row) == 2
 
 
 def _threads(columns: Mapping[str, Floats]) -> int | None:

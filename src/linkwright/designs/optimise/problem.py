@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import field
+from collections.abc import Mapping
+from dataclasses import field, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -15,17 +15,16 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS
 from linkwright.core.quantity import si_of, written
 from linkwright.designs.objective_terms import PathError
-from linkwright.designs.optimise.paths import path_error
 from linkwright.designs.ranges import Range, parse_range
 from linkwright.designs.varied_dimensions import between, checked_addresses, gives_part_of_tooth
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.fields.base import Field, Schema, Word, given, given_by_file
+from linkwright.fields.base import Number, Quantities, Quantity, Text, Word, given, given_by_file
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
-from linkwright.fields.tables import AsWritten, ByAddress, Keys
+from linkwright.fields.tables import ByAddress, Either, Keys, Line, Listed, Table, Value, Whole
 from linkwright.files.reader import SectionReading
 from linkwright.files.write import flow
-from linkwright.machine.flywheel import FLUCTUATION
+from linkwright.machine.flywheel import COEFFICIENT, FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 
@@ -83,33 +82,37 @@ class Demand:
 
 
 @dataclass(frozen=True)
-class Number(Field):
-    """A number from ``low`` to ``high``."""
+class DemandText(Either):
+    """A demand on a number, as a text or a table."""
 
-    low: float
-    high: float
-    make: Callable[[float], float] = float
+    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Demand | None:
+        value = super().read(reader, node, place, given)
+        found = None if value is None else _demand(value)
+        if value is not None and found is None:
+            told = _(
+                '"{given}" is no demand; write at least 40 deg, at most 60 kN, 1..2 m, or same within 1 %',
+                given=flow(value),
+            )
+            reader.error(node, place, told, "", "demand")
+        return found
+
+
+@dataclass(frozen=True)
+class Metres(Quantity):
+    """A length; a bare number is one in m."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> float | None:
-        value = reader.free(node)
-        try:
-            found = float(value)
-        except (TypeError, ValueError, OverflowError):
-            found = math.nan
-        if self.low <= found <= self.high:
-            return self.make(found)
-        told = _(
-            "{key_}: {given} is no number between {low} and {high}; give one",
-            key_=place.key.rpartition(".")[2],
-            given=flow(value),
-            low=self.low,
-            high=self.high,
-        )
-        reader.error(node, place, told, "", "range")
-        return None
+        bare = reader.free(node)
+        return bare if isinstance(bare, float) else super().read(reader, node, place, given)
 
-    def shape(self) -> Schema:
-        return {"type": "number", "minimum": self.low, "maximum": self.high}
+
+@dataclass(frozen=True)
+class Target(Quantities):
+    """A target point of a path."""
+
+    @property
+    def _one(self) -> Quantity:
+        return Metres(self.dimension)
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,15 +129,20 @@ class Problem:
     robust: Robust = given(Word(("worst", "yield"), doc="how the tolerances count"), "")
     least_yield: float = given(
         Number(
-            1e-12, 1.0, key="yield", doc="share of the machines made that meets the demands; default 0.99"
+            above=0.0,
+            maximum=1.0,
+            key="yield",
+            doc="share of the machines made that meets the demands; default 0.99",
         ),
         0.99,
     )
-    fluctuation: float = given(Number(1e-12, 1.0, doc="coefficient of speed fluctuation"), FLUCTUATION)
-    steps: int = given(Number(1.0, 1e6, int, doc="positions of the cycle; default 360"), STEPS)
-    evaluations: int = given(Number(1.0, 1e9, int, doc="designs that are judged at most; default 4000"), 4000)
-    population: int = given(Number(0.0, 1e6, int, doc="designs of a generation; chosen unless given"), 0)
-    seed: int = given(Number(0.0, 1e9, int, doc="of the random numbers; default 0"), 0)
+    fluctuation: float = given(COEFFICIENT, FLUCTUATION)
+    steps: int = given(Whole(1, 1_000_000, doc="positions of the cycle; default 360"), STEPS)
+    evaluations: int = given(
+        Whole(1, 1_000_000_000, doc="designs that are judged at most; default 4000"), 4000
+    )
+    population: int = given(Whole(0, 1_000_000, doc="designs of a generation; chosen unless given"), 0)
+    seed: int = given(Whole(0, 1_000_000_000, doc="of the random numbers; default 0"), 0)
 
     @property
     def addresses(self) -> tuple[str, ...]:
@@ -147,14 +155,30 @@ class Problem:
         return np.array([self.mechanism.dimension(each.address) for each in self.variables])
 
 
-_TEXTS: Schema = {"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}]}
+_VALUES = Listed(Value(), "[20 mm, 25 mm, 32 mm]", alone=True)
+_NUMBERS = "[peak_input_torque, flywheel]"
 SECTION = Keys({
-    "vary": ByAddress(AsWritten(), doc="bounds of dimensions and parameters, such as 80..120 mm"),
-    "minimize": AsWritten(_TEXTS, doc="numbers that are made least"),
-    "maximize": AsWritten(_TEXTS, doc="numbers that are made greatest"),
-    "keep": ByAddress(AsWritten(), doc="demands on numbers, such as at least 40 deg"),
-    "define": ByAddress(AsWritten(), doc="names for numbers, and errors of paths"),
-    "tolerance": ByAddress(AsWritten(), doc="± of dimensions, such as 0.1 mm"),
+    "vary": ByAddress(
+        Either(_VALUES, Table({"values": _VALUES, "whole": _VALUES})),
+        doc="bounds of dimensions and parameters, such as 80..120 mm",
+    ),
+    "minimize": Listed(Text(), _NUMBERS, alone=True, doc="numbers that are made least"),
+    "maximize": Listed(Text(), _NUMBERS, alone=True, doc="numbers that are made greatest"),
+    "keep": ByAddress(
+        DemandText(Value(), Table({key: Value() for key in ("at_least", "at_most", "same")})),
+        doc="demands on numbers, such as at least 40 deg",
+    ),
+    "define": ByAddress(
+        Either(Line(), Table({
+            "point": Text(required=True, doc="point that follows a path, such as coupler.P"),
+            "target": Listed(
+                Target("length", ("x", "y")), "[[30 mm, 40 mm], [32 mm, 41 mm]]", required=True,
+                doc="places of the point, one for each position",
+            ),
+        }, PathError)),
+        doc="names for numbers, and errors of paths",
+    ),
+    "tolerance": ByAddress(Line(), doc="± of dimensions, such as 0.1 mm"),
     **given_by_file(Problem),
 })  # fmt: skip
 
@@ -176,8 +200,7 @@ class _Reading(SectionReading):
         self.mechanism = mechanism
         known = SECTION.fields.keys() | {"yield"}
         self.given = {key: each for key, each in given.items() if key not in known or not _empty(each)}
-        plain = {key: "" if key in ("minimize", "maximize") else each for key, each in self.given.items()}
-        super().__init__(SECTION, "optimize", plain, source)
+        super().__init__(SECTION, "optimize", self.given, source)
 
     def problem(self) -> Problem:
         variables = self._variables()
@@ -203,7 +226,8 @@ class _Reading(SectionReading):
                 _("{text} is sought twice; give it once, under minimize: or under maximize:", text=text),
                 "goal-twice",
             )
-        demands, tolerances = tuple(self._demands()), self._tolerances()
+        kept, tolerances = self._read("keep"), self._tolerances()
+        demands = tuple(replace(each, text=text) for text, each in kept.items())
         if "robust" in self.given and not tolerances:
             self.note(
                 "tolerance",
@@ -216,53 +240,32 @@ class _Reading(SectionReading):
             self.mechanism, tuple(variables), goals, demands, define, paths, tolerances, **numbers
         )  # fmt: skip
 
-    def _mapping(self, key: str) -> dict[str, Any]:
-        value = self.given.get(key)
-        return {str(name): each for name, each in value.items()} if isinstance(value, Mapping) else {}
+    def _read(self, key: str) -> dict[str, Any]:
+        """What could be read by names."""
+        return {name: each for name, each in (self.values.get(key) or {}).items() if each is not None}
 
     def _defined(self) -> tuple[dict[str, str], dict[str, PathError]]:
-        """Texts and path errors by name."""
-        texts, paths = {}, {}
-        for name, value in self._mapping("define").items():
-            try:
-                path = path_error(value)
-            except LinkwrightError as error:
-                self.note(f"define.{name}", error)
-                continue
-            if path is None:
-                texts[name] = value if isinstance(value, str) else flow(value)
-            else:
-                paths[name] = path
-        return texts, paths
+        """Texts and path errors by name, those of programs as they are."""
+        own = {} if self.values.get("define") is None else self.given["define"]
+        found = {**self._read("define"), **{str(n): e for n, e in own.items() if isinstance(e, PathError)}}
+        paths = {name: each for name, each in found.items() if isinstance(each, PathError)}
+        return {name: each for name, each in found.items() if name not in paths}, paths
 
     def _texts(self, key: str, paths: dict[str, PathError]) -> list[str]:
         """Numbers by name; a path error that stands alone gets one."""
-        value = self.given.get(key) or []
-        found: list[str] = []
-        for each in (
-            [value] if isinstance(value, (str, PathError)) or not isinstance(value, Iterable) else value
-        ):
+        read, found = self.values.get(key), list[str]()
+        value = self.given.get(key, read)
+        for each in () if read is None else (value,) if isinstance(read, str) else value:
             if isinstance(each, PathError):
                 found.append(f"path_error_{len(paths) + 1}" if paths else "path_error")
                 paths[found[-1]] = each
-            elif isinstance(each, str):
-                found.append(each)
             else:
-                self.note(
-                    key,
-                    _(
-                        "{key_}: must be a number's name or a list of them, such as [peak_input_torque, "
-                        "flywheel]",
-                        key_=key,
-                    ),
-                    "type",
-                )
-                return []
+                found.append(str(each))
         return found
 
     def _variables(self) -> list[Variable]:
         found = []
-        for address, value in self._mapping("vary").items():
+        for address, value in self._read("vary").items():
             try:
                 checked_addresses(self.mechanism, [address])
                 found.append(self._variable(address, value))
@@ -280,9 +283,9 @@ class _Reading(SectionReading):
         return found
 
     def _variable(self, address: str, value: Any) -> Variable:
-        if isinstance(value, Mapping) and set(value) <= {"values", "whole"} and len(value) == 1:
+        if isinstance(value, Mapping) and len(value) == 1:
             ((key, inner),) = value.items()
-            text = ", ".join(map(str, inner)) if isinstance(inner, (list, tuple)) else str(inner)
+            text = ", ".join(map(str, inner)) if isinstance(inner, tuple) else str(inner)
             found = parse_range(self.mechanism, address, text)
             if key == "whole":
                 _rising(found)
@@ -299,11 +302,7 @@ class _Reading(SectionReading):
                     )
                 )
             return Variable(address, float(choices[0]), float(choices[-1]), choices, found.unit)
-        if (
-            isinstance(value, (list, tuple))
-            and len(value) == 2
-            and any(isinstance(each, str) for each in value)
-        ):
+        if isinstance(value, tuple) and len(value) == 2 and any(isinstance(each, str) for each in value):
             value = f"{value[0]}..{value[1]}"
         if isinstance(value, (int, float)):
             value = str(value)
@@ -346,31 +345,12 @@ class _Reading(SectionReading):
             )
         return Variable(address, found.low, found.high, None, found.unit)
 
-    def _demands(self) -> list[Demand]:
-        found = []
-        for text, value in self._mapping("keep").items():
-            demand = _demand(text, value)
-            if demand is None:
-                self.note(
-                    f"keep.{text}",
-                    _(
-                        '"{given}" is no demand; write at least 40 deg, at most 60 kN, 1..2 m, or same '
-                        "within 1 %",
-                        given=flow(value),
-                    ),
-                    "demand",
-                )
-            else:
-                found.append(demand)
-        return found
-
     def _tolerances(self) -> dict[str, float]:
         found = {}
-        for address, value in self._mapping("tolerance").items():
+        for address, value in self._read("tolerance").items():
             try:
                 checked_addresses(self.mechanism, [address])
-                text = value if isinstance(value, str) else flow(value)
-                found[address] = abs(parse_range(self.mechanism, address, text.lstrip("±+- ")).high)
+                found[address] = abs(parse_range(self.mechanism, address, value.lstrip("±+- ")).high)
             except LinkwrightError as error:
                 self.note(f"tolerance.{address}", error)
         return found
@@ -389,17 +369,14 @@ def _rising(found: Range) -> None:
         )
 
 
-def _demand(text: str, value: Any) -> Demand | None:
+def _demand(value: Any) -> Demand | None:
     """``at least 40 deg``, ``at most 60 kN``, ``1 m..2 m``, ``same``, ``same within 1 %``, or a mapping of these."""
     if isinstance(value, Mapping):
-        if not value or set(value) - {"at_least", "at_most", "same"}:
-            return None
-        same = value.get("same")
-        return Demand(
-            text,
-            str(value.get("at_least", "")),
-            str(value.get("at_most", "")),
-            None if same is None else str(same),
+        texts = {key: str(each) for key, each in value.items()}
+        return (
+            Demand("", texts.get("at_least", ""), texts.get("at_most", ""), texts.get("same"))
+            if texts
+            else None
         )
     plain = str(value).strip()
     for head in ("at least", "at most", "same within", "same"):
@@ -408,8 +385,8 @@ def _demand(text: str, value: Any) -> Demand | None:
             if (head == "same" and rest) or (head != "same" and not rest):
                 return None
             if head.startswith("same"):
-                return Demand(text, same=rest or "1e-6 %")
-            return Demand(text, low=rest) if head == "at least" else Demand(text, high=rest)
+                return Demand("", same=rest or "1e-6 %")
+            return Demand("", low=rest) if head == "at least" else Demand("", high=rest)
     span = _SPAN.match(plain)
     if span is None:
         return None
@@ -418,7 +395,7 @@ def _demand(text: str, value: Any) -> Demand | None:
     bare = _NUMBER.match(low)
     if bare is not None and not bare[2] and unit is not None:
         low = f"{low} {unit[2]}".strip()
-    return Demand(text, low, high)
+    return Demand("", low, high)
 
 
 def _empty(value: Any) -> bool:
