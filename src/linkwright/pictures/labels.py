@@ -268,6 +268,13 @@ def _overlap(boxes: Floats, others: Floats) -> Floats:
     return np.asarray(shared.sum(axis=1))
 
 
+def text_of(label: Label, chosen: Candidate) -> Text:
+    """The text at its place, before it is turned."""
+    left, top, right, bottom = chosen.box
+    baseline = 0.5 * (top + bottom + label.extent[1]) - (0.14 + label.drop) * label.size
+    return Text((0.5 * (left + right), baseline), label.runs, label.style, label.size, "middle")
+
+
 def written(label: Label, chosen: Candidate) -> list[SvgNode]:
     """The text at its place, with a leader where it stands far off."""
     left, top, right, bottom = chosen.box
@@ -279,11 +286,9 @@ def written(label: Label, chosen: Candidate) -> list[SvgNode]:
         share = label.clearance / (math.hypot(dx, dy) or 1.0)
         end = (chosen.anchor[0] - share * dx, chosen.anchor[1] - share * dy)
         found.append(element("line", {"class": "lw-leader", "x1": x, "y1": y, "x2": end[0], "y2": end[1]}))
-    middle, level = (left + right) / 2, (top + bottom) / 2
-    baseline = level + 0.5 * label.extent[1] - (0.14 + label.drop) * label.size
-    text = Text((middle, baseline), label.runs, label.style, label.size, "middle")
+    text = text_of(label, chosen)
     if chosen.turned:
-        turn = " ".join(map(number, (chosen.turned, middle, level)))
+        turn = " ".join(map(number, (chosen.turned, (left + right) / 2, (top + bottom) / 2)))
         return [*found, element("g", {"transform": f"rotate({turn})"}, text)]
     return [*found, text]
 
@@ -315,10 +320,7 @@ def put(picture: Picture, names: Iterable[Name], *, more: Iterable[Floats] = ())
     labels = [_label(each) for each in wanted]
     ink = [line * TO_UNITS for line in (*(item.outline for item in picture.items), *more)]
     for name, label, chosen in zip(wanted, labels, place(labels, Obstacles.of(ink)), strict=True):
-        left, top, _, bottom = chosen.box
-        middle = 0.5 * (top + bottom)
-        baseline = middle + 0.5 * label.extent[1] - (0.14 + label.drop) * label.size
-        at = np.array([left, baseline]) / TO_UNITS
+        at = np.array([chosen.box[0], text_of(label, chosen).at[1]]) / TO_UNITS
         if name.leader and chosen.gap > 16.0:
             _lead(picture, chosen.box, chosen.anchor)
         picture.text(at, name.runs, name.height, symbol=name.symbol)

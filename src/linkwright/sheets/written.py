@@ -9,12 +9,10 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.export.dxf.sheet import STYLE, add, content_of, new_document
-from linkwright.pictures.picture import CAPITAL, Circle, Item, Line, Text
+from linkwright.export.dxf.entities import add, content_of, new_document
+from linkwright.pictures.picture import Circle, Item, Line, Text
 from linkwright.pictures.svg.element import FAMILY_LIST, element, number
-from linkwright.pictures.svg.fonts import needs_chinese
 from linkwright.sheets.paper import Paper
-from linkwright.words.characters import one_line
 
 #: Dashes and gaps of the kinds of lines in widths of a thin line (GB/T 17450, shortened for small pictures).
 DASHES = {
@@ -77,7 +75,6 @@ _PATTERNS = {
     "SHEET_CHAIN": [9.0, 7.0, -0.9, 0.2, -0.9],
     "SHEET_DOUBLE_CHAIN": [10.1, 7.0, -0.9, 0.2, -0.9, 0.2, -0.9],
 }
-_ANCHORS = {"start": 0, "middle": 1, "end": 2}
 
 
 def dxf(items: Iterable[Item], paper: Paper) -> bytes:
@@ -86,23 +83,22 @@ def dxf(items: Iterable[Item], paper: Paper) -> bytes:
     What a filled outline hides is cut away, as DXF has no order of painting that all programs keep. Raises
     LinkwrightError where ezdxf is missing.
     """
-    document = new_document(_COLOURS)
+    rows = list(items)
+    words = "".join(text for item in rows if isinstance(item, Text) for text, _ in item.runs)
+    document = new_document(_COLOURS, words)
     for name, pattern in _PATTERNS.items():
         document.linetypes.add(name, pattern)
     for name, kind in _TYPES.items():
         layer = document.layers.get(name)
         layer.dxf.linetype = kind
         layer.dxf.lineweight = round(100 * width_of(name, paper))
-    rows = list(items)
-    words = "".join(text for item in rows if isinstance(item, Text) for text, _ in item.runs)
-    document.styles.add(STYLE, font="simsun.ttc" if needs_chinese(words) else "arial.ttf")
     space = document.modelspace()
     document.header["$LTSCALE"] = 1.0
     document.header["$EXTMIN"], document.header["$EXTMAX"] = (0, 0, 0), (paper.width, paper.height, 0)
     _limits(document, paper)
     for place, item in enumerate(rows):
         if isinstance(item, Text):
-            _text(space, item)
+            add(space, item, "text")
         else:
             covers = [
                 each for each in rows[place + 1 :] if not isinstance(each, Text) and each.fill == "paper"
@@ -118,9 +114,8 @@ def _limits(document: Any, paper: Paper) -> None:
 
 
 def _shape(space: Any, item: Line | Circle, covers: list[Line | Circle]) -> None:
-    attributes = {"layer": item.style}
     if item.fill == "ink":
-        hatch = space.add_hatch(color=7, dxfattribs=attributes)
+        hatch = space.add_hatch(color=7, dxfattribs={"layer": item.style})
         if isinstance(item, Line):
             hatch.paths.add_polyline_path(item.points.tolist(), is_closed=True)
             return
@@ -129,7 +124,7 @@ def _shape(space: Any, item: Line | Circle, covers: list[Line | Circle]) -> None
     near = [each for each in covers if _touches(each, low, high)]
     seen = map(Line, visible(item.outline, near)) if near else (item,)
     for each in seen:
-        add(space, each, attributes)
+        add(space, each, item.style)
 
 
 def _touches(cover: Line | Circle, low: Floats, high: Floats) -> bool:
@@ -197,49 +192,3 @@ def _in_polygon(start: Floats, end: Floats, corners: Floats) -> tuple[float, flo
         share = -begin / rate
         first, last = (max(first, share), last) if rate > 0 else (first, min(last, share))
     return (first, last) if last - first > 1e-6 else None
-
-
-def _text(space: Any, item: Text) -> None:
-    """A line of text; with indices as multi-line text, where they are stacked."""
-    height = item.size * CAPITAL
-    attributes: dict[str, Any] = {"layer": "text", "style": STYLE, "rotation": item.turn}
-    if all(level == 0 for _, level in item.runs):
-        plain = one_line("".join(text for text, _ in item.runs)).replace("%%", "%%%%%%")
-        attributes |= {"height": height, "width": item.squeeze, "oblique": 15.0 if item.symbol else 0.0}
-        entity = space.add_text(plain, dxfattribs=attributes)
-        from ezdxf.enums import TextEntityAlignment
-
-        place = (TextEntityAlignment.LEFT, TextEntityAlignment.CENTER, TextEntityAlignment.RIGHT)
-        entity.set_placement(tuple(item.at), align=place[_ANCHORS[item.anchor]])
-        return
-    attributes |= {
-        "char_height": height,
-        "attachment_point": 7 + _ANCHORS[item.anchor],
-        "insert": tuple(item.at),
-        "width": 2.0 * item.width,
-    }
-    space.add_mtext("".join(_stacked(item)), dxfattribs=attributes)
-
-
-def _stacked(item: Text) -> Iterator[str]:
-    """The parts of a text in the language of MTEXT."""
-    if item.symbol:
-        yield "{\\Q15;"
-    waiting = ""
-    for text, level in item.runs:
-        plain = one_line(text).translate({ord(c): f"\\{c}" for c in "\\{};^#/"})
-        if level > 0:
-            waiting = plain
-            continue
-        if level < 0:
-            yield f"{{\\H0.7x;\\S{waiting or ' '}^{plain};}}"
-            waiting = ""
-            continue
-        if waiting:
-            yield f"{{\\H0.7x;\\S{waiting}^ ;}}"
-            waiting = ""
-        yield plain
-    if waiting:
-        yield f"{{\\H0.7x;\\S{waiting}^ ;}}"
-    if item.symbol:
-        yield "}"

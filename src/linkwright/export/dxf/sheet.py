@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import io
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -12,24 +11,22 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
-from linkwright.export.export import package
+from linkwright.export.dxf.entities import STYLE, add
 from linkwright.export.results import Results
-from linkwright.pictures.labels import Candidate, Label, Obstacles, place
-from linkwright.pictures.picture import Circle, Line, Vec
+from linkwright.pictures.labels import Candidate, Label, Obstacles, place, text_of
+from linkwright.pictures.picture import CAPITAL, Circle, Line, Text, Vec
 from linkwright.pictures.symbols.base import PIN, points
 from linkwright.plot.drawing.dimensions import Dimensioned, dimension_lines
 from linkwright.plot.drawing.scene import laid_out, link_labels, point_labels
 from linkwright.words import _
-from linkwright.words.characters import one_line
 
 #: Layers with their colours (numbers of the AutoCAD colour index), each with a contrast of 3 or more on a white, a
 #: dark grey and a black sheet; 7 is white or black, as the sheet demands.
 LAYERS = {"frame": 8, "links": 150, "joints": 1, "paths": 92, "dimensions": 42, "text": 7}
 #: Layer of each layer of the drawing on paper.
 _OF_PART = {"ground": "frame", "bodies": "links", "blocks": "joints", "tops": "joints"}
-STYLE = "LINKWRIGHT"
-#: Size of the numbers of dimensions on the paper, and the height of a capital letter in sizes.
-VALUE_SIZE, CAPITAL = 12.0, 0.7
+#: Size of the numbers of dimensions on the paper.
+VALUE_SIZE = 12.0
 
 
 class Sheet:
@@ -86,11 +83,10 @@ class Sheet:
         if not names:
             return
         for label, chosen in zip(wanted, places[len(values) :], strict=True):
-            left, _unused, _unused2, bottom = chosen.box
-            self._text(label.text, (left, bottom - 0.15 * label.size), CAPITAL * label.size * self.unit)
+            self._text(replace(text_of(label, chosen), runs=((label.text, 0),)))
         cloud = np.concatenate(ink)
         corner = (float(np.nanmin(cloud[:, 0])), float(np.nanmax(cloud[:, 1])) + 60.0)
-        self._text(self.results.mechanism.name, corner, 1.5 * self.height)
+        self._text(Text(corner, ((self.results.mechanism.name, 0),), "", 1.5 * VALUE_SIZE))
 
     def _value(self, measure: Dimensioned) -> Label:
         """The label of a dimension with the number that DXF shows, without a unit."""
@@ -135,14 +131,8 @@ class Sheet:
         left, top, right, bottom = chosen.box
         return np.asarray(self._units(points([((left + right) / 2, (top + bottom) / 2)]))[0])
 
-    def _text(self, text: str, paper: Vec, height: float) -> None:
-        attributes = {
-            "layer": "text",
-            "style": STYLE,
-            "height": height,
-            "insert": self._units(points([paper]))[0],
-        }
-        self.space.add_text(one_line(text).replace("%%", "%%%%%%"), dxfattribs=attributes)
+    def _text(self, text: Text) -> None:
+        add(self.space, text.placed(np.zeros(2), scale=(self.unit, -self.unit)), "text")
 
     def _units(self, paper: Floats) -> Floats:
         """Points of the paper in units of the drawing."""
@@ -155,7 +145,7 @@ class Sheet:
         at = item.placed(np.array([x, y]), math.radians(turn)).placed(
             np.zeros(2), scale=(self.unit, -self.unit)
         )
-        add(self.space, at, {"layer": layer})
+        add(self.space, at, layer)
 
     def _pins(self) -> None:
         """Circles at pins, of the pin's radius where it is given; small ones at other points."""
@@ -171,7 +161,7 @@ class Sheet:
                     continue
                 else:
                     radius = 0.4 * PIN * self.unit
-                self.space.add_circle(self._world(name, point), radius, dxfattribs={"layer": "joints"})
+                add(self.space, Circle(self._world(name, point), radius), "joints")
 
     def _world(self, link: str, point: str) -> Vec:
         local = self.results.mechanism.link(link).points[point]
@@ -179,22 +169,11 @@ class Sheet:
         return float(x), float(y)
 
     def _path(self, track: Floats, closed: bool, spline: bool) -> None:
-        attributes = {"layer": "paths"}
         if spline and len(track) > 3:
             through = np.vstack([track, track[:1]]) if closed else track
-            self.space.add_spline([(x, y, 0.0) for x, y in through.tolist()], dxfattribs=attributes)
+            self.space.add_spline([(x, y, 0.0) for x, y in through.tolist()], dxfattribs={"layer": "paths"})
         else:
-            self.space.add_lwpolyline(track.tolist(), close=closed, dxfattribs=attributes)
-
-
-def add(space: Any, item: Line | Circle, attributes: Mapping[str, str]) -> None:
-    """A line, a polyline or a circle."""
-    if isinstance(item, Circle):
-        space.add_circle(tuple(item.at), item.radius, dxfattribs=attributes)
-    elif len(item.points) == 2 and not item.closed:
-        space.add_line(*item.points.tolist(), dxfattribs=attributes)
-    elif len(item.points) > 1:
-        space.add_lwpolyline(item.points.tolist(), close=item.closed, dxfattribs=attributes)
+            add(self.space, Line(track, closed=closed), "paths")
 
 
 def check_unit(unit: str) -> tuple[float, int]:
@@ -205,26 +184,8 @@ def check_unit(unit: str) -> tuple[float, int]:
     return known[unit]
 
 
-def new_document(layers: Mapping[str, int], unit: int = 4) -> Any:
-    """An empty document with layers of these colours (numbers of the AutoCAD colour index); ``unit``: DXF's number,
-    millimetres unless given. Raises LinkwrightError where ezdxf is missing."""
-    document = package("ezdxf", _("DXF drawings")).new("R2010", setup=["linetypes"])
-    document.units = unit
-    for name, colour in layers.items():
-        document.layers.add(name, color=colour)
-    return document
-
-
-def content_of(document: Any) -> bytes:
-    """The file of a document."""
-    stream = io.StringIO()
-    document.write(stream)
-    return bytes(document.encode(stream.getvalue()))
-
-
-def prepare(document: Any, height: float, text: str, decimals: int) -> None:
-    """The styles of text and dimensions."""
-    document.styles.add(STYLE, font="arial.ttf" if text.isascii() else "simsun.ttc")
+def set_dimension_style(document: Any, height: float, decimals: int) -> None:
+    """The style of dimensions."""
     style = document.dimstyles.new(STYLE)
     for key, value in {"dimtxt": height, "dimasz": 0.8 * height, "dimexo": 0.4 * height, "dimexe": 0.5 * height,
                        "dimgap": 0.3 * height, "dimdec": decimals, "dimadec": 4, "dimzin": 8, "dimazin": 2,

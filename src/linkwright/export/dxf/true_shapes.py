@@ -10,9 +10,10 @@ import numpy as np
 from linkwright.cams.result import CamDesign
 from linkwright.core.given import PROFILE_POINTS
 from linkwright.errors import RequestError
-from linkwright.export.dxf.sheet import content_of, new_document
+from linkwright.export.dxf.entities import add, content_of, new_document
 from linkwright.gears.pair import GearPair
 from linkwright.gears.rack import Rack
+from linkwright.pictures.picture import Circle, Line
 from linkwright.plot.true_shapes import contact_line
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import _
@@ -50,19 +51,18 @@ def _drawing(design: CamDesign, points: int) -> bytes:
     space, cam = document.modelspace(), design.cam
     closed = cam.barrel_radius is None
 
-    def add(places: np.ndarray, layer: str, **attributes: str) -> None:
-        given = {"layer": layer, **attributes}
-        space.add_lwpolyline((_MM * places).tolist(), close=closed, dxfattribs=given)
+    def outline(places: np.ndarray, layer: str, **attributes: str) -> None:
+        add(space, Line(_MM * places, closed=closed), layer, **attributes)
 
     for wall in range(len(cam.walls)):
         sign = -1.0 if wall and cam.conjugate is not None and not cam.follower.oscillating else 1.0
-        add(sign * design.profile(points, wall), "profile")
+        outline(sign * design.profile(points, wall), "profile")
         if cam.cutter_radius is not None:
-            add(sign * design.cutter_path(None, points, wall), "cutter", linetype="DASHED")
+            outline(sign * design.cutter_path(None, points, wall), "cutter", linetype="DASHED")
     if cam.follower.kind == "roller":
-        add(design.pitch_curve(points), "pitch", linetype="DASHDOT")
+        outline(design.pitch_curve(points), "pitch", linetype="DASHDOT")
     if closed and cam.base_radius is not None:
-        space.add_circle((0.0, 0.0), _MM * cam.base_radius, dxfattribs={"layer": "base"})
+        add(space, Circle((0.0, 0.0), _MM * cam.base_radius), "base")
         space.add_point((0.0, 0.0), dxfattribs={"layer": "base"})
     return content_of(document)
 
@@ -109,14 +109,12 @@ def save_pair(
     document = new_document(GEAR_LAYERS)
     space = document.modelspace()
     for outline in pair.outlines(pinion_angle, points):
-        space.add_lwpolyline((_MM * outline).tolist(), close=True, dxfattribs={"layer": "outline"})
+        add(space, Line(_MM * outline, closed=True), "outline")
     for gear, x in ((pair.pinion, 0.0), (pair.wheel, pair.centre_sign)):
         rolling = 0.5 * gear.base_diameter / math.cos(pair.working_pressure_angle)
-        attributes = {"layer": "rolling", "linetype": "DASHDOT"}
-        space.add_circle((_MM * x, 0.0), _MM * rolling, dxfattribs=attributes)
-        space.add_circle((_MM * x, 0.0), 0.5 * _MM * gear.base_diameter, dxfattribs={"layer": "base"})
-    start, end = (_MM * contact_line(pair)).tolist()
-    space.add_line(start, end, dxfattribs={"layer": "contact"})
+        add(space, Circle((_MM * x, 0.0), _MM * rolling), "rolling", linetype="DASHDOT")
+        add(space, Circle((_MM * x, 0.0), 0.5 * _MM * gear.base_diameter), "base")
+    add(space, Line(_MM * contact_line(pair)), "contact")
     return write_whole(path, content_of(document), force=force)
 
 
@@ -129,7 +127,7 @@ def save_rack(rack: Rack, path: str | Path, *, points: int = 12, force: bool = F
     document = new_document(GEAR_LAYERS)
     space = document.modelspace()
     outline = _MM * rack.outline(points)
-    space.add_lwpolyline(outline.tolist(), close=True, dxfattribs={"layer": "outline"})
-    left, right = outline[:, 0].min(), outline[:, 0].max()
-    space.add_line((left, 0.0), (right, 0.0), dxfattribs={"layer": "rolling", "linetype": "DASHDOT"})
+    add(space, Line(outline, closed=True), "outline")
+    datum = np.array([(outline[:, 0].min(), 0.0), (outline[:, 0].max(), 0.0)])
+    add(space, Line(datum), "rolling", linetype="DASHDOT")
     return write_whole(path, content_of(document), force=force)

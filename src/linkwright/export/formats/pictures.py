@@ -5,15 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.export.dxf.sheet import (
-    LAYERS,
-    Sheet,
-    check_unit,
-    content_of,
-    decimals_for,
-    new_document,
-    prepare,
-)
+from linkwright.export.dxf.entities import content_of, new_document
+from linkwright.export.dxf.sheet import LAYERS, Sheet, check_unit, decimals_for, set_dimension_style
 from linkwright.export.export import FORMATS, Format
 from linkwright.export.results import Results
 from linkwright.files.document import Document
@@ -72,10 +65,10 @@ def dxf(
             _('a path is a "polyline" or a "spline", not a "{curve}"', code="export.bad_curve", curve=curve)
         )
     index = _index(results, position)
-    document = new_document(LAYERS, code)
-    sheet = Sheet(document, results, index, factor)
     words = " ".join([results.mechanism.name, *results.mechanism.links, *results.motion.point_names()])
-    prepare(document, sheet.height, words, decimals_for(factor))
+    document = new_document(LAYERS, words, code)
+    sheet = Sheet(document, results, index, factor)
+    set_dimension_style(document, sheet.height, decimals_for(factor))
     sheet.machine()
     sheet.paths(paths, spline=curve == "spline")
     if dimensions:
