@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     from linkwright.cams.loading import CamSpring as CamSpring
     from linkwright.cams.result import CamDesign as CamDesign
     from linkwright.core.progress import reporting as reporting
+    from linkwright.core.table import Tabular as Tabular
     from linkwright.course.grade import Grade as Grade
+    from linkwright.course.grade import Grades as Grades
     from linkwright.course.grade import grade as grade
     from linkwright.course.variants import Variants as Variants
     from linkwright.course.variants import variants as variants
@@ -126,9 +128,8 @@ ATTACHED.update(
         "CamDesign.draw": "linkwright.plot.true_shapes:draw_cam",
         "CamDesign.save_profile": "linkwright.export.dxf.true_shapes:save_profile",
         "CamDesign.steps": "linkwright.cams.report:steps",
-        "Comparison._repr_html_": "linkwright.designs.evaluation:shown_in_notebooks",
         "Comparison.evaluation": "linkwright.designs.evaluation:evaluation",
-        "Comparison.text": "linkwright.designs.evaluation:text",
+        "Comparison.tables": "linkwright.designs.evaluation:tables",
         "Forces._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
         "Forces.balance_residual": "linkwright.kinetostatics.link_balance:balance_residual",
         "Forces.columns": "linkwright.kinetostatics.table:force_columns",
@@ -142,12 +143,12 @@ ATTACHED.update(
         "Motion.outcomes": "linkwright.kinematics.reach_sentences:explain",
         "Motion.refusal": "linkwright.kinematics.refusal:refusal",
         "Motion.to_dataframe": "linkwright.kinematics.table:motion_frame",
-        "Optimum.text": "linkwright.designs.optimise.report:text",
+        "Optimum.tables": "linkwright.designs.optimise.report:tables",
         "Plotted.plot": "linkwright.plot.diagrams.diagram_by_name:plot",
         "Problem.sketch": "linkwright.plot.sketches.base:sketch",
         "Rack.draw": "linkwright.plot.true_shapes:draw_rack",
         "Rack.save_dxf": "linkwright.export.dxf.true_shapes:save_rack",
-        "Study.text": "linkwright.designs.study_text:text",
+        "Study.tables": "linkwright.designs.study_text:tables",
         "Synthesis.worked": "linkwright.synthesis.steps.solution:worked",
         "Variants.files": "linkwright.course.questions:files_of",
     }

@@ -74,10 +74,10 @@ def variants() -> lw.Variants:
     return lw.variants("gallery:jaw_crusher_fourbar", 1, seed=7)
 
 
-def grades() -> list[lw.Grade]:
+def grades() -> lw.Grades:
     key = variants().key()
     answers = {question["name"]: "1" for question in key["questions"]}
-    return list(lw.grade(key, [{"student": "A. Student", "variant": "1", **answers}]))
+    return lw.grade(key, [{"student": "A. Student", "variant": "1", **answers}])
 
 
 SIX = "gallery:jaw_crusher_sixbar"
@@ -238,7 +238,7 @@ def test_every_public_type_is_among_them() -> None:
 
 
 def _flat(value: Any) -> list[Any]:
-    return [value, *(value if isinstance(value, list | tuple) else ())]
+    return [value, *(value if isinstance(value, list | tuple | lw.Grades) else ())]
 
 
 def test_a_pickled_motion_answers_what_was_not_asked_before() -> None:

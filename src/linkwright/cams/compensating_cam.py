@@ -14,6 +14,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.outputs import NAMED, PLACES, Output
 from linkwright.core.quantity import SHOWN, shown
+from linkwright.core.table import Amount, Table, Tabular
 from linkwright.errors import RequestError, speaker
 from linkwright.joints.cam import CamJoint
 from linkwright.kinematics.motion import Motion
@@ -37,7 +38,7 @@ _NOT_ONE_TURN = _(
 
 
 @dataclass(frozen=True)
-class CompensatingCam:
+class CompensatingCam(Tabular):
     """A machine whose cam keeps an output constant in a zone.
 
     ``mechanism``: with the lifts found; ``joint``: its cam; ``output``: what is constant; ``zone``: values of the
@@ -61,32 +62,23 @@ class CompensatingCam:
         joint: Any = self.mechanism.joints[self.joint]
         return "angle" if joint.side else "length"
 
-    def text(self, language: str = "en") -> str:
+    def tables(self, language: str = "en") -> tuple[Table, ...]:
         """What is kept constant where, and how well."""
-        say, output = speaker(language), str(self.output)
+        say, output, kind = speaker(language), str(self.output), self.output.dimension
         first, last = (shown(each, self.mechanism.across) for each in self.zone)
-        rows = {
-            _("{output} varies in it, follower at rest, by", output=output): shown(
-                self.before, self.output.dimension
-            ),
-            _("with the cam by"): shown(self.after, self.output.dimension),
-            _("whole lift"): shown(float(np.ptp(self.lifts)), self.lift_dimension),
-        }
-        lines = (f"  {say(what)}: {value}" for what, value in rows.items())
-        return "\n".join(
-            [
-                say(
-                    _(
-                        "{output} is constant by {joint} while the input goes from {first} to {last}",
-                        output=output,
-                        joint=self.joint,
-                        first=first,
-                        last=last,
-                    )
-                ),
-                *lines,
-            ]
+        title = _(
+            "{output} is constant by {joint} while the input goes from {first} to {last}",
+            output=output,
+            joint=self.joint,
+            first=first,
+            last=last,
         )
+        rows = (
+            (_("{output} varies in it, follower at rest, by", output=output), Amount(self.before, kind)),
+            (_("with the cam by"), Amount(self.after, kind)),
+            (_("whole lift"), Amount(float(np.ptp(self.lifts)), self.lift_dimension)),
+        )
+        return (Table(rows=rows, title=say(title)),)
 
     def data(self) -> dict[str, Any]:
         """Plain data, SI."""

@@ -9,8 +9,8 @@ import numpy as np
 
 from linkwright.cams.result import LABELS, CamDesign
 from linkwright.core.quantity import number, shown
+from linkwright.core.rows import Block, Row
 from linkwright.core.search import first_largest
-from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.laws.program import MotionProgram
 from linkwright.laws.smoothest import FoundProgram

@@ -18,8 +18,8 @@ from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import PROFILE_POINTS
 from linkwright.core.quantity import number
+from linkwright.core.rows import Block
 from linkwright.core.search import ends, first_largest
-from linkwright.core.table import Block
 from linkwright.curves.curve import Curve, Extreme
 from linkwright.equations.steps import Step
 from linkwright.errors import RequestError

@@ -13,10 +13,13 @@ from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.core.attached import Plotted
+    from linkwright.core.table import Tabular
     from linkwright.designs.compare import Comparison
 
 
 PICTURES = (".svg", ".pdf", ".png")
+#: Files of results.
+RESULTS = (".csv", ".json", ".xlsx", ".md", ".html")
 
 
 ENDING_SAYS = _('"{path}": the ending says what is written; end the name in {endings}', code="cli.bad_suffix")
@@ -68,6 +71,16 @@ def write_table(name: str | None, table: Callable[[], str], data: Callable[[], A
     path = Path(name)
     text = table() if path.suffix.lower() == ".csv" else json_text(data()) + "\n"
     write_whole(path, text, force=force)
+
+
+def write_result(name: str | None, found: Tabular, session: Session, *, force: bool) -> None:
+    """Writes a result as the file's ending says: its columns or tables, or its data."""
+    if name is None:
+        return
+    from linkwright.export.export import chosen_format, content_of
+
+    path = Path(name)
+    write_whole(path, content_of(found, chosen_format(path, None), session.language), force=force)
 
 
 def curve_columns(found: Comparison) -> dict[str, Any]:

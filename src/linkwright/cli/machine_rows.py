@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from typing import ClassVar
+
 from linkwright.cli.machine_options import Wanted
+from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
-from linkwright.core.table import Block, Row
+from linkwright.core.rows import Block, Numbers, Row
 from linkwright.errors import LinkwrightError
 from linkwright.machine import running
 from linkwright.machine.energy import EnergyFluctuation, energy_fluctuation
@@ -13,7 +17,7 @@ from linkwright.machine.motor import motor
 from linkwright.machine.running import placed, share, speeds
 from linkwright.machine.speed import true_speed
 from linkwright.machine.torque_curve import TorqueCurve
-from linkwright.words import Say, _, pgettext
+from linkwright.words import Message, Say, _, pgettext
 
 #: A mean torque below this share of the largest one is zero.
 NOTHING = 1e-9
@@ -32,6 +36,27 @@ LABELS = {
     "mass": _("  mass"),
     "rim_speed": _("  speed of the circumference (cast iron: up to about 30 m/s)"),
 }
+
+
+@dataclass(frozen=True)
+class Layout(Numbers):
+    """What is found of torque curves, or of a machine (``running``) with the dimensions of its flywheel."""
+
+    labels: ClassVar[Mapping[str, Message]] = LABELS
+    digits: ClassVar[int] = 7
+    name: str
+    found: Callable[[Say], list[Block]]
+    machine: running.SteadyRunning | None = None
+
+    @property
+    def title(self) -> str:
+        return self.name
+
+    def blocks(self, say: Say) -> list[Block]:
+        return [each for each in self.found(say) if each.rows]
+
+    def notes(self, language: str = "en") -> list[str]:
+        return [] if self.machine is None else self.machine.notes(language)
 
 
 def of_areas(energy: EnergyFluctuation, wanted: Wanted, say: Say) -> list[Block]:

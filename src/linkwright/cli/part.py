@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
@@ -15,7 +14,6 @@ from linkwright.words import Message, _
 if TYPE_CHECKING:
     from linkwright.parts.base import Problem, Result
 
-ENDINGS = (".csv", ".json")
 #: Digits that numbers can be shown with.
 DIGITS = range(3, 16)
 
@@ -33,7 +31,11 @@ def part_arguments(option: Options) -> None:
         help=_("significant digits of the numbers (3 to 15; default: 6)"),
     )
     option("--plot", "FILE", help=_("draw the diagram in a .svg, .pdf or .png file"))
-    option("--output", "FILE", help=_("write curves to a .csv file or all numbers to a .json file"))
+    option(
+        "--output",
+        "FILE",
+        help=_("write curves to a .csv file, or all numbers to a .json, .xlsx, .md or .html file"),
+    )
     option.fonts()
     option.force()
 
@@ -49,9 +51,9 @@ def run_part(options: argparse.Namespace, session: Session, command: str) -> int
 
 def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
     """Raises UsageError for files that could not be written, before any work is done."""
-    from linkwright.cli.files import PICTURES, refuse_output
+    from linkwright.cli.files import PICTURES, RESULTS, refuse_output
 
-    refuse_output(options.output, ENDINGS, force=options.force)
+    refuse_output(options.output, RESULTS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
 
 
@@ -79,25 +81,12 @@ def read(source: str, command: str, session: Session) -> Problem:
 
 def show(result: Result, options: argparse.Namespace, session: Session, *, kind: str | None = None) -> None:
     """Prints the result; writes its curves and its diagram (``kind``: another than its usual one) where asked."""
-    from linkwright.cli.files import write_diagram, write_table
-    from linkwright.core.table import csv_text
+    from linkwright.cli.files import write_diagram, write_result
 
-    def table() -> str:
-        columns = result.columns()
-        if not columns:
-            raise UsageError(
-                _(
-                    "{path}: this result has no curves to write; choose an ending .json",
-                    code="part.no_curves",
-                    path=Path(options.output),
-                )
-            )
-        return csv_text(columns)
-
-    write_table(options.output, table, result.data, force=options.force)
+    write_result(options.output, result, session, force=options.force)
     write_diagram(options.plot, result, session, force=options.force, kind=kind)
     language = session.language
-    text = result.worked(language) if options.worked else result.text(language, options.digits)
+    text = result.worked(language) if options.worked else result.text(language, digits=options.digits)
     session.show_result(result, options.output, options.plot, text=text)
 
 

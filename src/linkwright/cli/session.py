@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from typing import Any, Protocol
+from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import OutputError
 from linkwright.core.dataclass import dataclass
@@ -15,21 +15,14 @@ from linkwright.words import Say, _
 from linkwright.words.characters import folded_lines, terminal_text
 from linkwright.words.sentence import reason_of
 
+if TYPE_CHECKING:
+    from linkwright.core.table import Tabular
+
 #: Width of tables where there is no terminal, as in a pipe or a file.
 PIPE_WIDTH = 100
 BOLD = "1"
 #: Red, yellow, cyan.
 COLOURS = {"error": "31", "warning": "33", "note": "36"}
-
-
-class Reported(Protocol):
-    """A result with a text in every language, and plain data."""
-
-    def text(self, language: str = "en") -> str:
-        """What a terminal shows."""
-
-    def data(self) -> dict[str, Any]:
-        """What ``--json`` prints."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +53,7 @@ class Session:
         self.show_as_is(json_text(value))
 
     def show_result(
-        self, found: Reported, *written: object, text: str | None = None, apart: bool = True
+        self, found: Tabular, *written: object, text: str | None = None, apart: bool = True
     ) -> None:
         """Prints a result (``text``: as it is asked for), its first line bold, and which files were written; with
         ``json`` its data."""

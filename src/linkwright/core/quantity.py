@@ -28,14 +28,18 @@ def shown_unit(dimension: str) -> str:
     return SHOWN[dimension][0] if dimension in SHOWN else si_unit(dimension)
 
 
+def shown_factor(dimension: str) -> float:
+    """From SI to the unit in which a dimension is shown."""
+    return SHOWN[dimension][1] if dimension in SHOWN else 1.0
+
+
 def number(value: float, dimension: str = "", digits: int = 6) -> str:
     """The number alone, in the shown unit; zero without a sign, rounding of an angle or a length as zero."""
     if abs(value) < NOTHING.get(dimension, 0.0):
         return "0"
     if math.isinf(value):
         return INFINITE if value > 0.0 else f"-{INFINITE}"
-    factor = SHOWN[dimension][1] if dimension in SHOWN else 1.0
-    return f"{value * factor + 0.0:.{digits}g}"
+    return f"{value * shown_factor(dimension) + 0.0:.{digits}g}"
 
 
 def shown(value: float, dimension: str = "", digits: int = 6) -> str:

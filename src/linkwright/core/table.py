@@ -1,6 +1,6 @@
 """Tables of results: typed cells, written for terminals, files, notebooks and reports from one place.
 
-A result offers ``table`` or ``blocks``; its text, its data, its files and its place in a report are views of them.
+A result offers ``tables``; its text, its files, its place in notebooks and reports are views of them.
 """
 
 from __future__ import annotations
@@ -9,27 +9,33 @@ import csv
 import io
 import math
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import replace
 from functools import cached_property
 from html import escape
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.core.quantity import MISSING, number, shown_unit, with_unit
+from linkwright.core.quantity import MISSING, number, shown_factor, shown_unit, with_unit
+from linkwright.errors import LinkwrightError
 from linkwright.formula.late_import import numpy as np
 from linkwright.units import Dimension, si_symbol, si_unit
-from linkwright.words import Message, Say
+from linkwright.words import _
 from linkwright.words.characters import aligned, aligned_within, cell_text
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
+    import pandas
+
     from linkwright.core.arrays import Floats
 
 #: Beside the largest of its kind anything below this share is nothing but rounding.
 ROUNDING = 1e-12
+#: What Markdown takes for marks.
+_MARKS = re.compile(r"[\\`*_\[\]<>|#]")
 _NUMBER = re.compile(r"[-+]?[\d.]+(?:e[-+]?\d+)?")
 #: Digits of a column's largest value.
 COLUMN_DIGITS = 5
@@ -71,6 +77,15 @@ class Amount:
     mark: str = ""
 
     @property
+    def shown(self) -> float:
+        """The value in the shown unit."""
+        return (
+            self.value / self.scale.factor
+            if self.scale is not None
+            else self.value * shown_factor(self.dimension)
+        )
+
+    @property
     def number(self) -> str:
         """The number, or both ends, in the shown unit."""
         ends = [self.value] if self.end is None else [self.value, self.end]
@@ -102,10 +117,10 @@ Cell = str | Amount | int | None
 @dataclass(frozen=True)
 class Table:
     """Cells below a heading; ``align``: ``<``, ``>`` or ``^`` per column, by default all but the first to the right;
-    ``title`` above, ``notes`` below."""
+    ``title`` above, ``notes`` below. Without rows it is a paragraph."""
 
-    head: Sequence[str]
-    rows: Sequence[Sequence[Cell]]
+    head: Sequence[str] = ()
+    rows: Sequence[Sequence[Cell]] = ()
     align: str = ""
     title: str = ""
     notes: Sequence[str] = ()
@@ -114,23 +129,37 @@ class Table:
         """The heading and the rows as texts."""
         return [[_text(cell, language) for cell in row] for row in (self.head, *self.rows)]
 
-    def values(self, language: str = "en") -> list[list[str | float | None]]:
-        """The heading and the rows as texts and numbers, amounts in SI."""
-        return [[_value(cell, language) for cell in row] for row in (self.head, *self.rows)]
-
     @property
     def alignment(self) -> str:
         """The alignment of every column."""
-        return self.align or "<" + ">" * (len(self.head) - 1)
+        columns = max(map(len, (self.head, *self.rows)))
+        return self.align or ("<" + ">" * columns)[:columns]
 
     def lines(self, language: str = "en", width: int | None = None) -> list[str]:
-        """The lines on a terminal, folded within a width."""
-        rows = aligned_within(self.texts(language), self.alignment, width)
-        return [line for each in rows for line in each]
+        """Title, rows and notes on a terminal; under a heading the rows stand apart, folded within a width, without
+        one they are set in."""
+        head, *body = self.texts(language)
+        title = [in_language(self.title, language)] if self.title else []
+        notes = [in_language(note, language) for note in self.notes]
+        if not head:
+            return [*title, *(f"  {line}" for line in aligned(body, self.alignment)), *notes]
+        rows = aligned_within([head, *body], self.alignment, width)
+        gap = [""]
+        return [
+            *title,
+            *gap * len(title),
+            *(line for each in rows for line in each),
+            *gap * bool(notes),
+            *notes,
+        ]
 
     def html(self, language: str = "en") -> str:
         """The table as notebooks show it."""
         head, *rows = self.texts(language)
+        notes = "".join(f"<p>{escape(in_language(line, language))}</p>" for line in self.notes)
+        title = escape(in_language(self.title, language))
+        if not rows:
+            return f"<p><b>{title}</b></p>{notes}" if title else notes
         sides = {"<": "left", ">": "right", "^": "center"}
         styles = [f"text-align:{sides[each]}" for each in self.alignment]
         body = "".join(
@@ -140,19 +169,59 @@ class Table:
             for row in rows
         )
         heads = "".join(f"<th>{escape(word)}</th>" for word in head)
-        lines = "".join(f"<p>{escape(in_language(line, language))}</p>" for line in self.notes)
-        top = f"<caption>{escape(self.title)}</caption><thead><tr>{heads}</tr></thead>"
-        return f"<table>{top}<tbody>{body}</tbody></table>{lines}"
+        top = f"<caption>{title}</caption><thead><tr>{heads}</tr></thead>"
+        return f"<table>{top}<tbody>{body}</tbody></table>{notes}"
+
+    def markdown(self, language: str = "en") -> str:
+        """The table in Markdown, with what else it holds in paragraphs."""
+        head, *rows = [[_MARKS.sub(r"\\\g<0>", cell.strip()) for cell in row] for row in self.texts(language)]
+        rule = [{"<": "---", ">": "--:", "^": ":-:"}[each] for each in self.alignment]
+        lines = (f"| {' | '.join(row)} |" for row in (head or [""] * len(rule), rule, *rows))
+        notes = (_MARKS.sub(r"\\\g<0>", in_language(note, language).strip()) for note in self.notes)
+        title = _MARKS.sub(r"\\\g<0>", in_language(self.title, language))
+        parts = (f"**{title}**" if title else "", "\n".join(lines) if rows else "", *notes)
+        return "\n\n".join(filter(None, parts))
 
 
-def _value(cell: Cell, language: str) -> str | float | None:
-    return (
-        cell.value
-        if isinstance(cell, Amount)
-        else in_language(cell, language)
-        if isinstance(cell, str)
-        else cell
-    )
+class Tabular(ABC):
+    """A result that is read as tables; its text and its files are views of them.
+
+    ``row_names``: the column that names the rows of the others.
+    """
+
+    row_names: ClassVar[str | None] = None
+
+    @abstractmethod
+    def tables(self, language: str = "en", *given: Any, **options: Any) -> Sequence[Table]:
+        """The tables in the order in which they are read, with what is said above and below each."""
+
+    @abstractmethod
+    def data(self) -> Mapping[str, Any]:
+        """Plain data, SI."""
+
+    def columns(self) -> Mapping[str, Any]:
+        """Curves, or numbers of many designs, by name with unit, SI; empty where there are none."""
+        return {}
+
+    def text(self, language: str = "en", width: int | None = None, **options: Any) -> str:
+        """The tables as a terminal shows them, in a language (``en``, ``zh``).
+
+        ``width``: characters across within which texts of tables are folded; ``options``: those of ``tables``.
+        """
+        parts = ("\n".join(each.lines(language, width)) for each in self.tables(language, **options))
+        return "\n\n".join(filter(None, parts))
+
+    def markdown(self, language: str = "en") -> str:
+        """The tables in Markdown."""
+        return "\n\n".join(each.markdown(language) for each in self.tables(language)) + "\n"
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The columns as a pandas table; needs pandas."""
+        return dataframe(self.columns(), index=self.row_names)
+
+    def _repr_html_(self) -> str:
+        """The tables as notebooks show them."""
+        return "".join(each.html() for each in self.tables())
 
 
 def _text(cell: Cell, language: str) -> str:
@@ -161,110 +230,6 @@ def _text(cell: Cell, language: str) -> str:
     if isinstance(cell, Amount):
         return cell.text
     return str(cell) if isinstance(cell, int) else in_language(cell, language)
-
-
-@dataclass(frozen=True)
-class Row:
-    """One number of a result: its key, value (SI) and dimension; ``label`` where it is not the key's word.
-
-    An interval goes from ``value`` to ``end``; ``scale`` is the unit of a number without dimension; ``text`` is what
-    tables show in place of number and unit, ``digits`` how many they show of this one; ``note``: what is said behind
-    it, ``more``: the same as data; a ``remainder`` is what a balance leaves, itself nothing but rounding.
-    """
-
-    key: str
-    value: float
-    dimension: str = ""
-    label: str = ""
-    note: str = ""
-    scale: Scale | None = None
-    end: float | None = None
-    text: str = ""
-    remainder: bool = False
-    more: Mapping[str, Any] = field(default_factory=dict)
-    digits: int | None = None
-
-    def cells(self, labels: Mapping[str, Message], say: Say, digits: int = 6) -> list[str]:
-        """Label, number with so many digits, unit and note."""
-        label = self.label or say(labels[self.key])
-        if self.text:
-            return [label, self.text, "", self.note]
-        amount = Amount(self.value, self.dimension, self.digits or digits, self.end, self.scale)
-        return [label, amount.number, amount.unit, self.note]
-
-    def tidy(self, rounding: float) -> Row:
-        """The row with values below a limit as zero; a plain number, or a ``remainder``, stays."""
-        if not self.dimension or self.remainder or self.text:
-            return self
-        value = 0.0 if abs(self.value) <= rounding else self.value
-        end = 0.0 if self.end is not None and abs(self.end) <= rounding else self.end
-        return replace(self, value=value, end=end)
-
-    def data(self) -> dict[str, Any]:
-        """Value or both ends, SI, with their unit, and the note; what is no number with the text that says why."""
-        found = Amount(self.value, self.dimension, end=self.end, scale=self.scale).data
-        note = self.text if math.isnan(self.value) else "" if self.more else self.note
-        return {**found, **self.more, **({"note": note} if note else {})}
-
-
-@dataclass(frozen=True)
-class Block:
-    """Rows under a title; ``key`` names them in data, ``remarks`` are sentences below."""
-
-    key: str
-    title: str
-    rows: Sequence[Row]
-    remarks: Sequence[str] = ()
-
-    def lines(self, labels: Mapping[str, Message], say: Say, digits: int = 6) -> list[str]:
-        """Title, rows and remarks on a terminal."""
-        rows = aligned([row.cells(labels, say, digits) for row in self.rows], "<><<")
-        title = [self.title] if self.title else []
-        return [*title, *(f"  {line}" for line in rows), *map(str, self.remarks)]
-
-    def data(self) -> dict[str, Any]:
-        """The rows by their labels, each under one of its own, and the remarks."""
-        rows: dict[str, Any] = {}
-        for row in self.rows:
-            rows[unused((row.label or row.key).strip(), rows)] = row.data()
-        if self.remarks:
-            rows[unused("remarks", rows)] = list(self.remarks)
-        return rows
-
-
-def tidy(blocks: Sequence[Block]) -> list[Block]:
-    """Blocks with numbers that are rounding beside the largest of their dimension as zero; remainders as found."""
-    largest: dict[str, float] = {}
-    for row in (row for block in blocks for row in block.rows):
-        for value in (row.value, *([] if row.end is None else [row.end])):
-            if not math.isnan(value):
-                largest[row.dimension] = max(largest.get(row.dimension, 0.0), abs(value))
-    return [
-        replace(block, rows=[row.tidy(ROUNDING * largest.get(row.dimension, 0.0)) for row in block.rows])
-        for block in blocks
-    ]
-
-
-def blocks_data(name: str, blocks: Sequence[Block]) -> dict[str, Any]:
-    """Blocks by key as plain data, SI, each number with its unit."""
-    found: dict[str, Any] = {"name": name}
-    for block in blocks:
-        found[unused(block.key, found)] = block.data()
-    return found
-
-
-def rows_data(blocks: Sequence[Block]) -> dict[str, Any]:
-    """The rows of all blocks by their keys as plain data."""
-    found: dict[str, Any] = {}
-    for row in (row for block in blocks for row in block.rows):
-        found[unused(row.key, found)] = row.data()
-    return found
-
-
-def together(blocks: Sequence[Block], labels: Mapping[str, Message], say: Say, digits: int = 7) -> list[str]:
-    """The rows of all blocks aligned with one another, an empty line before each block."""
-    lines = iter(aligned([row.cells(labels, say, digits) for block in blocks for row in block.rows], "<><>"))
-    return [line for block in blocks if block.rows for line in ("", *(next(lines) for _ in block.rows))]
 
 
 def unused(key: str, taken: Container[str]) -> str:
@@ -372,3 +337,19 @@ def columns_table(title: str, columns: Mapping[str, Any], notes: Sequence[str] =
     ]
     below = [f"{MOST} / {longest}"] if longest > MOST else []
     return Table(["", *columns], rows, title=title, notes=[*below, *notes])
+
+
+def dataframe(named: Mapping[str, Any], *, index: str | None = None) -> pandas.DataFrame:
+    """A pandas table of named columns, one of them its index where asked.
+
+    Raises:
+        LinkwrightError: pandas is not installed.
+    """
+    try:
+        import pandas
+    except ImportError as error:
+        raise LinkwrightError(
+            _("pandas is not installed; install it with: pip install pandas", code="motion.needs_pandas")
+        ) from error
+    table = pandas.DataFrame(dict(named))
+    return table if index is None else table.set_index(index)

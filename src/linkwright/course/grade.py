@@ -7,15 +7,15 @@ import io
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.table import PERCENT, Amount, Cell, Table
+from linkwright.core.table import PERCENT, Amount, Cell, Table, Tabular
 from linkwright.course.key import read_key
 from linkwright.course.variants import close
 from linkwright.errors import LinkwrightError, RequestError, speaker
 from linkwright.words import _
-from linkwright.words.sentence import in_language, reason_of
+from linkwright.words.sentence import reason_of
 
 #: Letters of an answer that a sentence repeats.
 SHOWN = 60
@@ -60,9 +60,59 @@ class Grade:
         return math.nan if self.fault else sum(each is True for each in self.right) / len(self.right)
 
 
-def grade(
-    key: Mapping[str, Any] | str | Path, answers: str | Path | Sequence[Mapping[str, str]]
-) -> list[Grade]:
+@dataclass(frozen=True)
+class Grades(Tabular, Sequence[Grade]):
+    """Graded sheets; ``questions``: their names."""
+
+    sheets: tuple[Grade, ...]
+    questions: tuple[str, ...]
+
+    @overload
+    def __getitem__(self, index: int) -> Grade: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Grade, ...]: ...
+    def __getitem__(self, index: int | slice) -> Grade | tuple[Grade, ...]:
+        return self.sheets[index]
+
+    def __len__(self) -> int:
+        return len(self.sheets)
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """Why sheets cannot be graded."""
+        return tuple(each.fault for each in self.sheets if each.fault)
+
+    def tables(self, language: str = "en") -> tuple[Table, ...]:
+        """A row per sheet: student, variant, score, wrong numbers, mistake."""
+        say = speaker(language)
+        heads = (_("student"), _("variant"), _("right"), _("wrong"), _("probable mistake"))
+        rows: list[list[Cell]] = []
+        for each in self.sheets:
+            if each.fault:
+                rows.append([each.student, "–", "–", "", each.fault])
+                continue
+            wrong = [name for name, ok in zip(self.questions, each.right, strict=True) if ok is False]
+            open_ = [name for name, ok in zip(self.questions, each.right, strict=True) if ok is None]
+            said = say(_(" or ")).join(say(MISTAKE_NAMES[name]) for name in each.mistakes)
+            if wrong and not said:
+                said = say(_("none of the usual ones"))
+            if each.where and said:
+                said = f"{said} ({each.where})"
+            shown = ", ".join([*wrong, *(say(_("{name} (open)", name=name)) for name in open_)])
+            score = Amount(round(each.score, 2), scale=PERCENT)
+            rows.append([each.student, each.variant, score, shown, said])
+        return (Table([say(head) for head in heads], rows, "<>><<"),)
+
+    def data(self) -> dict[str, Any]:
+        """Plain data."""
+        sheets = [
+            {"student": g.student, "variant": g.variant, "right": list(g.right), "mistakes": list(g.mistakes),
+             "where": g.where, **({"fault": g.fault} if g.fault else {})} for g in self.sheets
+        ]  # fmt: skip
+        return {"ok": not self.faults, "sheets": sheets}
+
+
+def grade(key: Mapping[str, Any] | str | Path, answers: str | Path | Sequence[Mapping[str, str]]) -> Grades:
     """Grades sheets with an answer key.
 
     Args:
@@ -70,21 +120,22 @@ def grade(
         answers: rows, or the path of a CSV file: columns ``student``, ``variant``, and one per question by its name.
 
     Returns:
-        One grade per row; one whose variant does not exist, or with an answer that is no number, has its ``fault``.
+        The grades, one per row; one whose variant does not exist, or with an answer that is no number, has its
+        ``fault``.
 
     Raises:
         LinkwrightError: a file that cannot be read, a column that does not exist.
     """
     held = read_key(key)
-    found = []
-    for line, row in _rows(answers, [each["name"] for each in held["questions"]]):
+    names, found = tuple(each["name"] for each in held["questions"]), []
+    for line, row in _rows(answers, names):
         try:
             found.append(_graded(held, row, line))
         except RequestError:
             raise
         except LinkwrightError as error:
             found.append(Grade(_student(row, line), 0, (), fault=error.sentence))
-    return found
+    return Grades(tuple(found), names)
 
 
 def _student(row: Mapping[str, str], line: int) -> str:
@@ -232,31 +283,3 @@ def _number(text: str | None, line: int, name: str) -> float | None:
             )
         )
     return found
-
-
-def table(grades: Sequence[Grade], names: Sequence[str], language: str = "en") -> Table:
-    """A table: student, variant, score, wrong numbers, mistake."""
-    say = speaker(language)
-    head = [
-        say(_("student")),
-        say(_("variant")),
-        say(_("right")),
-        say(_("wrong")),
-        say(_("probable mistake")),
-    ]
-    rows: list[list[Cell]] = []
-    for each in grades:
-        if each.fault:
-            rows.append([each.student, "–", "–", "", in_language(each.fault, language)])
-            continue
-        wrong = [name for name, ok in zip(names, each.right, strict=True) if ok is False]
-        open_ = [name for name, ok in zip(names, each.right, strict=True) if ok is None]
-        said = say(_(" or ")).join(say(MISTAKE_NAMES[name]) for name in each.mistakes)
-        if wrong and not said:
-            said = say(_("none of the usual ones"))
-        if each.where and said:
-            said = f"{said} ({each.where})"
-        shown = ", ".join([*wrong, *(say(_("{name} (open)", name=name)) for name in open_)])
-        score = Amount(round(each.score, 2), scale=PERCENT)
-        rows.append([each.student, each.variant, score, shown, said])
-    return Table(head, rows, "<>><<")

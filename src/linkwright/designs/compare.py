@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
-from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, ClassVar
 
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS, real, require
 from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
+from linkwright.core.table import Table, Tabular
 from linkwright.designs.alternatives import Alternative, alternatives
 from linkwright.designs.criteria import USUAL, Criterion, criteria
 from linkwright.designs.overlay import Overlay, overlays
@@ -24,10 +25,6 @@ from linkwright.metrics.by_name import ask
 from linkwright.registry import offered
 from linkwright.units import si_unit
 from linkwright.words import _
-
-if TYPE_CHECKING:
-    import pandas
-
 
 #: Values of a criterion that differ by less than this share are equal.
 SAME = 1e-9
@@ -53,7 +50,7 @@ class Row:
             return ()
         sizes = [abs(each.value) for each in self.values if each is not None]
         goal = max(sizes) if self.criterion.better == "higher" else min(sizes)
-        same = SAME * max((size for size in sizes if isfinite(size)), default=0.0)
+        same = SAME * max((size for size in sizes if math.isfinite(size)), default=0.0)
         best = tuple(i for i, size in enumerate(sizes) if size == goal or abs(size - goal) <= same)
         return () if len(best) == len(sizes) else best
 
@@ -85,13 +82,14 @@ class Rank:
 
 
 @dataclass(eq=False)
-class Comparison(Plotted, Frozen):
+class Comparison(Plotted, Tabular, Frozen):
     """Alternatives side by side.
 
     ``rows``: criteria with values; ``ranking``: best first; ``curves``: data to overlay. ``text(language)`` is the
     table with ranking and evaluation, ``evaluation(language)`` the sentences alone.
     """
 
+    row_names: ClassVar[str] = "metric"
     alternatives: tuple[Alternative, ...]
     rows: tuple[Row, ...]
     fluctuation: float
@@ -145,14 +143,12 @@ class Comparison(Plotted, Frozen):
             )
         )
 
-    def units(self) -> list[tuple[Row, str]]:
-        """Rows with the SI units of their values."""
-        return [(row, si_unit(row.dimension)) for row in self.rows]
-
-    def column(self, index: int) -> list[float]:
-        """Values of one alternative over the rows, SI; NaN where a metric does not apply."""
-        found = [row.values[index] for row in self.rows]
-        return [float("nan") if each is None else each.value for each in found]
+    def columns(self) -> dict[str, Any]:
+        """The criteria with SI units, and the values of every alternative; NaN where a metric does not apply."""
+        names = [f"{row.criterion.name} [{unit}]" if (unit := si_unit(row.dimension)) else row.criterion.name
+                 for row in self.rows]  # fmt: skip
+        found = ([math.nan if each is None else each.value for each in row.values] for row in self.rows)
+        return {"metric": names, **dict(zip(self.labels, zip(*found, strict=True), strict=True))}
 
     def _index(self, label: str) -> int:
         if label not in self.labels:
@@ -172,11 +168,8 @@ class Comparison(Plotted, Frozen):
         raise NotImplementedError
 
     @attached
-    def text(self, language: str = "en", width: int | None = None) -> str:
-        """The table, best values marked, the ranking with reasons, and the evaluation.
-
-        ``width``: characters across within which texts of the table are folded.
-        """
+    def tables(self, language: str = "en") -> tuple[Table, ...]:
+        """The table, best values marked, the ranking with reasons, and the evaluation."""
         raise NotImplementedError
 
     def data(self) -> dict[str, Any]:
@@ -202,22 +195,6 @@ class Comparison(Plotted, Frozen):
             "evaluation": {language: self.evaluation(language) for language in ("en", "zh")},
             "notes": list(self.notes),
         }
-
-    def to_dataframe(self) -> pandas.DataFrame:
-        """Criteria in rows, alternatives in columns, SI; needs pandas."""
-        import numpy as np
-
-        from linkwright.kinematics.table import dataframe
-
-        columns = {label: np.array(self.column(i)) for i, label in enumerate(self.labels)}
-        frame = dataframe(columns)
-        frame.index = [f"{row.criterion.name} [{si_unit(row.dimension)}]" for row in self.rows]
-        return frame
-
-    @attached
-    def _repr_html_(self) -> str:
-        """The table as notebooks show it; * marks the best."""
-        raise NotImplementedError
 
     def __repr__(self) -> str:
         order = " > ".join(f"{rank.label} ({rank.score:.2f})" for rank in self.ranking)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,7 +16,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS, one_of, require, whole
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
-from linkwright.core.table import columns_table, unused
+from linkwright.core.table import Table, Tabular, columns_table, unused
 from linkwright.cycle.summary import Summary
 from linkwright.designs.cluster import current, in_order, in_turn
 from linkwright.designs.design_numbers import numbers_of
@@ -34,10 +34,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.by_name import wanted
 from linkwright.words import _
 
-if TYPE_CHECKING:
-    import pandas
-
-
 #: Designs of a piece that goes to a cluster; fewer stay on this machine.
 SHARED = 4096
 #: What a piece finds: positions assembled, designs that pass, summaries, sentences of designs, margins, dimensions of
@@ -46,7 +42,7 @@ _Piece = tuple[Whole, Flags, list[Floats], dict[int, str], Floats | None, dict[s
 
 
 @dataclass(eq=False)
-class Sweep(Plotted, Frozen):
+class Sweep(Plotted, Tabular, Frozen):
     """Summaries of many designs; arrays are (designs,), SI.
 
     ``varied``: values of the varied dimensions; ``assembled``: number of ``positions`` at which each design can be
@@ -125,15 +121,19 @@ class Sweep(Plotted, Frozen):
         """
         return explained(self.mechanism, self.varied, self.ok, self.positions, self.unloaded, limit)
 
-    def to_dataframe(self) -> pandas.DataFrame:
-        """The columns as a pandas table; needs pandas."""
-        from linkwright.kinematics.table import dataframe
+    def tables(self, language: str = "en") -> tuple[Table, ...]:
+        """The first designs, SI."""
+        return (columns_table(self.mechanism.name, self.columns(), self.notes),)
 
-        return dataframe({name: np.asarray(values) for name, values in self.columns().items()})
-
-    def _repr_html_(self) -> str:
-        """The first designs as notebooks show them, SI."""
-        return columns_table(self.mechanism.name, self.columns(), self.notes).html()
+    def data(self) -> dict[str, Any]:
+        """Plain data, SI."""
+        columns = {name: values.tolist() for name, values in self.columns().items()}
+        return {
+            "name": self.mechanism.name,
+            "designs": self.designs,
+            "columns": columns,
+            "notes": list(self.notes),
+        }
 
     def __repr__(self) -> str:
         kept = int(self.ok.sum())

@@ -11,7 +11,6 @@ from linkwright.designs.compare import Comparison, Rank, Row
 from linkwright.designs.criteria import criterion
 from linkwright.errors import speaker
 from linkwright.words import Say, _, language_of
-from linkwright.words.sentence import in_language
 
 #: Share of a cycle beside a change point at which the direction of an infinite reaction is told.
 BESIDE = 1e-3
@@ -28,41 +27,24 @@ def told(value: float, dimension: str) -> str:
     return shown(value, dimension, 4 if size < 1e4 else 6)
 
 
-def text(comparison: Comparison, language: str = "en", width: int | None = None) -> str:
-    """The table with the best values marked, the ranking, the evaluation, the notes."""
+def tables(comparison: Comparison, language: str = "en") -> tuple[Table, ...]:
+    """The table, criteria in rows, alternatives in columns, the best values marked; the ranking, the evaluation, the
+    notes."""
     say = speaker(language)
-    lines = [
-        *table(comparison, say).lines(language, width),
-        "",
-        say(_("* best of the alternatives")),
-        "",
-        say(
-            _(
-                "Ranking (mean over the metrics of how near each comes to the best, 100 = best in all)",
-            )
-        ),
-    ]
-    lines += ranking(comparison, say)
-    lines += ["", say(_("Evaluation")), *sentences(comparison, language)]
-    if comparison.notes:
-        lines += ["", *(in_language(note, language) for note in comparison.notes)]
-    return "\n".join(lines)
-
-
-def shown_in_notebooks(comparison: Comparison) -> str:
-    """The table as HTML; * marks the best."""
-    return table(comparison, speaker("en")).html()
-
-
-def table(comparison: Comparison, say: Say) -> Table:
-    """Criteria in rows, alternatives in columns."""
     rows: list[list[Cell]] = []
     for row in comparison.rows:
         marks = [f" {MARK}" if index in row.best else "  " for index in range(len(row.values))]
         values = zip(row.values, marks, strict=True)
         cells = ("—  " if v is None else Amount(v.value, v.dimension, 5, mark=mark) for v, mark in values)
-        rows.append([row.criterion.label(language_of(say)), *cells])
-    return Table([say(_("design number")), *comparison.labels], rows, notes=comparison.notes)
+        rows.append([row.criterion.label(language), *cells])
+    head = [say(_("design number")), *comparison.labels]
+    title = say(_("Ranking (mean over the metrics of how near each comes to the best, 100 = best in all)"))
+    return (
+        Table(head, rows, notes=[say(_("* best of the alternatives"))]),
+        Table(title=title, notes=ranking(comparison, say)),
+        Table(title=say(_("Evaluation")), notes=sentences(comparison, language)),
+        *([Table(notes=comparison.notes)] if comparison.notes else []),
+    )
 
 
 def ranking(comparison: Comparison, say: Say) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import field
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import Any, ClassVar, Literal, get_args
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS, one_of, one_or_more, require
 from linkwright.core.read_only import Frozen, locked
-from linkwright.core.table import Amount, Cell, Table, unused
+from linkwright.core.table import Amount, Cell, Table, Tabular, unused
 from linkwright.cycle.summary import Summary
 from linkwright.designs.known_loads import known_loads
 from linkwright.designs.objective import over_metrics
@@ -31,10 +31,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.by_name import NO_OUTPUTS, wanted
 from linkwright.words import _
 
-if TYPE_CHECKING:
-    import pandas
-
-
 Way = Literal["auto", "forward", "reverse"]
 
 #: From this number of dimensions on, the gradient of a summary is found by a reverse sweep.
@@ -42,13 +38,14 @@ REVERSE_PAYS = 6
 
 
 @dataclass(eq=False)
-class Sensitivity(Plotted, Frozen):
+class Sensitivity(Plotted, Tabular, Frozen):
     """Values and exact derivatives at the mechanism as it is; SI units of the output per SI unit of the dimension.
 
     ``by``: the dimensions. An output asked by name alone has curves (n,): :meth:`curve`, :meth:`slope`; one asked
     with a kind (``driver.effort rms``) a number and a gradient: :meth:`value`, :meth:`gradient`.
     """
 
+    row_names: ClassVar[str] = "number"
     mechanism: Mechanism
     by: tuple[str, ...]
     input: Floats
@@ -98,35 +95,44 @@ class Sensitivity(Plotted, Frozen):
         nominal = np.array([self.mechanism.dimension(by) for by in self.by])
         return locked(nominal * self.gradient(output, kind) / (value or np.nan))
 
-    def to_dataframe(self) -> pandas.DataFrame:
-        """Summaries in rows, dimensions in columns; needs pandas."""
-        from linkwright.kinematics.table import dataframe
+    def columns(self) -> dict[str, Any]:
+        """Summaries by name with their values and their derivatives by every dimension, SI."""
+        found: dict[str, Any] = {"number": [summary.name for summary in self.values]}
+        found["value"] = np.array(list(self.values.values()))
+        for by, column in zip(self.by, np.array(list(self.gradients.values())).T, strict=False):
+            found[unused(by, found)] = column
+        return found
 
-        table = {"value": np.array(list(self.values.values()))}
-        for i, by in enumerate(self.by):
-            table[unused(by, table)] = np.array([row[i] for row in self.gradients.values()])
-        frame = dataframe(table)
-        frame.index = [summary.name for summary in self.gradients]
-        return frame
-
-    def text(self) -> str:
-        """Every summary with its derivative by each dimension, and what has curves."""
-        lines = [f"Sensitivity of {self.mechanism.name!r} (SI units)"]
-        width = max(map(len, self.by), default=0)
-        for summary, row in self.gradients.items():
-            lines.append(f"  {summary.name} = {self.values[summary]:.6g}")
-            lines += [f"    by {by:<{width}}  {slope:>12.6g}" for by, slope in zip(self.by, row, strict=True)]
-        if self.curves:
-            lines.append(f"  curves: {', '.join(self.curves)}; by {', '.join(self.by)}")
-        return "\n".join(lines)
-
-    def _repr_html_(self) -> str:
-        """Summaries and their derivatives as notebooks show them, SI."""
+    def tables(self, language: str = "en") -> tuple[Table, ...]:
+        """Every summary with its derivative by each dimension, SI, and what has curves."""
         rows: list[list[Cell]] = [
             [summary.name, *map(Amount, (self.values[summary], *row))]
             for summary, row in self.gradients.items()
         ]
-        return Table(["", "", *self.by], rows, title=self.mechanism.name).html()
+        title = _("Sensitivity of {name!r} (SI units)", name=self.mechanism.name).translate(language)
+        curves = _("curves: {curves}; by {names}", curves=", ".join(self.curves), names=", ".join(self.by))
+        head = ["", _("value").translate(language), *(f"∂/∂ {by}" for by in self.by)]
+        return (Table(head if rows else (), rows, title=title, notes=[curves] if self.curves else []),)
+
+    def data(self) -> dict[str, Any]:
+        """Plain data, SI: values and gradients of summaries, curves with their derivatives."""
+        return {
+            "name": self.mechanism.name,
+            "by": list(self.by),
+            "input": self.input.tolist(),
+            "summaries": [
+                {"number": summary.name, "value": value, "gradient": self.gradients[summary].tolist()}
+                for summary, value in self.values.items()
+            ],
+            "curves": [
+                {
+                    "output": name,
+                    "values": v.tolist(),
+                    "slopes": [self.slopes[name, by].tolist() for by in self.by],
+                }
+                for name, v in self.curves.items()
+            ],
+        }
 
     def __repr__(self) -> str:
         return self.text()

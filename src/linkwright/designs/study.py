@@ -17,7 +17,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS, require
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
-from linkwright.core.table import columns_table, csv_text, unused
+from linkwright.core.table import Table, Tabular, csv_text, unused
 from linkwright.designs.alternatives import Alternative
 from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import Criterion, criteria
@@ -44,8 +44,6 @@ from linkwright.units import si_unit
 from linkwright.words import _
 
 if TYPE_CHECKING:
-    import pandas
-
     from linkwright.formula.summaries import Backend
     from linkwright.metrics.of_designs import MetricsOfDesigns
 
@@ -61,7 +59,7 @@ USUAL = ("travel", "transmission_angle", "peak_input_torque", "rms_input_torque"
 
 
 @dataclass(eq=False)
-class Study(Plotted, Frozen):
+class Study(Plotted, Tabular, Frozen):
     """Metrics of many designs; arrays (designs,), SI, NaN where a design cannot move or a metric does not apply.
 
     ``ranges``: what varies; ``varied``: its values by address; ``metrics``: values by name; ``dimensions``: names of
@@ -128,11 +126,8 @@ class Study(Plotted, Frozen):
         return found
 
     @attached
-    def text(self, language: str = "en", rows: int = 40, width: int | None = None) -> str:
-        """The table (every row, or ``rows`` of them evenly chosen), the best designs, and what failed.
-
-        ``width``: characters across within which the heads of the table are folded.
-        """
+    def tables(self, language: str = "en", rows: int = 40) -> tuple[Table, ...]:
+        """The designs (all, or ``rows`` of them evenly chosen), the best ones, and what failed."""
         raise NotImplementedError
 
     def csv(self) -> str:
@@ -172,16 +167,6 @@ class Study(Plotted, Frozen):
     def has_best(self, name: str) -> bool:
         """Whether one design is best in a metric."""
         return self.better[name] is not None and bool(np.isfinite(self.metrics[name]).any())
-
-    def to_dataframe(self) -> pandas.DataFrame:
-        """The columns as a pandas table; needs pandas."""
-        from linkwright.kinematics.table import dataframe
-
-        return dataframe(self.columns())
-
-    def _repr_html_(self) -> str:
-        """The first designs as notebooks show them, SI."""
-        return columns_table(self.mechanism.name, self.columns()).html()
 
     def __repr__(self) -> str:
         return (

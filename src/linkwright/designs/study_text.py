@@ -1,4 +1,4 @@
-"""A study as text: its table, the best designs, what failed."""
+"""A study in tables: its designs, the best ones, what failed."""
 
 from __future__ import annotations
 
@@ -14,35 +14,19 @@ from linkwright.words import Say, _, pgettext
 from linkwright.words.sentence import in_language
 
 
-def text(study: Study, language: str = "en", rows: int = 40, width: int | None = None) -> str:
+def tables(study: Study, language: str = "en", rows: int = 40) -> tuple[Table, ...]:
     """Table, best designs, failures, notes."""
     say = speaker(language)
-    lines = [
-        say(
-            _(
-                "{name}: {designs} designs, {movable} can move",
-                name=study.mechanism.name,
-                designs=study.designs,
-                movable=int(study.ok.sum()),
-            )
-        ),
-        "",
-    ]
-    lines += _table(study, language, rows, width, say)
-    best = _best(study, language, say)
-    if best:
-        lines += ["", say(_("Best designs")), *best]
-    if study.failures:
-        lines += [
-            "",
-            say(_("Designs that fail")),
-            *(_failure(each, say, language) for each in study.failures),
-        ]
-    notes = [in_language(note, language) for note in study.notes]
-    return "\n".join([*lines, *([""] if notes else []), *notes])
+    failures = [_failure(each, say, language) for each in study.failures]
+    below = (
+        Table(title=say(_("Best designs")), notes=_best(study, language, say)),
+        Table(title=say(_("Designs that fail")), notes=failures),
+        Table(notes=study.notes),
+    )
+    return (_designs(study, language, rows, say), *(each for each in below if each.notes))
 
 
-def _table(study: Study, language: str, rows: int, width: int | None, say: Say) -> list[str]:
+def _designs(study: Study, language: str, rows: int, say: Say) -> Table:
     chosen = _chosen(study.designs, rows)
     head = [say(pgettext("study", "no.")), *(each.address for each in study.ranges)]
     head += [_heading(study, name, language) for name in study.metrics]
@@ -53,18 +37,19 @@ def _table(study: Study, language: str, rows: int, width: int | None, say: Say) 
             value = Amount(float(values[index]), study.dimensions[name], 5, bare=True)
             cells.append("—" if np.isnan(value.value) else value)
         table.append(cells)
-    lines = Table(head, table, ">" * len(head)).lines(language, width)
-    if len(chosen) < study.designs:
-        lines.append(
-            say(
-                _(
-                    "({shown} of {designs} designs shown; write all of them with --output FILE.csv)",
-                    shown=len(chosen),
-                    designs=study.designs,
-                )
-            )
-        )
-    return lines
+    title = _(
+        "{name}: {designs} designs, {movable} can move",
+        name=study.mechanism.name,
+        designs=study.designs,
+        movable=int(study.ok.sum()),
+    )
+    more = _(
+        "({shown} of {designs} designs shown; write all of them with --output FILE.csv)",
+        shown=len(chosen),
+        designs=study.designs,
+    )
+    notes = [more] if len(chosen) < study.designs else []
+    return Table(head, table, ">" * len(head), say(title), notes)
 
 
 def _chosen(designs: int, rows: int) -> list[int]:

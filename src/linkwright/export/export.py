@@ -10,6 +10,7 @@ from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS
+from linkwright.core.table import Tabular
 from linkwright.errors import RequestError, require_language
 from linkwright.export.results import Results
 from linkwright.files.source import ENDINGS
@@ -29,11 +30,13 @@ _ENDING = _(
 class Format:
     """A file format: the endings of its files, and the function that makes a file's content.
 
-    ``content(results, **options)`` takes :class:`linkwright.export.results.Results` and keyword-only options.
+    ``content(results, **options)`` takes :class:`linkwright.export.results.Results` and keyword-only options;
+    ``of_result(result, language)`` another result in tables, where the format can hold one.
     """
 
     suffixes: tuple[str, ...]
     content: Callable[..., bytes]
+    of_result: Callable[[Tabular, str], bytes] | None = None
 
 
 FORMATS: Registry[Format] = Registry(_("export format"), "linkwright.export.formats")
@@ -61,7 +64,7 @@ def package(name: str, purpose: Message, install: str | None = None) -> Any:
 
 
 def export(
-    result: Mechanism | Motion | Forces,
+    result: Mechanism | Motion | Forces | Tabular,
     path: str | Path,
     *,
     format: str | None = None,
@@ -74,9 +77,10 @@ def export(
 
     Args:
         result: forces or a motion as they are; a mechanism is solved first, with forces where it has masses or
-            loads.
+            loads; or any other result, as its tables: ``csv`` (its curves or columns where it has some), ``xlsx``,
+            ``json`` (its ``data()``), ``markdown``, ``html``.
         path: the file; its ending chooses the format.
-        format: ``csv``, ``xlsx``, ``json``, ``parquet``, ``dxf``, ``mjcf``, ``modelica``, ``python``,
+        format: ``csv``, ``xlsx``, ``json``, ``markdown``, ``parquet``, ``dxf``, ``mjcf``, ``modelica``, ``python``,
             ``svg``, ``png``, ``pdf``, where the ending does not say it.
         force: replace a file that exists.
         steps: positions over the cycle, for a mechanism.
@@ -94,9 +98,27 @@ def export(
     chosen = chosen_format(target, format)
     refuse_target(target, force=force)
     require_language(language)
-    check_options(chosen, FORMATS[chosen], options)
-    content = FORMATS[chosen].content(Results.of(result, steps, language), **options)
+    if isinstance(result, Tabular):
+        content = content_of(result, chosen, language)
+    else:
+        check_options(chosen, FORMATS[chosen], options)
+        content = FORMATS[chosen].content(Results.of(result, steps, language), **options)
     return write_whole(target, content, force=force)
+
+
+def content_of(result: Tabular, name: str, language: str) -> bytes:
+    """The file of a result in a format; raises LinkwrightError for a format that cannot hold its tables."""
+    content = FORMATS[name].of_result
+    if content is None:
+        raise RequestError(
+            _(
+                "the format {name} cannot hold tables; use one of {names}",
+                code="export.no_tables",
+                name=name,
+                names=tuple(each for each, form in FORMATS.items() if form.of_result is not None),
+            )
+        )
+    return content(result, language)
 
 
 def chosen_format(path: Path, name: str | None) -> str:

@@ -18,18 +18,19 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require, whole
 from linkwright.core.progress import Progress, current_progress, reporting
+from linkwright.core.table import Amount, Cell, Table, Tabular
 from linkwright.designs.cluster import connected, current, in_turn
 from linkwright.designs.designs import sweep
 from linkwright.designs.ranges import Range
 from linkwright.designs.sampling import BAD_SEED
 from linkwright.designs.varied_dimensions import varied_ranges
-from linkwright.errors import RequestError
+from linkwright.errors import RequestError, speaker
 from linkwright.export.export import package
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import METRICS
 from linkwright.metrics.by_name import wanted
 from linkwright.whole_files import make_folder, write_whole
-from linkwright.words import _
+from linkwright.words import _, pgettext
 from linkwright.words.sentence import in_language
 
 Sampling = Literal["grid", "sobol"]
@@ -102,7 +103,7 @@ def _arrow() -> tuple[Any, Any]:
     return package("pyarrow", _("Parquet files")), package("pyarrow.parquet", _("Parquet files"), "pyarrow")
 
 
-class SweepParts:
+class SweepParts(Tabular):
     """A sweep in a folder of Parquet files ``part-000000.parquet`` …; columns as :meth:`Sweep.columns`, SI.
 
     ``designs``, ``parts``: how many; ``skipped``: parts that were there already.
@@ -127,6 +128,29 @@ class SweepParts:
         plan = self.plan
         first = {each.address: each.values[:1] for each in plan.ranges}
         return sweep(plan.mechanism, first, outputs=plan.outputs, steps=plan.steps).notes
+
+    def tables(self, language: str = "en", best: str | None = None) -> tuple[Table, ...]:
+        """How many designs lie in the folder, the range of every column, SI, notes, and the ten designs that are best
+        in a number."""
+        say = speaker(language)
+        title = _(
+            "{designs} designs in {parts} parts in {folder} ({skipped} were there already); values in SI",
+            designs=self.designs,
+            parts=self.parts,
+            skipped=self.skipped,
+            folder=self.folder,
+        )
+        head = [say(each) for each in (_("column"), _("least"), _("greatest"), pgettext("sweep", "designs"))]
+        ranges = self.ranges().items()
+        rows: list[list[Cell]] = [[name, Amount(a), Amount(b), count] for name, (a, b, count) in ranges]
+        notes = [_("Note: {text}", text=in_language(note, language)) for note in self.notes]
+        found = [Table(head, rows, title=say(title), notes=notes)]
+        if best is not None:
+            columns = self.best(best)
+            designs = [[Amount(float(value)) for value in row] for row in zip(*columns.values(), strict=True)]
+            heading = say(_("Best {number}:", number=best))
+            found.append(Table(list(columns), designs, ">" * len(columns), heading))
+        return tuple(found)
 
     def data(self, language: str = "en") -> dict[str, Any]:
         """What lies in the folder: how many designs, and the range of every column, SI; notes in a language."""

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import POINT, Output, row_names
-from linkwright.errors import LinkwrightError
+from linkwright.core.table import dataframe
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.named_output import named_outputs
-from linkwright.words import _
 
 if TYPE_CHECKING:
     import pandas
@@ -61,19 +60,3 @@ def input_column(motion: Motion) -> str | None:
 
 def _input(motion: Motion, driver: str) -> Output:
     return Output("input", driver, slides=not motion.positions.rotary[driver])
-
-
-def dataframe(named: Mapping[str, Floats], *, index: str | None = None) -> pandas.DataFrame:
-    """A pandas table of named columns, one of them its index where asked.
-
-    Raises:
-        LinkwrightError: pandas is not installed.
-    """
-    try:
-        import pandas
-    except ImportError as error:
-        raise LinkwrightError(
-            _("pandas is not installed; install it with: pip install pandas", code="motion.needs_pandas")
-        ) from error
-    table = pandas.DataFrame(dict(named))
-    return table if index is None else table.set_index(index)

@@ -211,7 +211,8 @@ class Forces(Plotted):
 
     def to_dataframe(self) -> pandas.DataFrame:
         """All results as a table over the first driver's coordinate, its index; needs pandas."""
-        from linkwright.kinematics.table import dataframe, input_column
+        from linkwright.core.table import dataframe
+        from linkwright.kinematics.table import input_column
 
         return dataframe(self.columns(), index=input_column(self.motion))
 

@@ -12,7 +12,7 @@ from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS, real, require
 from linkwright.core.read_only import Frozen
-from linkwright.core.table import PERCENT, ROUNDING, Amount, Cell, Table
+from linkwright.core.table import PERCENT, ROUNDING, Amount, Cell, Table, Tabular
 from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError, RequestError, speaker
 from linkwright.joints.base import Joint
@@ -43,7 +43,7 @@ class Counterweight:
 
 
 @dataclass(frozen=True)
-class Balancing(Plotted, Frozen):
+class Balancing(Plotted, Tabular, Frozen):
     """A mechanism with counterweights, and the forces without and with them."""
 
     mechanism: Mechanism
@@ -63,7 +63,7 @@ class Balancing(Plotted, Frozen):
         both = [Analysis.of(forces) for forces in (self.before, self.after)]
         return {name: (both[0].part(peak).value, both[1].part(peak).value) for name, peak in peaks.items()}
 
-    def tables(self, language: str = "en") -> list[Table]:
+    def tables(self, language: str = "en") -> tuple[Table, ...]:
         """The counterweights, places in link axes, where there are any; the peaks without and with them."""
         say = speaker(language)
         weights: list[list[Cell]] = [
@@ -95,23 +95,11 @@ class Balancing(Plotted, Frozen):
                 _("remains"),
             )
         ]
-        return [*([Table(head, weights)] if weights else []), Table(beside, peaks, "<<>>>")]
-
-    def text(self, language: str = "en") -> str:
-        """Counterweights and their effect."""
-        none = (
-            []
-            if self.counterweights
-            else [
-                "",
-                _(
-                    "No counterweight is needed: the links have no mass, or their mass centres lie where "
-                    "they must.",
-                ).translate(language),
-            ]
+        none = _(
+            "No counterweight is needed: the links have no mass, or their mass centres lie where they must."
         )
-        tables = (["", *each.lines(language)] for each in self.tables(language))
-        return "\n".join([self.mechanism.name, *none, *(line for lines in tables for line in lines)])
+        first = Table(head, weights) if weights else Table(notes=[none])
+        return Table(title=self.mechanism.name), first, Table(beside, peaks, "<<>>>")
 
     def data(self) -> dict[str, Any]:
         """Plain data, SI."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import field, replace
-from typing import Any
+from typing import ClassVar
 
 import numpy as np
 
@@ -12,9 +12,10 @@ from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
 from linkwright.core.quantity import shown
-from linkwright.core.table import PERCENT, Block, Row, rows_data, together
+from linkwright.core.rows import Block, Numbers, Row
+from linkwright.core.table import PERCENT
 from linkwright.cycle.summary import Summary
-from linkwright.errors import LinkwrightError, speaker
+from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation
 from linkwright.machine.equivalent import Equivalent, steady_rate
@@ -69,7 +70,7 @@ def speeds(curve: SpeedCurve, at: Callable[[float], float], say: Say, before: st
 
 
 @dataclass(frozen=True)
-class SteadyRunning(Plotted):
+class SteadyRunning(Plotted, Numbers):
     """A machine over one cycle of steady running with a flywheel.
 
     ``required`` δ; ``flywheel`` J, kg·m² on the crank, by J = ΔE/(δ ω²) - mean J_e (the machine's own inertia is
@@ -79,6 +80,8 @@ class SteadyRunning(Plotted):
     formula without a flywheel.
     """
 
+    labels: ClassVar[Mapping[str, Message]] = LABELS
+    digits: ClassVar[int] = 7
     equivalent: Equivalent = field(repr=False)
     energy: EnergyFluctuation = field(repr=False)
     motor: Motor
@@ -104,11 +107,10 @@ class SteadyRunning(Plotted):
         """Speed fluctuation by the formula without any flywheel."""
         return speed_fluctuation(self.energy.value, self.equivalent.speed, self.equivalent.mean_inertia)
 
-    def text(self, language: str = "en") -> str:
-        """The numbers with labels, units and places, and what is to be said beside them."""
-        say, remarks = speaker(language), self.notes(language)
-        lines = [self.equivalent.forces.mechanism.name, *together(self.blocks(say), LABELS, say)]
-        return "\n".join([*lines, *([""] if remarks else []), *remarks])
+    @property
+    def title(self) -> str:
+        """Name of the machine."""
+        return self.equivalent.forces.mechanism.name
 
     def blocks(self, say: Say) -> list[Block]:
         """The numbers: motor, energy and inertia, flywheel by the formula, exact flywheel; without a motor where the
@@ -217,11 +219,6 @@ class SteadyRunning(Plotted):
         most = analysis.part(Summary("input_torque", kind)).value
         largest = replace(self.motor, mean_power=self.equivalent.direction * most * self.equivalent.speed)
         return largest.power
-
-    def data(self, language: str = "en") -> dict[str, Any]:
-        """The numbers by name, SI, each with its unit and place; remarks in a language."""
-        rows = rows_data(self.blocks(speaker("en")))
-        return {"name": self.equivalent.forces.mechanism.name, **rows, "remarks": self.notes(language)}
 
 
 def steady_running(

@@ -13,8 +13,8 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.core.quantity import number as in_unit
 from linkwright.core.quantity import shown, shown_unit
+from linkwright.core.table import Amount, Cell
 from linkwright.cycle.summary import Summary, SummaryValue
 from linkwright.formula.trace import Scalar
 from linkwright.mechanism.mechanism import Mechanism
@@ -85,15 +85,25 @@ class MetricValue:
         """All remarks in a language."""
         return _("; ").translate(language).join(remark.text(language) for remark in self.remarks)
 
-    def cells(self, language: str = "en") -> tuple[str, ...]:
+    def cells(self, language: str = "en") -> tuple[Cell, ...]:
         """What tables write of it, in the order of ``CELLS``; the last is the recommended limit."""
-        metric, at, limit = METRICS[self.metric](), "", ""
-        if self.at is not None:
-            at = shown(self.at if abs(self.at) >= NO_PLACE else 0.0, self.at_dimension)
+        metric, limit = METRICS[self.metric](), ""
+        at = (
+            None
+            if self.at is None
+            else Amount(self.at if abs(self.at) >= NO_PLACE else 0.0, self.at_dimension)
+        )
         if self.limit is not None:
             limit = f"{'≥' if metric.better == 'higher' else '≤'} {shown(self.limit, self.dimension)}"
         label, subject = metric.label_in(language, self.dimension), in_words(self.subject, language)
-        return label, subject, in_unit(self.value, self.dimension), shown_unit(self.dimension), at, limit
+        return (
+            label,
+            subject,
+            Amount(self.value, self.dimension, bare=True),
+            shown_unit(self.dimension),
+            at,
+            limit,
+        )
 
     def data(self, language: str = "en") -> dict[str, Any]:
         """Plain data."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.attached import Plotted
-from linkwright.core.quantity import number, shown_unit
-from linkwright.core.table import Table
+from linkwright.core.table import Amount, Cell, Table, Tabular, dataframe
 from linkwright.errors import RequestError
 from linkwright.metrics.base import CELLS, METRICS, REMARK, MetricValue
 from linkwright.registry import offered
@@ -20,11 +20,12 @@ if TYPE_CHECKING:
 
 #: How many values of one number and subject tables show at most.
 REPEATED = 6
+COLUMNS = ("metric", "subject", "value", "unit", "at", "at_unit", "limit", "exact", "warning", "remark")
 #: Behind numbers about which a warning stands beneath the table.
 MARK = "  !"
 
 
-def told(rows: Sequence[MetricValue], language: str) -> Iterator[tuple[tuple[str, ...], MetricValue | None]]:
+def told(rows: Sequence[MetricValue], language: str) -> Iterator[tuple[tuple[Cell, ...], MetricValue | None]]:
     """What tables write of values, each with its value; of a number that comes many times over the cycle the first,
     then how many more there are, between which values and inputs."""
     found: dict[tuple[str, str], list[MetricValue]] = {}
@@ -34,17 +35,21 @@ def told(rows: Sequence[MetricValue], language: str) -> Iterator[tuple[tuple[str
         few = len(same) if len(same) == REPEATED + 1 else REPEATED
         yield from ((row.cells(language), row) for row in same[:few])
         if rest := same[few:]:
-            label, subject, _unused, unit, *_unused2 = rest[0].cells(language)
-            value = _between([row.value for row in rest], rest[0].dimension)
-            at = _between([row.at for row in rest if row.at is not None], rest[0].at_dimension)
+            label, subject, value, unit, at, _unused = rest[0].cells(language)
             more = _("{subject}, {count} more", subject=subject, count=len(rest)).translate(language)
-            yield (label, more, value, unit, at and at + shown_unit(rest[0].at_dimension), ""), None
+            places = [row.at for row in rest if row.at is not None]
+            yield (
+                (label, more, _between(value, [row.value for row in rest]), unit, _between(at, places), ""),
+                None,
+            )
 
 
-def _between(values: Sequence[float], dimension: str) -> str:
-    """The smallest and the largest of values; empty without any."""
-    ends = dict.fromkeys(number(end(values), dimension) for end in (min, max) if values)
-    return " … ".join(ends)
+def _between(first: Cell, values: Sequence[float]) -> Cell:
+    """The cell of the first of some values, from the smallest to the largest of them."""
+    if not isinstance(first, Amount):
+        return first
+    found = replace(first, value=min(values), end=max(values))
+    return found if len(set(found.number.split(" … "))) > 1 else replace(found, end=None)
 
 
 def _remarks(row: MetricValue | None, language: str) -> str:
@@ -56,7 +61,7 @@ def _remarks(row: MetricValue | None, language: str) -> str:
     return f"{mark} {_('; ').translate(language).join(said)}".strip()
 
 
-class MetricsTable(Plotted, Sequence[MetricValue]):
+class MetricsTable(Plotted, Tabular, Sequence[MetricValue]):
     """Values of design numbers, in rows.
 
     ``table["stroke"]``: all values of one number; ``table["stroke", "guide"]``: the one of a subject;
@@ -152,42 +157,50 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
             )
         )
 
-    def text(self, language: str = "en", width: int | None = None, *, fold: bool = True) -> str:
+    def text(
+        self, language: str = "en", width: int | None = None, *, fold: bool = True, **_options: Any
+    ) -> str:
         """Name, subject, value, unit, place, recommended limit and remarks; then the warnings.
 
         ``width``: characters across; where the table is wider, remarks stand beneath their numbers, and with ``fold``
         texts are folded.
         """
-        table = self.table(language)
-        if not table.rows:
-            nothing = _("none of the design numbers applies to this mechanism").translate(language)
-            return "\n".join([self.title, "", nothing])
-        lines = table.lines()
+        (table,) = self.tables(language)
+        lines = table.lines(language)
+        rows = lines[2 : 3 + len(table.rows)]
         if (
             width is not None
-            and max(map(cells, lines)) > width
+            and table.rows
+            and max(map(cells, rows)) > width
             and (fold or table.head[-1] == self._remark(language))
         ):
-            lines = self._beneath(table, width - len(MARK) if fold else None, language)
-        return "\n".join([self.title, "", *lines, *([""] if table.notes else []), *table.notes])
+            lines[2 : 3 + len(table.rows)] = self._beneath(
+                table, width - len(MARK) if fold else None, language
+            )
+        return "\n".join(lines)
 
-    def table(self, language: str = "en") -> Table:
+    def tables(self, language: str = "en") -> tuple[Table]:
         """The rows, limits and remarks where there are any, and the warnings."""
+        if not self.rows:
+            return (
+                Table(
+                    title=self.title, notes=["", _("none of the design numbers applies to this mechanism")]
+                ),
+            )
         head = [*(head.translate(language) for head in CELLS), self._remark(language)]
         rows = [[*texts, _remarks(row, language)] for texts, row in told(self.rows, language)]
         kept = [i for i in range(len(head)) if i < 5 or any(row[i] for row in rows)]
         notes = [f"! {warning}" for warning in self.warnings_in(language)]
         align = "".join("<<><>><"[i] for i in kept)
-        return Table(
-            [head[i] for i in kept], [[row[i] for i in kept] for row in rows], align, self.title, notes
-        )
+        cells = [[row[i] for i in kept] for row in rows]
+        return (Table([head[i] for i in kept], cells, align, self.title, notes),)
 
     def _remark(self, language: str) -> str:
         return REMARK.translate(language)
 
     def _beneath(self, table: Table, width: int | None, language: str) -> list[str]:
         """Lines of the table with each remark on a line of its own beneath its number."""
-        rows, remarks, align = table.texts(), [""] * len(table.rows), table.alignment
+        rows, remarks, align = table.texts(language), [""] * len(table.rows), table.alignment
         if table.head[-1] == self._remark(language):
             remarks = [row[-1] for row in rows[1:]]
             rows, align = [row[:-1] for row in rows], align[:-1]
@@ -207,22 +220,14 @@ class MetricsTable(Plotted, Sequence[MetricValue]):
             "not_applicable": list(self.skipped),
         }
 
+    def columns(self, language: str = "en") -> dict[str, list[Any]]:
+        """What is known of every value but its place, by name, SI; remarks in a language."""
+        rows = [row.data(language) for row in self.rows]
+        return {name: [row[name] for row in rows] for name in COLUMNS}
+
     def to_dataframe(self) -> pandas.DataFrame:
         """The rows as a table; needs pandas. Raises LinkwrightError without it."""
-        try:
-            import pandas
-        except ImportError:
-            raise RequestError(
-                _(
-                    "tables need pandas; install it: pip install linkwright[notebook]",
-                    code="metrics.needs_pandas",
-                )
-            ) from None
-        return pandas.DataFrame(self.data()["metrics"])
-
-    def _repr_html_(self) -> str:
-        """The table as notebooks show it."""
-        return self.table().html()
+        return dataframe({**self.columns(), "place": [row.place for row in self.rows]})
 
     def __repr__(self) -> str:
         return f"MetricsTable({self.title!r}: {len(self.rows)} values of {', '.join(self.names)})"

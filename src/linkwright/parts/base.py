@@ -12,15 +12,15 @@ from dataclasses import field, fields, is_dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
-from linkwright.core.table import ROUNDING, Block, blocks_data, tidy
+from linkwright.core.rows import Numbers
+from linkwright.core.table import ROUNDING, unused
 from linkwright.equations.steps import Equation, Step
 from linkwright.errors import Finding, ModelError, speaker
 from linkwright.fields.base import Field, GivenByFile, given_by_file
-from linkwright.words import Message, Say
+from linkwright.words import Say
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
@@ -118,10 +118,8 @@ def _as_given(value: Any, kind: Field | None = None) -> Any:
     return kind.written(value)
 
 
-class Result(Plotted, ABC):
+class Result(Plotted, Numbers):
     """What was found: its numbers in blocks, the way to them in steps."""
-
-    labels: ClassVar[Mapping[str, Message]]
 
     @property
     def title(self) -> str:
@@ -130,16 +128,8 @@ class Result(Plotted, ABC):
         return name
 
     @abstractmethod
-    def blocks(self, say: Say) -> list[Block]:
-        """The numbers, with titles and remarks in a language."""
-
-    @abstractmethod
     def steps(self, say: Say) -> list[Step]:
         """The worked solution in a language."""
-
-    def columns(self) -> dict[str, Floats]:
-        """Curves by name with unit, SI; empty where there are none."""
-        return {}
 
     def tidy_steps(self, say: Say) -> list[Step]:
         """The worked solution, its results rounded to zero likewise, unit by unit."""
@@ -158,17 +148,12 @@ class Result(Plotted, ABC):
             ]
         return steps
 
-    def text(self, language: str = "en", digits: int = 6) -> str:
-        """The numbers as a table in words of the language (``en``, ``zh``)."""
-        say = speaker(language)
-        lines = [in_language(self.title, language)]
-        for block in tidy(self.blocks(say)):
-            lines += ["", *block.lines(self.labels, say, digits)]
-        return "\n".join(lines)
-
     def data(self) -> dict[str, Any]:
         """The numbers by block and label, SI, each with its unit; notes and remarks in English."""
-        return blocks_data(self.title, self.blocks(speaker("en")))
+        found: dict[str, Any] = {"name": self.title}
+        for block in self.blocks(speaker("en")):
+            found[unused(block.key, found)] = block.data()
+        return found
 
     def worked(self, language: str = "en") -> str:
         """The worked solution as plain text."""

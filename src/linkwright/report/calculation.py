@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from linkwright.core.dataclass import dataclass
-from linkwright.core.table import tidy
+from linkwright.core.table import Table
 from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem, Result
-from linkwright.report.document import Block, Figure, Heading, Paragraph, Table, literal, noted, symbols
+from linkwright.report.document import Block, Figure, Heading, Paragraph, literal, noted, printed, symbols
 from linkwright.report.given_data import given_data
 from linkwright.report.machine_results import picture
 from linkwright.report.section import SECTIONS
+from linkwright.report.sections import method
 from linkwright.report.sections.errata import errata_blocks
-from linkwright.report.sections.method import printed
 from linkwright.report.settings import Settings
 from linkwright.words import Message, Say, _
 from linkwright.words.sentence import in_language
@@ -77,23 +77,21 @@ def numbers_and_way(found: Result, say: Say, language: str, level: int) -> Itera
     yield Heading(say(_("Solution")), level)
     for step in found.tidy_steps(say):
         yield Heading(symbols(step.title), level + 1)
-        yield from printed(step)
+        yield from method.printed(step)
     yield Heading(say(_("Results")), level)
-    yield from _results(found, say)
+    yield from _results(found, say, language)
     yield from _pictures(found, say, language)
 
 
-def _results(found: Result, say: Say) -> Iterator[Block]:
+def _results(found: Result, say: Say, language: str) -> Iterator[Block]:
     head = (say(_("name")), say(_("value")), say(_("unit")), say(_("remark")))
-    for block in tidy(found.blocks(say)):
-        rows = [row.cells(found.labels, say) for row in block.rows]
-        remarked = any(row[3] for row in rows)
-        cells = tuple((_label(row[0]), *map(literal, row[1 : 4 if remarked else 3])) for row in rows)
-        if cells:
-            width = 4 if remarked else 3
-            yield Table(literal(block.title or say(_("Results"))), head[:width], cells, "<><<"[:width])
-        for remark in block.remarks:
-            yield Paragraph(literal(str(remark)))
+    for table in found.tables(language)[1:]:
+        width = 4 if any(row[3] for row in table.rows) else 3
+        if table.rows:
+            cells = Table(head[:width], [row[:width] for row in table.rows], "<><<"[:width])
+            yield printed(cells, literal(table.title or say(_("Results"))), language, first=_label)
+        for remark in table.notes:
+            yield Paragraph(literal(remark))
 
 
 def _label(text: str) -> str:

@@ -136,10 +136,18 @@ class Table:
     key: int = 1
 
 
-def printed(given: Cells, caption: str, language: str, label: str = "") -> Table:
-    """A table of results as a table of the document."""
-    head, *rows = (tuple(literal(cell.strip()) for cell in row) for row in given.texts(language))
-    return Table(caption, head, tuple(rows), given.alignment, label)
+def _bare(cell: str) -> str:
+    """A cell as it is printed."""
+    return literal(cell.strip())
+
+
+def printed(
+    given: Cells, caption: str, language: str, label: str = "", first: Callable[[str], str] = _bare
+) -> Table:
+    """A table of results as a table of the document; ``first``: how the cells of its first column are written."""
+    head, *rows = given.texts(language)
+    cells = tuple((first(row[0]), *map(_bare, row[1:])) for row in rows)
+    return Table(caption, tuple(map(literal, head)), cells, given.alignment, label)
 
 
 @dataclass(frozen=True)

@@ -6,18 +6,18 @@ from collections.abc import Mapping
 from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.table import Table, Tabular
 from linkwright.elements.topology import Connection, Group
 from linkwright.errors import speaker
 from linkwright.joints.base import JOINTS, PAIRS
 from linkwright.structure.mobility import lower_pairs
 from linkwright.structure.trains import GearTrain, written
 from linkwright.words import Say, _, language_of, ngettext
-from linkwright.words.characters import aligned
 from linkwright.words.sentence import link_said
 
 
 @dataclass(frozen=True)
-class Structure:
+class Structure(Tabular):
     """Mobility and Assur groups of a mechanism, in solving order.
 
     ``grubler``: mobility by Grübler's formula, 3n - 2p_L - p_H; ``redundant``: demands on rotations that others
@@ -47,13 +47,48 @@ class Structure:
         """The highest class of its groups."""
         return max((group.assur_class for group in self.groups), default=1)
 
-    def text(self, language: str = "en") -> str:
-        """The structure analysis as a student would write it, in English (``en``) or Chinese (``zh``)."""
-        return describe(self, language)
+    def tables(self, language: str = "en") -> tuple[Table, ...]:
+        """The structure analysis as a student would write it: mobility, groups in solving order, class, trains."""
+        say = speaker(language)
+        groups = [_row(number, group, say) for number, group in enumerate(self.groups, 1)]
+        title = say(_("Assur groups in solving order:"))
+        return (
+            Table(notes=_mobility(self, say)),
+            Table((), groups, "<<<<<", title, turned_against(self, say)),
+            Table(notes=_class(self, say)),
+            *(_train(train, say) for train in self.trains),
+        )
 
     def data(self) -> dict[str, object]:
         """The same as plain data."""
-        return as_data(self)
+        return {
+            "mobility": self.mobility,
+            "grubler": self.grubler,
+            "redundant": list(self.redundant),
+            "counts": dict(self.counts),
+            "drivers": list(self.drivers),
+            "turned": {
+                name: {"link": link, "about": pin, "relative_to": other}
+                for name, (link, pin, other) in self.turned.items()
+            },
+            "trains": [
+                {"carrier": t.carrier, "pairs": list(t.pairs), "ratios": dict(t.ratios)} for t in self.trains
+            ],
+            "parts": [list(part) for part in self.parts],
+            "class": self.mechanism_class,
+            "groups": [
+                {
+                    "links": list(group.links),
+                    "signature": group.signature,
+                    "class": group.assur_class,
+                    "order": group.assur_order,
+                    "drivers": list(group.drivers),
+                    "outer_joints": [_joint(c) for c in group.outer_joints],
+                    "inner_joints": [_joint(c) for c in group.inner_joints],
+                }
+                for group in self.groups
+            ],
+        }
 
     @property
     def chain(self) -> str:
@@ -64,17 +99,10 @@ class Structure:
         return f"Structure(mobility {self.mobility}; {self.chain}; class {self.mechanism_class})"
 
 
-def describe(structure: Structure, language: str = "en") -> str:
-    """Mobility, groups in solving order, class: as in the structure chapter of a design report."""
-    say = speaker(language)
+def _class(structure: Structure, say: Say) -> list[str]:
+    """The groups in one line, the mechanism's class, and what else is to be known of it."""
     level = numeral(structure.mechanism_class, say)
     lines = [
-        *_mobility(structure, say),
-        "",
-        say(_("Assur groups in solving order:")),
-        *_table(structure, say),
-        *turned_against(structure, say),
-        "",
         say(_("Mechanism = frame + {chain}", chain=structure.chain)),
         say(_("It is a class {level} mechanism.", level=level)),
     ]
@@ -91,9 +119,7 @@ def describe(structure: Structure, language: str = "en") -> str:
         )
     if structure.drivers:
         lines.append(say(_("Another choice of driver leads to other groups, and may change the class.")))
-    for train in structure.trains:
-        lines += ["", *_train(train, say)]
-    return "\n".join(lines)
+    return lines
 
 
 def turned_against(structure: Structure, say: Say) -> list[str]:
@@ -195,7 +221,7 @@ def _kind(kind: str, say: Say) -> str:
     return say(PAIRS[kind]) if kind in PAIRS else kind
 
 
-def _train(train: GearTrain, say: Say) -> list[str]:
+def _train(train: GearTrain, say: Say) -> Table:
     """The ratios of a train by the method of the stopped carrier."""
     wheels = list(train.ratios)
     carrier, frame = (link_said(name, language_of(say)) for name in (train.carrier, "frame"))
@@ -207,36 +233,23 @@ def _train(train: GearTrain, say: Say) -> list[str]:
         rows.append([say(_("all as one")), *["1"] * (len(wheels) + 1)])
         if speeds := train.speeds:
             rows.append([say(_("{carrier} stopped", carrier=frame)), *map(written, speeds.values())])
-    lines = [
-        say(
-            _(
-                "Ratios of the train {pairs} by the method of the stopped carrier ({carrier}):",
-                pairs=", ".join(train.pairs),
-                carrier=carrier,
-            )
+    title = _(
+        "Ratios of the train {pairs} by the method of the stopped carrier ({carrier}):",
+        pairs=", ".join(train.pairs),
+        carrier=carrier,
+    )
+    notes = [
+        _(
+            "  (n_{wheel} - n_{carrier}) / (n_{first} - n_{carrier}) = {ratio}",
+            carrier=train.carrier,
+            first=train.first,
+            wheel=wheel,
+            ratio=written(ratio),
         )
+        for wheel, ratio in list(train.ratios.items())[1:]
+        if train.planetary
     ]
-    lines += [f"  {line}" for line in aligned(rows, "<" * len(rows[0]))]
-    if train.planetary:
-        lines += [
-            say(
-                _(
-                    "  (n_{wheel} - n_{carrier}) / (n_{first} - n_{carrier}) = {ratio}",
-                    carrier=train.carrier,
-                    first=train.first,
-                    wheel=wheel,
-                    ratio=written(ratio),
-                )
-            )
-            for wheel, ratio in list(train.ratios.items())[1:]
-        ]
-    return lines
-
-
-def _table(structure: Structure, say: Say) -> list[str]:
-    """The groups, one in a line."""
-    rows = [_row(number, group, say) for number, group in enumerate(structure.groups, 1)]
-    return [f"  {line}" for line in aligned(rows, "<<<<<")]
+    return Table((), rows, "<" * len(rows[0]), say(title), notes)
 
 
 def _row(number: int, group: Group, say: Say) -> tuple[str, str, str, str, str]:
@@ -258,38 +271,6 @@ def _row(number: int, group: Group, say: Say) -> tuple[str, str, str, str, str]:
     seats = _("outer joints {outer}; inner joints {inner}") if inner else _("outer joints {outer}")
     joints = say(seats.format(outer=outer, inner=inner))
     return f"{number}.", group.signature, f"({', '.join(group.links)})", what, joints
-
-
-def as_data(structure: Structure) -> dict[str, object]:
-    """Plain data for programs."""
-    return {
-        "mobility": structure.mobility,
-        "grubler": structure.grubler,
-        "redundant": list(structure.redundant),
-        "counts": dict(structure.counts),
-        "drivers": list(structure.drivers),
-        "turned": {
-            name: {"link": link, "about": pin, "relative_to": other}
-            for name, (link, pin, other) in structure.turned.items()
-        },
-        "trains": [
-            {"carrier": t.carrier, "pairs": list(t.pairs), "ratios": dict(t.ratios)} for t in structure.trains
-        ],
-        "parts": [list(part) for part in structure.parts],
-        "class": structure.mechanism_class,
-        "groups": [
-            {
-                "links": list(group.links),
-                "signature": group.signature,
-                "class": group.assur_class,
-                "order": group.assur_order,
-                "drivers": list(group.drivers),
-                "outer_joints": [_joint(c) for c in group.outer_joints],
-                "inner_joints": [_joint(c) for c in group.inner_joints],
-            }
-            for group in structure.groups
-        ],
-    }
 
 
 def _joint(connection: Connection) -> dict[str, object]:

@@ -16,7 +16,7 @@ from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
-from linkwright.core.table import Table
+from linkwright.core.table import Table, Tabular
 from linkwright.equations.text import Solution
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.mechanism.mechanism import Mechanism
@@ -25,7 +25,6 @@ from linkwright.synthesis.merit import merit
 from linkwright.synthesis.names import DEFECTS, ERRORS, TYPE_NAMES, name_said
 from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import Message, Say, _, pgettext
-from linkwright.words.sentence import in_language
 
 #: Share of the longest length, or of a radian, below which a deviation is rounding.
 ROUNDING = 1e-12
@@ -132,7 +131,7 @@ class WorkedSynthesis(Solution):
 
 
 @dataclass(frozen=True, eq=False)
-class Synthesis(Plotted):
+class Synthesis(Plotted, Tabular):
     """The candidates of a task, best first: without defects before others, then by error, then by merit (``merit``).
 
     Args:
@@ -175,12 +174,17 @@ class Synthesis(Plotted):
     def __getitem__(self, index: int) -> Candidate:
         return self.candidates[index]
 
-    def text(self, language: str = "en", width: int | None = None) -> str:
-        """The table of candidates, the lengths of the best one, and the notes.
-
-        ``width``: characters across within which the heads of the table are folded.
-        """
-        return "\n".join(_report(self, language, width))
+    def tables(self, language: str = "en") -> tuple[Table, ...]:
+        """The table of candidates, the dimensions of each, counts and notes."""
+        tell = speaker(language)
+        rows = [_row(number, each, self.extent, tell) for number, each in enumerate(self.candidates, 1)]
+        below = [counts_said(self, tell)] if self.counts else []
+        return (
+            Table(title=title_said(self, tell), notes=[ERRORS[self.error_name]]),
+            Table([tell(each) for each in COLUMNS], rows, "><>><<>>>"),
+            Table(notes=_dimensions(self, tell)),
+            Table(notes=[*below, *self.notes]),
+        )
 
     @attached
     def worked(self, language: str = "en") -> WorkedSynthesis:
@@ -236,19 +240,9 @@ def title_said(found: Synthesis, tell: Say) -> str:
     return tell(title.format(task=name_said(found.task, tell), count=len(found)))
 
 
-def _report(found: Synthesis, language: str, width: int | None) -> list[str]:
-    """Title, table of candidates, dimensions of each, counts and notes."""
-    tell = speaker(language)
-    head = [tell(each) for each in COLUMNS]
-    rows = [_row(number, each, found.extent, tell) for number, each in enumerate(found.candidates, 1)]
-    between = tell(_(", "))
-    lines = [
-        title_said(found, tell),
-        tell(ERRORS[found.error_name]),
-        "",
-        *Table(head, rows, "><>><<>>>").lines(language, width),
-        "",
-    ]
+def _dimensions(found: Synthesis, tell: Say) -> list[str]:
+    """A line with the lengths of every candidate, and one with its further numbers."""
+    between, lines = tell(_(", ")), []
     for number, each in enumerate(found.candidates, 1):
         lengths = between.join(
             f"{name_said(name, tell)} {_length(value)}" for name, value in each.linkage.lengths().items()
@@ -259,9 +253,7 @@ def _report(found: Synthesis, language: str, width: int | None) -> list[str]:
                 f"{name_said(name, tell)} = {value:.7g}" for name, value in each.values.items()
             )
             lines.append(tell(_("  {values}", values=values)))
-    if found.counts:
-        lines += ["", counts_said(found, tell)]
-    return lines + [in_language(sentence, language) for sentence in found.notes]
+    return lines
 
 
 def counts_said(found: Synthesis, tell: Say) -> str:

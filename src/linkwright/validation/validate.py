@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress, reporting
-from linkwright.core.table import Amount, Cell, Table
+from linkwright.core.table import Amount, Cell, Table, Tabular
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.units import unit
 from linkwright.validation.probes import PROBES
@@ -40,7 +40,7 @@ class Checked:
 
 
 @dataclass(frozen=True)
-class Validation:
+class Validation(Tabular):
     """All comparisons."""
 
     checks: tuple[Checked, ...]
@@ -62,31 +62,22 @@ class Validation:
             found.setdefault((each.case.case, each.case.source), []).append(each)
         return found
 
-    def text(self, language: str = "en", *, every: bool = False, width: int | None = None) -> str:
-        """A line per case with its counts, or per number; what fails, and the errata, in full.
-
-        ``width``: characters across within which texts of the table are folded.
-        """
+    def tables(
+        self, language: str = "en", *, every: bool = False, sources: bool = False
+    ) -> tuple[Table, ...]:
+        """A row per case with its counts, where asked its source; in full what fails and the errata, or ``every``
+        number."""
         say = speaker(language)
-        head = [
-            say(key)
-            for key in (
-                _("case"),
-                _("numbers"),
-                _("printed by the source"),
-                _("agree"),
-                _("largest difference, last digits"),
-            )
-        ]
-        rows: list[list[Cell]] = []
-        for (case, _unused), checks in self.cases().items():
-            worst = max(checks, key=lambda each: abs(each.digits))
-            agree = sum(each.ok for each in checks)
+        heads = (_("case"), _("source"), _("numbers"), _("printed by the source"), _("agree"),
+                 _("largest difference, last digits"))  # fmt: skip
+        rows: list[list[Cell]] = [[say(each) for each in heads]]
+        for (case, source), checks in self.cases().items():
+            agree, worst = sum(each.ok for each in checks), max(abs(each.digits) for each in checks)
             counts = len(checks), _printed(checks), agree
-            rows.append([in_language(case, language), *counts, Amount(abs(worst.digits), digits=2)])
-        lines = Table(head, rows).lines(language, width)
+            rows.append([case, source, *counts, Amount(worst, digits=2)])
+        head, *cells = rows if sources else [[row[0], *row[2:]] for row in rows]
         shown = self.checks if every else [each for each in self.checks if not each.ok or each.erratum]
-        lines += ["", *(line(each, language) for each in shown)] if shown else []
+        lines = [line(each, language) for each in shown]
         count = say(
             _(
                 "{agree} of {all} numbers of {cases} cases agree to the digits given. {printed} are "
@@ -99,9 +90,10 @@ class Validation:
                 errata=sum(each.erratum for each in self.checks),
             )
         )
-        return "\n".join([*lines, "", count])
+        said = [Table(notes=lines)] if lines else []
+        return Table(list(map(str, head)), cells, "<<>>>>"[1 - sources :]), *said, Table(notes=[count])
 
-    def data(self) -> dict[str, list[dict[str, object]]]:
+    def data(self) -> dict[str, object]:
         """Plain data."""
         numbers: list[dict[str, object]] = [
             {
@@ -119,23 +111,7 @@ class Validation:
             }
             for each in self.checks
         ]
-        return {"numbers": numbers}
-
-    def markdown(self, language: str = "en") -> str:
-        """The table of the documentation."""
-        lines = [
-            _(
-                "| case | source | numbers | printed by the source | agree | largest difference, "
-                "last digits |",
-            ).translate(language),
-            "|---|---|--:|--:|--:|--:|",
-        ]
-        for (case, source), checks in self.cases().items():
-            agree, worst = sum(each.ok for each in checks), max(abs(each.digits) for each in checks)
-            counts = len(checks), _printed(checks), agree
-            cells = (in_language(case, language), in_language(source, language), *counts, f"{worst:.1f}")
-            lines.append(f"| {' | '.join(str(each).replace('|', '/') for each in cells)} |")
-        return "\n".join(lines)
+        return {"ok": self.ok, "numbers": numbers}
 
 
 def _printed(checks: Iterable[Checked]) -> int:

@@ -118,8 +118,8 @@ def test_calculations_and_cams_have_reports_beside_machines(name: str) -> None:
     }
     chinese = speaker("zh")
     result = problem.solve()
-    rows = [row for block in result.blocks(chinese) for row in block.rows]
-    numbers = {plain(typeset(row.cells(result.area, chinese)[1])) for row in rows}
+    blocks = (block.table(result.labels, chinese) for block in result.blocks(chinese))
+    numbers = {plain(typeset(row[1])) for table in blocks for row in table.texts("zh")[1:]}
     assert numbers and numbers <= printed
 
 

@@ -58,7 +58,7 @@ def arguments(option: Options) -> None:
     )
     option("--fluctuation", "δ", help=_("coefficient of speed fluctuation for the flywheels (default 0.02)"))
     option.count("--steps", STEPS, help=_("positions over the cycle (default 360)"))
-    option("--output", "FILE", help=_("write the numbers to a .csv or .json file"))
+    option("--output", "FILE", help=_("write the numbers to a .csv, .json, .xlsx, .md or .html file"))
     option("--curves", "FILE", help=_("write the curves to overlay to a .csv or .json file"))
     option("--plot", "FILE", help=_("draw the curves over each other in a .svg, .pdf or .png file"))
     option.fonts()
@@ -76,13 +76,13 @@ def run(options: argparse.Namespace, session: Session) -> int:
             )
         )
     weights, fluctuation = _weights(options.weights or []), _fluctuation(options.fluctuation)
-    from linkwright.cli.files import PICTURES, refuse_output
+    from linkwright.cli.files import PICTURES, RESULTS, refuse_output
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
     from linkwright.designs.compare import compare
 
-    for path in (options.output, options.curves):
-        refuse_output(path, ENDINGS, force=options.force)
+    refuse_output(options.output, RESULTS, force=options.force)
+    refuse_output(options.curves, ENDINGS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
     machines = [read_model(name, session)[0] for name in options.files]
     with progress(session.say, _("computing designs")):
@@ -150,13 +150,10 @@ def _fluctuation(text: str | None) -> float:
 
 
 def _show(found: Comparison, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.files import curve_columns, curve_data, write_diagram, write_table
-    from linkwright.core.table import csv_rows, csv_text
+    from linkwright.cli.files import curve_columns, curve_data, write_diagram, write_result, write_table
+    from linkwright.core.table import csv_text
 
-    names = [f"{row.criterion.name} [{unit}]" if unit else row.criterion.name for row, unit in found.units()]
-    columns = [found.column(index) for index in range(len(found.labels))]
-    rows = [["metric", *found.labels], *map(list, zip(names, *columns, strict=True))]
-    write_table(options.output, lambda: csv_rows(rows), found.data, force=options.force)
+    write_result(options.output, found, session, force=options.force)
     curves = options.curves
     write_table(
         curves, lambda: csv_text(curve_columns(found)), lambda: curve_data(found), force=options.force

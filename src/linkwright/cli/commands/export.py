@@ -26,7 +26,7 @@ writes the results to a file; the file's ending chooses the format.
   .xlsx           one sheet per subject            .dxf    drawing at true scale
   .xml            MuJoCo model (MJCF)              .mo     Modelica model
   .svg .png .pdf  kinematic drawing                .html   living page, works without a network
-  .py             Python program that solves the machine group by group"""
+  .md             table of the design numbers      .py     Python program that solves the machine"""
 )
 EXAMPLES = _(
     """\
@@ -39,7 +39,9 @@ linkwright export conveyor.yaml --to conveyor.html            living page
 linkwright export conveyor.yaml --to solution.py              Python program"""
 )
 
-NAMES = ("csv", "dxf", "html", "json", "mjcf", "modelica", "parquet", "pdf", "png", "python", "svg", "xlsx")
+NAMES = (
+    "csv", "dxf", "html", "json", "markdown", "mjcf", "modelica", "parquet", "pdf", "png", "python", "svg", "xlsx",
+)  # fmt: skip
 #: Options of formats; one that a format lacks is refused with those that it has.
 OPTIONS = (
     "degrees", "unit", "position", "paths", "curve", "dimensions", "labels", "accelerations", "form", "name",

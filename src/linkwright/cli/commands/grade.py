@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
-from pathlib import Path
 
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
@@ -22,46 +20,32 @@ couple, missing Coriolis term, mass centre at the wrong end, rpm for rad/s."""
 EXAMPLES = """\
 linkwright grade exercise/key.json answers.csv"""
 
-ENDINGS = (".csv",)
-
 
 def arguments(option: Options) -> None:
     option("key", "KEY", help=_("key.json of the variants"))
     option("answers", "ANSWERS", help=_("CSV file of the answers"))
-    option("--output", "FILE", help=_("write the grades to a .csv file"))
+    option("--output", "FILE", help=_("write the grades to a .csv, .json, .xlsx, .md or .html file"))
     option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Grades, prints a row per sheet, writes them where asked; 1 where a sheet cannot be graded."""
-    from linkwright.cli.files import refuse_output, write_whole
-    from linkwright.core.table import csv_rows
-    from linkwright.course.grade import grade, table
+    from linkwright.cli.files import RESULTS, refuse_output, write_result
+    from linkwright.course.grade import grade
     from linkwright.words.sentence import in_language
 
-    refuse_output(options.output, ENDINGS, force=options.force)
-    grades = grade(options.key, options.answers)
-    faults = [each.fault for each in grades if each.fault]
-    names = [each["name"] for each in json.loads(Path(options.key).read_text("utf-8"))["questions"]]
-    found = table(grades, names, session.language)
-    if options.output is not None:
-        write_whole(Path(options.output), csv_rows(found.texts()), force=options.force)
-    if session.json:
-        sheets = [
-            {"student": g.student, "variant": g.variant, "right": list(g.right), "mistakes": list(g.mistakes),
-             "where": g.where, **({"fault": g.fault} if g.fault else {})} for g in grades
-        ]  # fmt: skip
-        session.show_data({"ok": not faults, "sheets": sheets})
-        return int(bool(faults))
-    session.show("\n".join(session.table(found.lines())))
-    session.show_written(options.output, apart=True)
-    if faults:
+    refuse_output(options.output, RESULTS, force=options.force)
+    found = grade(options.key, options.answers)
+    faults = found.faults
+    write_result(options.output, found, session, force=options.force)
+    session.show_result(found, options.output)
+    if faults and not session.json:
         session.tell_error(
             session.say(
                 _(
                     "{count} of {of} sheets cannot be graded; the others are",
                     count=len(faults),
-                    of=len(grades),
+                    of=len(found),
                 )
             )
         )

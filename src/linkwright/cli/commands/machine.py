@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.given import STEPS
-from linkwright.core.table import Block, csv_text, rows_data, together
+from linkwright.core.rows import Block
+from linkwright.core.table import csv_text
 from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.cli.machine_options import Wanted
+    from linkwright.cli.machine_rows import Layout
     from linkwright.machine.running import SteadyRunning
 
 SUMMARY = _("motor and flywheel for steady running, and the speed that results")
@@ -141,8 +144,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
                 code="machine.shape_needs_fluctuation",
             )
         )
-    title, blocks = _curves(options, asked, session)
-    _show(title, blocks, [], session)
+    session.show_result(_curves(options, asked, session))
     return 0
 
 
@@ -184,7 +186,7 @@ def _refuse_contradictions(options: argparse.Namespace) -> None:
 
 def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> int:
     from linkwright.cli.files import refuse_output, write_table
-    from linkwright.cli.machine_rows import dimensions
+    from linkwright.cli.machine_rows import Layout, dimensions
     from linkwright.cli.source import read_model
     from linkwright.kinetostatics.run import solve_forces
     from linkwright.machine.flywheel import FLUCTUATION
@@ -203,28 +205,27 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
     columns = _cycle(running) if options.output is not None else {}
     write_table(options.output, lambda: csv_text(columns), lambda: columns, force=options.force)
     sized = Block("dimensions", "", dimensions(running.exact_flywheel, running.equivalent.speed, asked))
-    blocks = [*running.blocks(session.say), sized]
-    _show(mechanism.name, blocks, running.notes(session.language), session)
-    if not session.json:
-        session.show_written(options.output, apart=True)
+    found = Layout(mechanism.name, lambda say: [*running.blocks(say), sized], running)
+    session.show_result(found, options.output)
     return 0
 
 
-def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> tuple[str, list[Block]]:
+def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> Layout:
     from linkwright.cli.machine_options import areas, curve
-    from linkwright.cli.machine_rows import of_areas, of_curves
+    from linkwright.cli.machine_rows import Layout, of_areas, of_curves
     from linkwright.machine.energy import fluctuation_from_areas
 
     say = session.say
     if options.areas is not None:
         given, (torque, angle) = areas(options.areas, options.scale)
         energy = fluctuation_from_areas(given, torque_scale=torque, angle_scale=angle)
-        return say(_("Torque diagram of {count} areas", count=len(given))), of_areas(energy, asked, say)
+        title = say(_("Torque diagram of {count} areas", count=len(given)))
+        return Layout(title, partial(of_areas, energy, asked))
     driver = curve("--torque", options.torque, options.period)
     load = None if options.load is None else curve("--load", options.load, options.period)
     against = say(_("its mean")) if options.load is None else options.load
     title = say(_("T = {torque}, against {load}", torque=options.torque, load=against))
-    return title, of_curves(driver, load, asked, say)
+    return Layout(title, partial(of_curves, driver, load, asked))
 
 
 def _cycle(running: SteadyRunning) -> dict[str, Any]:
@@ -238,13 +239,3 @@ def _cycle(running: SteadyRunning) -> dict[str, Any]:
         "speed_with_flywheel [rad/s]": running.speed.at(energy.angle),
         "speed_with_exact_flywheel [rad/s]": running.exact_speed.at(energy.angle),
     }
-
-
-def _show(title: str, blocks: list[Block], remarks: list[str], session: Session) -> None:
-    if session.json:
-        session.show_data({"ok": True, "name": title, **rows_data(blocks), "remarks": remarks})
-        return
-    from linkwright.cli.machine_rows import LABELS
-
-    lines = [session.strong(title), *together(blocks, LABELS, session.say)]
-    session.show("\n".join([*lines, *([""] if remarks else []), *remarks]))

@@ -30,9 +30,6 @@ linkwright metrics gallery:jaw_crusher_sixbar
 linkwright metrics press.yaml --names stroke,quick_return_ratio,transmission_angle
 linkwright metrics crusher.yaml --output numbers.csv"""
 
-ENDINGS = (".csv", ".json")
-COLUMNS = ("metric", "subject", "value", "unit", "at", "at_unit", "limit", "exact", "warning", "remark")
-
 
 def arguments(option: Options) -> None:
     option.model()
@@ -57,18 +54,21 @@ def arguments(option: Options) -> None:
         ),
     )
     option.flag("--mark", help=_("leave out positions that cannot be reached instead of refusing"))
-    option("--output", "FILE", help=_("write the numbers in SI units to a .csv or .json file"))
+    option(
+        "--output",
+        "FILE",
+        help=_("write the numbers to a .csv or .json file (SI units), or a .xlsx, .md or .html file"),
+    )
     option.force()
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Prints or writes the numbers; 1 where the joint forces failed that some of them need, 2 where some of those
     that are named do not apply."""
-    from linkwright.cli.files import refuse_output, write_table
+    from linkwright.cli.files import RESULTS, refuse_output, write_result
     from linkwright.cli.source import read_model
-    from linkwright.core.table import csv_text
 
-    refuse_output(options.output, ENDINGS, force=options.force)
+    refuse_output(options.output, RESULTS, force=options.force)
     names = _names(options.names)
     mechanism, _unused = read_model(options.file, session)
     table, refused, trouble = _evaluated(mechanism, names, options)
@@ -76,8 +76,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     troubles += [] if trouble is None else [trouble.say(session.language)]
     data = {"ok": not troubles, **table.data(session.language)}
     data |= {"error": "\n".join(troubles)} if troubles else {}
-    columns = {name: [row[name] for row in data["metrics"]] for name in COLUMNS}
-    write_table(options.output, lambda: csv_text(columns), lambda: data, force=options.force)
+    write_result(options.output, table, session, force=options.force)
     if session.json:
         session.show_data(data)
     else:

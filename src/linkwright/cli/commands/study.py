@@ -27,8 +27,6 @@ linkwright study crusher.yaml --vary "pitman.length=1.2..1.3 m:5" "jaw.mass=700,
     --metrics peak_input_torque "reaction O5 on jaw max" --output study.csv
 linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --samples 256"""
 
-ENDINGS = (".csv", ".json")
-
 
 def arguments(option: Options) -> None:
     option.model()
@@ -54,7 +52,7 @@ def arguments(option: Options) -> None:
     option.count("--rows", 40, help=_("rows of the printed table (default 40)"))
     option.cluster()
     option.state()
-    option("--output", "FILE", help=_("write all designs to a .csv or .json file"))
+    option("--output", "FILE", help=_("write all designs to a .csv, .json, .xlsx, .md or .html file"))
     option("--plot", "FILE", help=_("draw the metrics over what varies in a .svg, .pdf or .png file"))
     option.fonts()
     option.force()
@@ -87,7 +85,7 @@ def sampling_arguments(option: Options, *, samples: int) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Studies the designs and prints or writes what came out."""
-    from linkwright.cli.files import PICTURES, refuse_output
+    from linkwright.cli.files import PICTURES, RESULTS, refuse_output
     from linkwright.cli.progress import kept
     from linkwright.cli.source import read_model
     from linkwright.designs.cluster import on_cluster
@@ -95,7 +93,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.files.write import dump
     from linkwright.machine.flywheel import FLUCTUATION
 
-    refuse_output(options.output, ENDINGS, force=options.force)
+    refuse_output(options.output, RESULTS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
     vary = ranges_of(options.vary)
     mechanism, _unused = read_model(options.file, session)
@@ -137,9 +135,9 @@ def ranges_of(texts: list[str]) -> dict[str, str]:
 
 
 def _show(found: Study, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.files import write_diagram, write_table
+    from linkwright.cli.files import write_diagram, write_result
 
-    write_table(options.output, found.csv, found.data, force=options.force)
+    write_result(options.output, found, session, force=options.force)
     write_diagram(options.plot, found, session, force=options.force)
-    text = found.text(session.language, max(2, options.rows), session.room)
+    text = found.text(session.language, session.room, rows=max(2, options.rows))
     session.show_result(found, options.output, options.plot, text=text)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.commands.study import ranges_of, sampling_arguments, vary_argument
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.words import _, pgettext
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.export.sweep_parts import SweepParts
@@ -85,43 +85,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.core.table import Amount, Cell, Table
-    from linkwright.words.sentence import in_language
-
-    ranges = found.ranges()
-    best = found.best(options.best) if options.best is not None else {}
     if session.json:
+        best = found.best(options.best) if options.best is not None else {}
         data = found.data(session.language) | {"best": {name: each.tolist() for name, each in best.items()}}
         session.show_data({"ok": True, **data})
         return
-    say = session.say
-    session.show(
-        say(
-            _(
-                "{designs} designs in {parts} parts in {folder} ({skipped} were there already); values in SI",
-                designs=found.designs,
-                parts=found.parts,
-                skipped=found.skipped,
-                folder=found.folder,
-            )
-        )
-    )
-    head = [
-        say(name)
-        for name in (
-            _("column"),
-            _("least"),
-            _("greatest"),
-            pgettext("sweep", "designs"),
-        )
-    ]
-    rows: list[list[Cell]] = [
-        [name, Amount(low), Amount(high), count] for name, (low, high, count) in ranges.items()
-    ]
-    session.show("\n" + "\n".join(Table(head, rows).lines()))
-    for note in found.notes:
-        session.show("\n" + say(_("Note: {text}", text=in_language(note, session.language))))
-    if best:
-        found_rows = [[Amount(float(value)) for value in row] for row in zip(*best.values(), strict=True)]
-        session.show("\n" + say(_("Best {number}:", number=options.best)) + "\n")
-        session.show("\n".join(Table(list(best), found_rows, ">" * len(best)).lines()))
+    session.show(found.text(session.language, best=options.best))

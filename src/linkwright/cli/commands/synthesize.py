@@ -178,17 +178,17 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
         return
     session.show(found.text(session.language, session.room) if worked is None else worked.text())
     if efforts:
-        session.show("\n" + "\n".join(_effort_lines(efforts, session.say)))
+        session.show("\n" + "\n".join(_effort_table(efforts, session.say).lines()))
     session.show_written(*written)
 
 
-def _effort_lines(efforts: list[dict[str, float]], say: Say) -> list[str]:
+def _effort_table(efforts: list[dict[str, float]], say: Say) -> Table:
     head = [say(_("no.")), say(_("peak torque")), say(pgettext("synthesize", "peak reaction"))]
     rows: list[list[Cell]] = [
         [number, Amount(each["peak_input_torque"], "torque", 5), Amount(each["peak_reaction"], "force", 5)]
         for number, each in enumerate(efforts, 1)
     ]
-    return Table(head, rows, ">>>").lines()
+    return Table(head, rows, ">>>")
 
 
 def _mass(text: str | None) -> float | None:

@@ -43,7 +43,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     with progress(session.say, _("comparing")) as told:
         found = validate(cases, told)
     if session.json:
-        session.show_data({"ok": found.ok, **found.data()})
+        session.show_data(found.data())
     else:
         session.show(found.text(session.language, every=options.every, width=session.room))
     return int(not found.ok)

@@ -14,6 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.read_only import Frozen
+from linkwright.core.table import Table, Tabular
 from linkwright.designs.changed_text import changed_text
 from linkwright.designs.optimise.problem import Problem
 from linkwright.errors import LinkwrightError
@@ -37,7 +38,7 @@ class Choice:
 
 
 @dataclass(eq=False)
-class Optimum(Plotted, Frozen):
+class Optimum(Plotted, Tabular, Frozen):
     """The designs that an optimisation found: one, or the front of several objectives in order of the first.
 
     Args:
@@ -107,8 +108,8 @@ class Optimum(Plotted, Frozen):
         return write_whole(path, self.model_text(index).encode(), force=force)
 
     @attached
-    def text(self, language: str = "en") -> str:
-        """Variables and numbers beside the start, and what to know about them."""
+    def tables(self, language: str = "en") -> tuple[Table, ...]:
+        """Variables and numbers beside the start, the front of several objectives, and what to know about them."""
         raise NotImplementedError
 
     def data(self) -> dict[str, Any]:

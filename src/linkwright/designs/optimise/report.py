@@ -1,8 +1,10 @@
-"""The text of an optimisation."""
+"""An optimisation in tables."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from dataclasses import replace
 
 from linkwright import units
 from linkwright.core.quantity import in_kind, number, unit_of_kind, with_unit, written
@@ -17,75 +19,47 @@ from linkwright.words import Say, _
 LISTED = 24
 
 
-def text(found: Optimum, language: str = "en") -> str:
-    """Title, the best design beside the start, the front, and notes."""
+def tables(found: Optimum, language: str = "en") -> tuple[Table, ...]:
+    """The best design beside the start, the front, and notes."""
     tell = speaker(language)
     name = found.problem.mechanism.name
-    lines = [tell(_("{name}: {goals}", name=name, goals=_goals(found, language))), ""]
-    lines += comparison(found, found.best, language).lines()
-    if len(found.problem.goals) > 1:
-        lines += [
-            "",
-            tell(
-                _(
-                    "Designs on the front: {count}, none beaten by another in all objectives; "
-                    "hypervolume {hypervolume} of the box to the worst values",
-                    count=len(found),
-                    hypervolume=f"{found.hypervolume or 0.0:.4f}",
-                )
-            ),
-            "",
-        ]
-        lines += _front(found, language)
-    lines += [
-        "",
-        tell(
-            _(
-                "{evaluations} designs judged in {generations} generations; every design passes the "
-                "whole cycle with the start's assembly",
-                evaluations=found.evaluations,
-                generations=found.generations,
-            )
-        ),
-    ]
+    best = comparison(found, found.best, language)
+    title = tell(_("{name}: {goals}", name=name, goals=_goals(found, language)))
+    front = [_front(found, language)] if len(found.problem.goals) > 1 else []
+    return replace(best, title=title), *front, Table(notes=tuple(_notes(found)))
+
+
+def _notes(found: Optimum) -> Iterator[str]:
+    """What to know about the search."""
+    yield _(
+        "{evaluations} designs judged in {generations} generations; every design passes the "
+        "whole cycle with the start's assembly",
+        evaluations=found.evaluations,
+        generations=found.generations,
+    )
     moved = any(each.choices is None for each in found.problem.variables)
-    if moved and (found.exact or not found.problem.robust):
-        lines.append(
-            tell(
-                _("The last steps followed exact gradients.")
-                if found.exact
-                else _(
-                    "This machine's designs go one after the other, and the last steps followed "
-                    "differences: slower, and less exact.",
-                )
-            )
+    if moved and found.exact:
+        yield _("The last steps followed exact gradients.")
+    elif moved and not found.problem.robust:
+        yield _(
+            "This machine's designs go one after the other, and the last steps followed "
+            "differences: slower, and less exact.",
         )
     if found.best.worst:
-        lines.append(
-            tell(_("At the worst within the tolerances: {numbers}.", numbers=", ".join(_worst(found))))
-        )
+        yield _("At the worst within the tolerances: {numbers}.", numbers=", ".join(_worst(found)))
     if found.best.made is not None:
-        lines.append(
-            tell(
-                _(
-                    "{share} % of the machines made within the tolerances meet all demands (512 samples).",
-                    share=f"{100 * found.best.made:.1f}",
-                )
-            )
+        yield _(
+            "{share} % of the machines made within the tolerances meet all demands (512 samples).",
+            share=f"{100 * found.best.made:.1f}",
         )
-    lines += [
-        tell(
-            _(
-                "{address} changes none of these numbers; leave it out of vary:, or ask for a number "
-                "that it changes.",
-                address=each,
-            )
+    for each in found.without_effect:
+        yield _(
+            "{address} changes none of these numbers; leave it out of vary:, or ask for a number "
+            "that it changes.",
+            address=each,
         )
-        for each in found.without_effect
-    ]
     if found.interrupted:
-        lines.append(tell(RESUME.format(path=found.state)))
-    return "\n".join(lines)
+        yield RESUME.format(path=found.state)
 
 
 def _goals(found: Optimum, language: str) -> str:
@@ -145,7 +119,7 @@ def _change(was: float, now: float) -> str:
     return f"{100 * (now - was) / abs(was):+.2f} %"
 
 
-def _front(found: Optimum, language: str) -> list[str]:
+def _front(found: Optimum, language: str) -> Table:
     texts = [goal.text for goal in found.problem.goals]
     addresses = [variable.address for variable in found.problem.variables]
     head = ["", *(label(found, text, language) for text in texts), *addresses]
@@ -158,7 +132,13 @@ def _front(found: Optimum, language: str) -> list[str]:
         cells = [in_kind(choice.numbers[text], found.kinds[text]) for text in texts]
         cells += [each.shown(choice.values[each.address]) for each in found.problem.variables]
         rows.append([index, *cells])
-    return Table(head, rows, ">" * len(head)).lines()
+    title = _(
+        "Designs on the front: {count}, none beaten by another in all objectives; "
+        "hypervolume {hypervolume} of the box to the worst values",
+        count=count,
+        hypervolume=f"{found.hypervolume or 0.0:.4f}",
+    )
+    return Table(head, rows, ">" * len(head), title.translate(language))
 
 
 def _worst(found: Optimum) -> list[str]:

@@ -12,7 +12,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
-from linkwright.core.table import PERCENT, Block, Row
+from linkwright.core.rows import Block, Row
+from linkwright.core.table import PERCENT
 from linkwright.cycle.summary import Summary
 from linkwright.designs.designs import Sweep, sweep
 from linkwright.designs.one_by_one import OF_VALUES

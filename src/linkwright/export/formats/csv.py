@@ -1,8 +1,8 @@
-"""CSV: one wide table."""
+"""CSV and Markdown: tables as text."""
 
 from __future__ import annotations
 
-from linkwright.core.table import csv_text
+from linkwright.core.table import Tabular, csv_rows, csv_text
 from linkwright.export.export import FORMATS, Format
 from linkwright.export.results import Results
 from linkwright.export.tables import wide
@@ -17,4 +17,27 @@ def content(results: Results, *, degrees: bool = False) -> bytes:
     return csv_text({column.heading: column.values for column in columns}).encode()
 
 
-FORMATS.register("csv")(Format((".csv",), content))
+def of_result(result: Tabular, language: str) -> bytes:
+    """The curves or columns of a result, SI; without any its tables as they are shown, below one another."""
+    if columns := result.columns():
+        return csv_text(columns).encode()
+    parts = [
+        csv_rows([row for row in each.texts(language) if row])
+        for each in result.tables(language)
+        if each.rows
+    ]
+    return "\n".join(parts).encode()
+
+
+def markdown(results: Results) -> bytes:
+    """The design numbers of a machine."""
+    return of_tables(results.metrics, results.language)
+
+
+def of_tables(result: Tabular, language: str) -> bytes:
+    """The tables of a result."""
+    return result.markdown(language).encode()
+
+
+FORMATS.register("csv")(Format((".csv",), content, of_result))
+FORMATS.register("markdown")(Format((".md",), markdown, of_tables))

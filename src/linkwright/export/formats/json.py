@@ -6,7 +6,8 @@ import json
 from typing import Any
 
 from linkwright.core import VERSION
-from linkwright.core.json_data import plain
+from linkwright.core.json_data import json_text, plain
+from linkwright.core.table import Tabular
 from linkwright.export.export import FORMATS, Format
 from linkwright.export.results import Results
 from linkwright.export.tables import tables
@@ -20,6 +21,11 @@ def content(results: Results, *, indent: int = 1) -> bytes:
     return (
         json.dumps(plain(_data(results)), ensure_ascii=False, allow_nan=False, indent=indent) + "\n"
     ).encode()
+
+
+def of_result(result: Tabular, language: str) -> bytes:
+    """The data of a result."""
+    return f"{json_text(result.data())}\n".encode()
 
 
 def _data(results: Results) -> dict[str, Any]:
@@ -61,4 +67,4 @@ def _data(results: Results) -> dict[str, Any]:
     }
 
 
-FORMATS.register("json")(Format((".json",), content))
+FORMATS.register("json")(Format((".json",), content, of_result))

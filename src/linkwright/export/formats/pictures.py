@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from linkwright.core.table import Tabular
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.export.dxf.entities import content_of, new_document
 from linkwright.export.dxf.sheet import LAYERS, Sheet, check_unit, decimals_for, set_dimension_style
@@ -14,6 +15,12 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.svg import render
 from linkwright.plot.drawing import draw
 from linkwright.words import _
+
+#: Looks of a page of tables.
+STYLE = """<style>
+body { font: 15px/1.4 sans-serif; margin: 2em } table { border-collapse: collapse; margin: 1em 0 }
+caption { text-align: left; font-weight: bold } th, td { padding: .1em .6em } th { border-bottom: 1px solid }
+</style>"""
 
 
 def svg(
@@ -118,4 +125,10 @@ def html(results: Results, *, text: str | None = None, beside: Sequence[Mechanis
     return page(models, results.language).encode()
 
 
-FORMATS.register("html")(Format((".html", ".htm"), html))
+def html_of_tables(result: Tabular, language: str) -> bytes:
+    """The tables of a result on a page."""
+    tables = "\n".join(each.html(language) for each in result.tables(language))
+    return f'<!DOCTYPE html>\n<html lang="{language}"><meta charset="utf-8">{STYLE}\n{tables}\n</html>\n'.encode()
+
+
+FORMATS.register("html")(Format((".html", ".htm"), html, html_of_tables))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import largest
-from linkwright.core.table import Amount, Cell, Column, Table
+from linkwright.core.table import Amount, Cell, Column, Table, Tabular
 from linkwright.designs.ranges import dimension_of
 from linkwright.errors import RequestError
 from linkwright.export.charts import Charts, Place, write_charts
@@ -21,6 +21,7 @@ from linkwright.metrics.base import METRICS
 from linkwright.units import NONE, si_symbol
 from linkwright.words import Message, _, pgettext
 from linkwright.words.characters import printable
+from linkwright.words.sentence import in_language
 
 LONGEST_TEXT = 32767
 MOST_ROWS, MOST_COLUMNS = 1_048_575, 16_384
@@ -70,6 +71,17 @@ def content(results: Results, *, degrees: bool = False) -> bytes:
     written as texts: none is read as a formula or a link. Values that are not finite stay empty. ``degrees``: angles
     in degrees.
     """
+    properties = {"title": results.mechanism.name, "comments": results.mechanism.source}
+    return _written(lambda book: Workbook(book, results, degrees).write(), properties)
+
+
+def of_result(result: Tabular, language: str) -> bytes:
+    """A sheet for every table of a result, in the units in which it is shown."""
+    return _written(lambda book: Sheets(book, language).write_tables(result.tables(language)), {})
+
+
+def _written(write: Callable[[Any], None], properties: Mapping[str, str]) -> bytes:
+    """The file of a workbook that is filled by a function."""
     xlsxwriter = package("xlsxwriter", _("Excel files"), "XlsxWriter")
     stream = io.BytesIO()
     settings = {
@@ -79,19 +91,60 @@ def content(results: Results, *, degrees: bool = False) -> bytes:
         "strings_to_numbers": False,
     }
     with xlsxwriter.Workbook(stream, settings) as book:
-        book.set_properties({"title": results.mechanism.name, "comments": results.mechanism.source})
-        Workbook(book, results, degrees).write()
+        book.set_properties(properties)
+        write(book)
     return stream.getvalue()
 
 
-class Workbook:
-    """The sheets of one result."""
+class Sheets:
+    """Tables on the sheets of a workbook."""
 
-    def __init__(self, book: Any, results: Results, degrees: bool) -> None:
-        self.book, self.results, self.degrees = book, results, degrees
+    def __init__(self, book: Any, language: str) -> None:
+        self.book, self.language = book, language
         head = {"bold": True, "text_wrap": True, "valign": "top", "bottom": 1, "bg_color": "#E8EEF4"}
         self.head = book.add_format(head)
         self.text = book.add_format({"text_wrap": True, "valign": "top"})
+
+    def write_tables(self, tables: Sequence[Table]) -> None:
+        """A sheet for every table that has rows, with the paragraphs before it or behind it."""
+        sheet, row, filled = None, 0, False
+        for table in tables:
+            if sheet is None or (filled and table.rows):
+                sheet, row, filled = self.book.add_worksheet(), 0, False
+                sheet.set_column(0, 0, 40)
+                sheet.set_column(1, 20, 16)
+            heads = [([table.title], None), (table.head, self.head)]
+            rows = [
+                *heads,
+                *((cells, self.text) for cells in table.rows),
+                *(([note], None) for note in table.notes),
+            ]
+            for cells, form in rows:
+                self._put(sheet, row, cells, form)
+                row += any(cells)
+            row, filled = row + 1, filled or bool(table.rows)
+
+    def _put(self, sheet: Any, row: int, cells: Sequence[Cell], form: Any) -> None:
+        """Writes a row of cells; numbers as they are shown, their units as formats."""
+        for column, cell in enumerate(cells):
+            if isinstance(cell, Amount) and cell.end is None:
+                if math.isfinite(cell.value):
+                    unit = cell.text.removeprefix(cell.number)
+                    formats = [self.book.add_format({"num_format": f'General"{unit}"'})] if unit else []
+                    sheet.write_number(row, column, cell.shown, *formats)
+            elif isinstance(cell, int):
+                sheet.write_number(row, column, cell)
+            elif cell:
+                text = cell.text if isinstance(cell, Amount) else in_language(cell, self.language)
+                sheet.write_string(row, column, printable(text)[:LONGEST_TEXT], form)
+
+
+class Workbook(Sheets):
+    """The sheets of a motion, with its forces where there are any."""
+
+    def __init__(self, book: Any, results: Results, degrees: bool) -> None:
+        super().__init__(book, results.language)
+        self.results, self.degrees = results, degrees
         self.places: dict[tuple[str, str, str], Place] = {}
 
     def write(self) -> None:
@@ -126,14 +179,9 @@ class Workbook:
         sheet = self._sheet(subject)
         for column, width in enumerate(columns.values()):
             sheet.set_column(column, column, width)
-        head, *body = Table([self.say(HEADS[word]) for word in columns], rows).values(self.results.language)
-        sheet.write_row(0, 0, head, self.head)
-        for row, cells in enumerate(body, start=1):
-            for column, cell in enumerate(cells):
-                if isinstance(cell, str):
-                    sheet.write_string(row, column, printable(cell)[:LONGEST_TEXT], self.text)
-                elif cell is not None and math.isfinite(cell):
-                    sheet.write_number(row, column, cell)
+        self._put(sheet, 0, [self.say(HEADS[word]) for word in columns], self.head)
+        for row, cells in enumerate(rows, start=1):
+            self._put(sheet, row, cells, self.text)
         sheet.freeze_panes(1, 0)
 
     def _values(self, table: Subject, leading: Sequence[Column]) -> None:
@@ -193,7 +241,7 @@ def _model(results: Results, say: Callable[[Message], str]) -> Iterable[Sequence
     yield say(pgettext("export", "positions")), results.motion.steps, ""
     yield say(_("positions reached")), int(results.motion.ok.sum()), ""
     if results.motion.positions.period is not None:
-        yield say(_("period")), Amount(results.motion.positions.period, "time"), "s"
+        yield say(_("period")), Amount(results.motion.positions.period), "s"
     for note in results.notes:
         yield say(pgettext("export", "note")), note, ""
     for address, value in mechanism.dimensions().items():
@@ -211,9 +259,9 @@ def _metrics(results: Results) -> Iterable[Sequence[Cell]]:
     for row in results.metrics:
         data = row.data(results.language)
         label = METRICS[row.metric]().label_in(results.language, row.dimension)
-        at = None if row.at is None else Amount(row.at, row.at_dimension)
-        yield (label, row.subject, Amount(row.value, row.dimension), row.unit, at, data["at_unit"] or "",
+        at = None if row.at is None else Amount(row.at)
+        yield (label, row.subject, Amount(row.value), row.unit, at, data["at_unit"] or "",
                data["remark"])  # fmt: skip
 
 
-FORMATS.register("xlsx")(Format((".xlsx",), content))
+FORMATS.register("xlsx")(Format((".xlsx",), content, of_result))

@@ -14,7 +14,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS
 from linkwright.core.plane import cross
 from linkwright.core.quantity import shown
-from linkwright.core.table import Block, Row
+from linkwright.core.rows import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, SelfCheckError, fault
 from linkwright.fields.base import Quantity, Text, given

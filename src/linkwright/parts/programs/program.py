@@ -14,7 +14,8 @@ from linkwright.core import expressions
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import in_kind, unit_of_kind
-from linkwright.core.table import Block, Row, in_si, unused
+from linkwright.core.rows import Block, Row
+from linkwright.core.table import in_si, unused
 from linkwright.equations.notation import Atom, row, sign, upright
 from linkwright.equations.reading import filled, measured, of_file, plain, sides
 from linkwright.equations.steps import Step, Written
@@ -37,7 +38,7 @@ from linkwright.parts.programs.nonlinear import (
     solve_nonlinear,
 )
 from linkwright.parts.programs.problem import Model, Variable
-from linkwright.words import Message, Say, _
+from linkwright.words import Say, _
 
 #: A constraint is active within this share of the size of its sides.
 ACTIVE = 1e-6
@@ -311,7 +312,6 @@ class Optimum(Result):
     ``gap``: how far the condition of Karush, Kuhn and Tucker is from holding, scaled.
     """
 
-    labels: ClassVar[Mapping[str, Message]] = {}
     program: Program
     values: Floats
     way: str

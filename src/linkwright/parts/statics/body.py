@@ -13,7 +13,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
-from linkwright.core.table import Block, Row
+from linkwright.core.rows import Block, Row
 from linkwright.equations.matrix import system
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError, fault
@@ -295,7 +295,6 @@ class Reactions(Result):
     Σ F = 0 and Σ M = 0 (six equations in space, three in the plane) as one linear system.
     """
 
-    labels: ClassVar[Mapping[str, Message]] = {}
     body: RigidBody
 
     @cached_property

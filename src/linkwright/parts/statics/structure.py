@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.table import Block, Row
+from linkwright.core.rows import Block, Row
 from linkwright.equations.matrix import system
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError, fault
@@ -101,7 +99,6 @@ def _motion(system: ConstraintEquations, motion: Floats) -> tuple[Message, ...]:
 class StructureForces(Result):
     """Reactions at every joint of a structure; ``forces`` is the full result of the reaction solver."""
 
-    labels: ClassVar[Mapping[str, Message]] = {}
     forces: Forces
 
     @property

@@ -13,7 +13,8 @@ from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
-from linkwright.core.table import PARTS_PER_MILLION, Block, Row, Scale, in_si
+from linkwright.core.rows import Block, Row
+from linkwright.core.table import PARTS_PER_MILLION, Scale, in_si
 from linkwright.equations.reading import measured
 from linkwright.equations.steps import Step, Value
 from linkwright.errors import Finding, fault

@@ -13,7 +13,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import CURVE_STEPS
 from linkwright.core.quantity import shown
-from linkwright.core.table import PERCENT, Block, Row
+from linkwright.core.rows import Block, Row
+from linkwright.core.table import PERCENT
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, fault
 from linkwright.fields.base import Quantity, Text, given

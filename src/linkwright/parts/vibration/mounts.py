@@ -13,7 +13,7 @@ from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS
 from linkwright.core.quantity import number, shown
-from linkwright.core.table import Block, Row
+from linkwright.core.rows import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, ModelError, fault
 from linkwright.fields.base import Quantities, Quantity, given
@@ -24,7 +24,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Result
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.vibration.linear import largest_between
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Say, _, pgettext
 
 #: Columns and dimensions of shaking force, motion and force on the ground, by axis.
 TITLES = {
@@ -233,7 +233,6 @@ class Shaken(Result):
     ground gets (K + i kω C) X_k. ``harmonics`` F_k of Σ Re F_k e^(ikωt); ``moved``, ``passed`` in the same way.
     """
 
-    labels: ClassVar[Mapping[str, Message]] = {}
     problem: Mounts
 
     @property

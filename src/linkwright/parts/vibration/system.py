@@ -14,7 +14,7 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
-from linkwright.core.table import Block, Row
+from linkwright.core.rows import Block, Row
 from linkwright.equations.matrix import named_matrix
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError, fault

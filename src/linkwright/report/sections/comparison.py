@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from linkwright.designs.evaluation import ranking, sentences, table
+from linkwright.designs.evaluation import ranking, sentences
 from linkwright.errors import LinkwrightError
 from linkwright.report.document import Block, Figure, Heading, Paragraph, literal, printed
 from linkwright.report.machine_results import Case, Missing
@@ -29,10 +29,10 @@ def blocks(cases: Sequence[Case]) -> Iterator[Block]:
         if error.code == "study.no_common_output":
             raise Missing(error.sentence) from None
         raise
-    yield printed(
-        table(found, say), say(_("Design numbers of the alternatives")), first.language, "comparison"
-    )
-    yield Paragraph(literal(say(_("* best of the alternatives"))))
+    table = found.tables(first.language)[0]
+    yield printed(table, say(_("Design numbers of the alternatives")), first.language, "comparison")
+    for note in table.notes:
+        yield Paragraph(literal(note))
     yield Heading(say(_("Ranking")), 2)
     for line in ranking(found, say):
         yield Paragraph(literal(line.strip()), "bullet" if line.startswith(" ") else "")

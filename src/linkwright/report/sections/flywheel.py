@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkwright.core.table import Table
 from linkwright.equations.notation import quantity, row, sign
 from linkwright.equations.reading import read, read_name
 from linkwright.errors import LinkwrightError
-from linkwright.machine.running import LABELS, SteadyRunning
-from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal
+from linkwright.machine.running import SteadyRunning
+from linkwright.report.document import Block, Figure, Formula, Paragraph, literal, printed
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.report.sections.curves import pictures
@@ -50,10 +51,10 @@ def blocks(case: Case) -> Iterator[Block]:
                 )
             )
         )
-    cells = (row.cells(LABELS, say) for block in running.blocks(say) for row in block.rows)
-    rows = tuple(tuple(literal(cell.strip()) for cell in each) for each in cells)
     head = (say(_("design number")), say(_("value")), say(_("unit")), say(_("at the input")))
-    yield Table(say(_("Motor, energy fluctuation and flywheel")), head, rows, "<><>", "flywheel")
+    rows = [row for table in running.tables(case.language, digits=6) for row in table.rows]
+    caption = say(_("Motor, energy fluctuation and flywheel"))
+    yield printed(Table(head, rows, "<><>"), caption, case.language, "flywheel")
     yield from _speed(case)
     yield from pictures(case, ("energy",))
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.core.quantity import number
+from linkwright.core.table import Table
 from linkwright.equations.reading import sides
-from linkwright.metrics.base import MetricValue
+from linkwright.metrics.base import CELLS, MetricValue
 from linkwright.metrics.table import told
-from linkwright.report.document import Block, Formula, Paragraph, Table, literal
+from linkwright.report.document import Block, Formula, Paragraph, literal, printed
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.words import _
@@ -28,16 +29,9 @@ def blocks(case: Case) -> Iterator[Block]:
     yield from _quick_return(case, rows)
     for metric in dict.fromkeys(row.metric for row in rows):
         case.used[metric] = None
-    head = (
-        say(_("design number")),
-        say(_("of")),
-        say(_("value")),
-        say(_("unit")),
-        say(_("at the input")),
-        say(_("recommended")),
-    )
-    body = tuple(tuple(map(literal, cells)) for cells, _unused in told(rows, case.language))
-    yield Table(say(_("Design numbers")), head, body, "<<><>>", "numbers")
+    head = [say(each) for each in (*CELLS[:4], _("at the input"), _("recommended"))]
+    table = Table(head, [cells for cells, _unused in told(rows, case.language)], "<<><>>")
+    yield printed(table, say(_("Design numbers")), case.language, "numbers")
     for sentence in case.metrics.warnings_in(case.language):
         yield Paragraph(literal(sentence), "note")
 

@@ -21,7 +21,7 @@ from linkwright.words import _, pgettext
 def blocks(case: Case) -> Iterator[Block]:
     """Mobility, Assur groups in solving order, class of the mechanism."""
     say, built = case.say, case.structure
-    first, *rest = [line for line in built.text(case.language).split("\n\n")[0].splitlines() if line.strip()]
+    first, *rest = built.tables(case.language)[0].notes
     yield Paragraph(symbols(first) + say(_(".")))
     yield _mobility(case)
     for line in rest[1:]:
