@@ -213,6 +213,8 @@ export interface ModelData {
 }
 
 export interface PageData {
+  /** Symbols of the studio's drawing paper, as SVG. */
+  symbols?: Record<string, string>;
   language: Language;
   words: Record<Language, Record<string, string>>;
   models: ModelData[];

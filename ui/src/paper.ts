@@ -42,8 +42,8 @@ export class Paper {
   private readonly measures: SVGElement;
   private readonly front: SVGElement;
 
-  /** `act` carries out actions one after the other. */
-  constructor(host: HTMLElement, readonly act: (actions: Action[]) => void) {
+  /** `act` carries out actions one after the other; `symbols`: those of pivots and blocks, as SVG. */
+  constructor(host: HTMLElement, readonly act: (actions: Action[]) => void, private readonly symbols: Record<string, string>) {
     this.svg = element("svg", { class: "machine drafting", role: "application", tabindex: 0 }, host);
     this.photo = new Photo(element("image", { preserveAspectRatio: "none", class: "photo" }, this.svg));
     this.back = element("path", { class: "grid fine" }, this.svg);
@@ -429,6 +429,10 @@ export class Paper {
     return { ...loads, "": { kind: "force", on: this.picked ?? "", at, angle, ends: [], size: this.value } };
   }
 
+  private symbol(name: string, x: number, y: number): void {
+    element("g", { transform: `translate(${x} ${y})` }, this.front).innerHTML = this.symbols[name];
+  }
+
   draw(): void {
     const [w, h] = this.size, step = this.grid * this.scale;
     let d = "";
@@ -464,14 +468,12 @@ export class Paper {
       const [x, y] = this.screen(points[name]);
       if (this.covered(name)) continue;
       if (fixed.includes(name)) {
-        element("path", { class: "lw-support", d: `M${x} ${y}l-9 16h18Z` }, this.front);
-        element("path", { class: "lw-ground", d: `M${x - 15} ${y + 16}h30` }, this.front);
-        element("path", { class: "lw-hatch", d: [-9, -3, 3, 9, 15].map((dx) => `M${x + dx} ${y + 16}l-5 6`).join("") }, this.front);
-        inked([[x - 15, y + 16], [x + 15, y + 16], [x, y + 6], [x - 15, y + 22], [x + 15, y + 22]]);
+        this.symbol("fixed_pivot", x, y);
+        inked([[x - 16, y + 18], [x + 16, y + 18], [x, y + 6], [x - 16, y + 25], [x + 16, y + 25]]);
       }
       if (guided.includes(name)) {
-        element("rect", { class: "lw-block", x: x - 14, y: y - 9, width: 28, height: 18 }, this.front);
-        inked([[x - 14, y - 9], [x + 14, y + 9], [x - 14, y + 9], [x + 14, y - 9], [x - 14, y - 9], [x - 14, y + 9]]);
+        this.symbol("slider", x, y);
+        inked([[x - 15, y - 9], [x + 15, y + 9], [x - 15, y + 9], [x + 15, y - 9], [x - 15, y - 9], [x - 15, y + 9]]);
       }
       element("circle", { class: `lw-pin${this.chosen.includes(name) ? " chosen" : ""}`, cx: x, cy: y, r: 5, "data-point": name }, this.front);
       inked([[x - 5, y - 5], [x + 5, y + 5], [x - 5, y + 5], [x + 5, y - 5]]);

@@ -1,7 +1,7 @@
 // Strokes of the drawing, in pixels of the paper: path texts of symbols, and elements of SVG.
 import type { Vec } from "./shapes";
 
-export const NS = "http://www.w3.org/2000/svg";
+const NS = "http://www.w3.org/2000/svg";
 const TURN = 2 * Math.PI;
 // Teeth on the paper: their pitch where their number is not known, heights over and under the pitch line; the finest.
 export const PITCH = 11, TALL = 3.2, DEEP = 3.6, FINEST = 4;

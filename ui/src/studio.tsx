@@ -21,7 +21,7 @@ function Drafting({ desk }: { desk: Desk }) {
   const [tool, choose] = useState<Tool>("fixed"), [value, setValue] = useState("");
   const { picture, mobility, text } = desk.solved.value;
   useEffect(() => {
-    paper.current = new Paper(host.current!, desk.act);
+    paper.current = new Paper(host.current!, desk.act, desk.page.data.symbols!);
     paper.current.tell = (key, values) => (desk.page.note.value = desk.say(key, values));
     paper.current.drawn = (points, closed) => void desk.search("curve", { points, closed });
     const observer = new ResizeObserver(([{ contentRect: box }]) => paper.current!.resize(box.width, box.height));

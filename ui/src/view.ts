@@ -6,7 +6,7 @@ import { Names } from "./names";
 import { colours, painted } from "./palette";
 import { amount, Shapes, type Vec } from "./shapes";
 import {
-  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, NS, PITCH, place, put, round, strand, TALL, thinned, TOOTH, toothed, unit, zigzag,
+  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, PITCH, place, put, round, strand, TALL, thinned, TOOTH, toothed, unit, zigzag,
 } from "./strokes";
 
 const LAYERS = ["ground", "paths", "bodies", "blocks", "pins", "tops", "marks", "vectors", "names", "handles"];
@@ -232,8 +232,7 @@ export class View {
 
   private stamp(glyph: Glyph, layer: SVGElement): (i: number) => void {
     const made = element("g", { class: `stamp ${glyph.role ?? ""}` }, layer);
-    const parsed = new DOMParser().parseFromString(`<svg xmlns="${NS}">${glyph.svg}</svg>`, "image/svg+xml");
-    made.append(...[...parsed.documentElement.childNodes].map((node) => document.importNode(node, true)));
+    made.innerHTML = glyph.svg!;
     const { x: left, y: top, width, height } = (made as SVGGraphicsElement).getBBox();
     const corners: Vec[] = [[left, top], [left + width, top + height], [left, top + height], [left + width, top]];
     return (i) => {

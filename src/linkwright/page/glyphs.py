@@ -8,7 +8,6 @@ clockwise).
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import asdict
 from functools import partial
@@ -22,12 +21,11 @@ from linkwright.kinematics.names import canonical
 from linkwright.loads.base import Load
 from linkwright.mechanism.link import Link
 from linkwright.page.contacts import CamContact, RackWay, Wheel, Wheels, contact_shape
-from linkwright.pictures.picture import Vec
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape
 from linkwright.plot.drawing.guides import clear_shift, ground_side, input_arrows, is_cylinder, travel, welds
 from linkwright.plot.drawing.load_marks import Press, Turn, mark_of
 from linkwright.plot.drawing.loads import named_points, pressing
-from linkwright.plot.drawing.machine import Machine, Part, bodies, flat, support_direction
+from linkwright.plot.drawing.machine import Machine, Part, bodies, flat, pins
 
 _LENGTHS = 2
 
@@ -64,10 +62,7 @@ def _links(machine: Machine) -> Iterator[Plain]:
             yield {"kind": "plate", "layer": "bodies", "points": keys}
         elif len(ends) == _LENGTHS:
             yield {"kind": "bar", "layer": "bodies", "points": [keys[end] for end in ends]}
-    for part in bodies(machine):
-        if part.layer == "pins":
-            carrier, point = _nearest(machine, part)
-            yield _stamp("pins", key_of(machine, carrier, point), 0.0, SYMBOLS["point"]())
+    yield from (_tied(machine, part) for part in bodies(machine) if part.layer == "pins")
 
 
 def _ends(machine: Machine, link: Link) -> list[int] | None:
@@ -80,14 +75,6 @@ def _ends(machine: Machine, link: Link) -> list[int] | None:
     if len(ends) < _LENGTHS or np.hypot(*(ends[1] - ends[0])) <= 1.0:
         return []
     return [int(np.hypot(*(cloud - end).T).argmin()) for end in ends]
-
-
-def _nearest(machine: Machine, part: Part) -> tuple[str, str]:
-    """The point of its carrier at which a part stands."""
-    link = machine.motion.mechanism.link(part.carrier)
-    middle = part.shape.ink[0][:-1].mean(axis=0)
-    places = [machine.local(part.carrier, point) for point in link.points]
-    return part.carrier, list(link.points)[int(np.hypot(*(np.array(places) - middle).T).argmin())]
 
 
 def _guides(machine: Machine) -> Iterator[Plain]:
@@ -129,12 +116,8 @@ def _tube(machine: Machine, name: str) -> Plain:
 
 
 def _pins(machine: Machine) -> Iterator[Plain]:
+    yield from (_tied(machine, part) for part in pins(machine) if part.layer != "tops")
     for name, joint in machine.pins.items():
-        if "frame" in joint.links:
-            x, y = support_direction(machine, name, joint)
-            support = SYMBOLS["fixed_pivot"](toward=(1.0, 0.0))
-            yield _stamp("ground", name, math.atan2(y, x), support)
-        yield _stamp("pins", name, 0.0, SYMBOLS["pin"]())
         for link in joint.links:
             ends = _ends(machine, machine.motion.mechanism.link(link)) if link != "frame" else None
             if ends and list(machine.motion.mechanism.link(link).points).index(name) not in ends:
@@ -256,15 +239,9 @@ def _tied(machine: Machine, part: Part, point: str | None = None) -> Plain:
         middle = np.concatenate(part.shape.ink).mean(axis=0)
         places = np.array([machine.local(part.carrier, name) for name in names])
         point = names[int(np.hypot(*(places - middle).T).argmin())]
-    along = 0.0 if part.carrier == "frame" else row_name("direction", part.carrier)
-    at = machine.local(part.carrier, point)
-    return _stamp(
-        part.layer, key_of(machine, part.carrier, point), along, _shifted(part.shape, at), role="input"
-    )
-
-
-def _shifted(shape: Shape, at: Vec) -> Shape:
-    return Shape(tuple(each.placed(-np.array(at)) for each in shape.elements))
+    at = np.array(machine.local(part.carrier, point))
+    shape = Shape(tuple(each.placed(-at) for each in part.shape.elements))
+    return _stamp(part.layer, key_of(machine, part.carrier, point), _along(part.carrier), shape)
 
 
 def _load(machine: Machine, load: Load) -> Iterator[Plain]:

@@ -23,6 +23,7 @@ from urllib.parse import parse_qs, urlsplit
 from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.page.texts import TEXTS as PAGE_TEXTS
+from linkwright.pictures.symbols.base import SYMBOLS
 from linkwright.server.background import unexpected
 from linkwright.server.files import LARGEST, Files
 from linkwright.server.request import BadRequest, parsed
@@ -183,6 +184,9 @@ class _Handler(BaseHTTPRequestHandler):
             "words": words,
             "file": self.server.file,
             "models": [],
+            "symbols": {
+                name: "".join(map(str, SYMBOLS[name]().elements)) for name in ("fixed_pivot", "slider")
+            },
         }
         content = json.dumps(data, ensure_ascii=False).replace("<", "\\u003c")
         return (
