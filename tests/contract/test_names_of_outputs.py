@@ -10,6 +10,7 @@ from tests.refusals import refused
 
 import linkwright as lw
 from linkwright.cli import main
+from linkwright.designs.tolerance import Tolerance, ToleranceStudy
 from linkwright.plot.animation import animate
 from linkwright.plot.diagrams.diagram_by_name import plot
 
@@ -73,6 +74,14 @@ def test_an_unknown_name_is_refused_by_one_sentence() -> None:
     for call in calls:
         with refused("study.no_such_output", name="jw.angle", mechanism=machine.name):
             call("jw.angle")
+
+
+@pytest.mark.parametrize("name", ["O5 on jaw.x", "velocity_ratio jaw", "transmission_angle B", "jaw"])
+def test_tolerances_take_one_name_for_curves_and_summaries(name: str) -> None:
+    crusher, dimensions = store.machine("jaw_crusher_sixbar"), {"toggle.length": Tolerance(1e-4)}
+    asked = {"of": (f"{name} max",), "curves": (name,), "samples": 64, "steps": 24}
+    found = ToleranceStudy(crusher, dimensions, **asked).solve()
+    assert found.nominal(f"{name} max") >= found.curve(name)[1].max()
 
 
 SECTIONS: dict[str, Callable[[str], str]] = {

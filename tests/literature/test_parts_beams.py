@@ -183,6 +183,14 @@ def test_driven_crank_is_clamped_by_its_torque() -> None:
     assert np.abs(found.moment[:, -1]).max() < 1e-9
 
 
+def test_largest_values_are_those_between_the_positions() -> None:
+    """The crank's moment is largest at the shaft, the peak of the input torque."""
+    found = parts.LinkBending(lw.loads(FOURBAR), "crank", STEEL, circle(0.03), steps=24).solve()
+    torque = lw.metrics(lw.solve_forces(lw.loads(FOURBAR), steps=3600)).value("peak_input_torque")
+    assert abs(found.largest("largest_moment")) == pytest.approx(abs(torque), rel=1e-8)
+    assert np.abs(found.moment).max() < 0.9999 * abs(torque)
+
+
 def test_a_load_on_a_link_is_a_force_at_its_place() -> None:
     """A massless bar between pins with a force across at a third: M = P a b/L there."""
     text = FOURBAR.replace("mass: 6 kg, inertia: 0.125 kg·m²", "also: {Q: [0.2 m, 0 m]}")

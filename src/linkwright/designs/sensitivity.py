@@ -33,6 +33,8 @@ from linkwright.words import _
 
 Way = Literal["auto", "forward", "reverse"]
 
+#: What asks for the curve of an output, in place of a kind.
+CURVE = "curve"
 #: From this number of dimensions on, the gradient of a summary is found by a reverse sweep.
 REVERSE_PAYS = 6
 
@@ -176,7 +178,8 @@ def sensitivity(
     Args:
         mechanism: where the derivatives are taken.
         of: outputs (see :func:`sweep`), alone for their curves, or with a kind: ``driver.effort rms``. Kinds: min,
-            max, mean, rms, range, peak. Or design numbers, as in :func:`objective`.
+            max, mean, rms, range, peak. Or design numbers, as in :func:`objective`; the curve of an output that is
+            called like one is ``("velocity_ratio jaw", "curve")``.
         by: addresses of dimensions (``pitman.length``, ``jaw.mass``) or names of parameters.
         steps: None for summaries of the cycle, exact between positions, as design numbers always are; a number for
             those of so many positions, as curves have (without it 360).
@@ -223,6 +226,8 @@ def sensitivity(
 
 def split(each: str | tuple[str, str]) -> str | Summary:
     """An output alone, or a summary of it; raises LinkwrightError for a kind that has no derivative."""
+    if isinstance(each, tuple) and each[1:] == (CURVE,):
+        return each[0]
     if isinstance(each, str) and len(wanted([each])) == 2:
         return each
     return differentiable(each)

@@ -17,7 +17,7 @@ from linkwright.core.table import PERCENT
 from linkwright.cycle.summary import Summary
 from linkwright.designs.designs import Sweep, sweep
 from linkwright.designs.one_by_one import OF_VALUES
-from linkwright.designs.sensitivity import Sensitivity, sensitivity
+from linkwright.designs.sensitivity import CURVE, Sensitivity, sensitivity
 from linkwright.designs.tolerance.curves import CurveSpread, curve_spreads
 from linkwright.designs.tolerance.pins_in_motion import FollowedPins, follow
 from linkwright.designs.tolerance.pressed_pins import is_position, require_forces, shifts
@@ -159,7 +159,8 @@ class Spread(Result):
     @cached_property
     def derivatives(self) -> Sensitivity:
         """Exact derivatives of curves."""
-        return sensitivity(self.study.prepared, of=self._curves, by=self.addresses, steps=self.study.steps)
+        curves = [(output, CURVE) for output in self._curves]
+        return sensitivity(self.study.prepared, of=curves, by=self.addresses, steps=self.study.steps)
 
     @cached_property
     def forces(self) -> Forces:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import ClassVar
 
@@ -19,12 +19,14 @@ from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, SelfCheckError, fault
 from linkwright.fields.base import Quantity, Text, given
 from linkwright.fields.tables import Listed, Whole
+from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import applied_rows, driver_wrenches
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics import Analysis
 from linkwright.parts.base import Result
 from linkwright.parts.beams.axis import LinkAxis, SpreadMass
 from linkwright.parts.beams.balance import polynomial_text
@@ -35,6 +37,13 @@ from linkwright.words import Message, Say, _
 
 #: Points of a link lie on a line within this share of its length.
 STRAIGHT = 1e-6
+#: What is the largest over the cycle, with its dimension.
+LARGEST = {
+    "largest_moment": "torque",
+    "largest_normal": "force",
+    "largest_stress": "pressure",
+    "largest_deflection": "length",
+}
 #: What the numbers are called.
 LABELS: Mapping[str, Message] = {
     "largest_moment": _("largest bending moment"),
@@ -404,17 +413,50 @@ class LinkStress(Result):
         index = np.unravel_index(int(np.abs(values).argmax()), values.shape)
         return int(index[0]), int(index[1])
 
+    def numbers(self, key: str) -> Floats:
+        """What a largest value is of, (n, k)."""
+        if key == "largest_deflection":
+            return np.hypot(self.deflection[:, :, 0], self.deflection[:, :, 1])
+        return {"largest_moment": self.moment, "largest_normal": self.normal, "largest_stress": self.stress}[
+            key
+        ]
+
+    @cached_property
+    def peaks(self) -> Mapping[str, tuple[LinkStress, int, int]]:
+        """The largest sizes over the cycle, found between the positions: the link there, position and station."""
+        analysis = Analysis.of(self.forces)
+        found = {
+            key: (size := self._size(key), analysis.extreme(size, "max", of="forces")) for key in LARGEST
+        }
+        wanted = [(size, each.time, each.value) for size, each in found.values() if each and each.exact]
+        if len(wanted) < len(found):
+            return {key: (self, *self.worst(self.numbers(key))) for key in found}
+        forces, places = analysis.resolver.forces_at(wanted)
+        there = LinkStress(self.problem, forces)
+        stations = (int(np.abs(there.numbers(key)[i]).argmax()) for key, i in zip(found, places, strict=True))
+        return {key: (there, i, k) for key, i, k in zip(found, places, stations, strict=True)}
+
+    def _size(self, key: str) -> Callable[[Motion | Forces], Floats]:
+        return lambda forces: np.abs(LinkStress(self.problem, forces).numbers(key)).max(axis=1)  # type: ignore[arg-type]
+
+    def largest(self, key: str) -> float:
+        """One of them, with its sign."""
+        found, i, k = self.peaks[key]
+        return float(found.numbers(key)[i, k])
+
     @property
     def safety(self) -> float | None:
         """Strength over the largest stress."""
         strength = self.problem.material.strength
-        return None if strength is None else strength / float(self.stress.max())
+        return None if strength is None else strength / self.largest("largest_stress")
 
     @property
     def needed_modulus(self) -> float | None:
         """W (m³) with which the largest stress of bending alone keeps the wanted safety."""
         strength = self.problem.material.strength
-        return None if strength is None else float(np.abs(self.moment).max()) * self.problem.safety / strength
+        return (
+            None if strength is None else abs(self.largest("largest_moment")) * self.problem.safety / strength
+        )
 
     def columns(self) -> dict[str, Floats]:
         """Over the cycle: input, the largest moment and normal force by size, the largest stress and deflection."""
@@ -427,25 +469,20 @@ class LinkStress(Result):
         }
 
     def blocks(self, say: Say) -> list[Block]:
-        rows = [
-            self._row("largest_moment", self.moment, "torque", say),
-            self._row("largest_normal", self.normal, "force", say),
-            self._row("largest_stress", self.stress, "pressure", say),
-        ]
+        rows = [self._row(key, say) for key in LARGEST if key != "largest_deflection"]
         if self.safety is not None and self.needed_modulus is not None:
             rows += [
                 Row("safety", self.safety),
                 Row("needed_modulus", self.needed_modulus, "section_modulus"),
             ]
-        size = np.hypot(self.deflection[:, :, 0], self.deflection[:, :, 1])
-        rows.append(self._row("largest_deflection", size, "length", say))
+        rows.append(self._row("largest_deflection", say))
         rows.append(Row("closure", self.closure, "force", remainder=True))
         return [Block("cycle", say(_("Largest values over the cycle")), rows, self._remarks(say))]
 
-    def _row(self, key: str, values: Floats, dimension: str, say: Say) -> Row:
-        i, k = self.worst(values)
-        note = say(_("at {at}, x = {x}", at=self._input(i), x=shown(self.stations[k], "length")))
-        return Row(key, float(values[i, k]), dimension, "", note)
+    def _row(self, key: str, say: Say) -> Row:
+        found, i, k = self.peaks[key]
+        note = say(_("at {at}, x = {x}", at=found._input(i), x=shown(self.stations[k], "length")))
+        return Row(key, self.largest(key), LARGEST[key], "", note)
 
     def _input(self, index: int) -> str:
         turning = next(iter(self.forces.motion.positions.rotary.values()), True)
@@ -489,8 +526,8 @@ class LinkStress(Result):
         return found
 
     def steps(self, say: Say) -> list[Step]:
-        i, k = self.worst(self.stress)
-        step = Step("1", say(_("Position with the largest stress: {at}", at=self._input(i))))
+        there, i, k = self.peaks["largest_stress"]
+        step = Step("1", say(_("Position with the largest stress: {at}", at=there._input(i))))
         a, b = self.mass.span
         density = np.asarray(self.mass.density.coef, dtype=float)
         largest = np.abs(density * (b - a) ** np.arange(len(density))).max()
@@ -498,7 +535,7 @@ class LinkStress(Result):
         step.say(say(_("Mass along the link with the same mass, centre and inertia")))
         step.law(f"ρ(s) = {text}", "kg/m")
         step.say(say(_("Forces on the link in its own axes (along, across)")))
-        for each in self.point_forces:
+        for each in there.point_forces:
             where, (x, y) = shown(float(each.place[i]), "length"), each.force[i].tolist()
             values = f"({shown(x, 'force')}, {shown(y, 'force')})"
             step.say(f"{each.name}, s = {where}: {values}, {shown(float(each.couple[i]), 'torque')}")
@@ -506,17 +543,17 @@ class LinkStress(Result):
             "2", say(_("Cut at s: the forces on the part below s balance V, M and N (inertia −ρ·a included)"))
         )
         cut.put("s", "", float(self.stations[k]), "length")
-        cut.put("V", "Σ F + ∫ q ds", float(self.shear[i, k]), "force")
-        cut.put("M", "Σ F·(s − s_k) − Σ C + ∫∫ q ds²", float(self.moment[i, k]), "torque")
-        cut.put("N", "−Σ F − ∫ p ds", float(self.normal[i, k]), "force")
+        cut.put("V", "Σ F + ∫ q ds", float(there.shear[i, k]), "force")
+        cut.put("M", "Σ F·(s − s_k) − Σ C + ∫∫ q ds²", float(there.moment[i, k]), "torque")
+        cut.put("N", "−Σ F − ∫ p ds", float(there.normal[i, k]), "force")
         section, strength = self.problem.section, self.problem.material.strength or 0.0
         of = {
-            "N": (abs(float(self.normal[i, k])), "force"), "A": (section.area or 0.0, "section_area"),
-            "M": (abs(float(self.moment[i, k])), "torque"), "W": (section.modulus or 0.0, "section_modulus"),
+            "N": (abs(float(there.normal[i, k])), "force"), "A": (section.area or 0.0, "section_area"),
+            "M": (abs(float(there.moment[i, k])), "torque"), "W": (section.modulus or 0.0, "section_modulus"),
         }  # fmt: skip
-        cut.put("σ", "|N|/A + |M|/W", float(self.stress[i, k]), "pressure", of=of)
+        cut.put("σ", "|N|/A + |M|/W", float(there.stress[i, k]), "pressure", of=of)
         if self.safety is not None and self.needed_modulus is not None:
             cut.put("S", "Re/σ", self.safety, of={"Re": (strength, "pressure")})
-            cut.known |= {"M_max": (float(np.abs(self.moment).max()), "torque"), "S": self.problem.safety}
+            cut.known |= {"M_max": (abs(self.largest("largest_moment")), "torque"), "S": self.problem.safety}
             cut.put("W_min", "M_max·S/Re", self.needed_modulus, "section_modulus")
         return [step, cut]

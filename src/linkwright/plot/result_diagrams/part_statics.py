@@ -173,11 +173,11 @@ def draw_beam_line(result: BeamLine, request: Request) -> Figure:
 @result_diagram("link_stress", _("bending in the worst position, largest stress of the cycle"), LinkStress)
 def draw_link_stress(result: LinkStress, request: Request) -> Figure:
     """Moment, normal force and deflection along a link in the worst position, and the largest stress of the cycle."""
-    i, _ = result.worst(result.stress)
+    there, i, _ = result.peaks["largest_stress"]
     given = [
-        Panel("M", "torque", (Curve("", result.moment[i]),), fill=True),
-        Panel("N", "force", (Curve("", result.normal[i]),), fill=True),
+        Panel("M", "torque", (Curve("", there.moment[i]),), fill=True),
+        Panel("N", "force", (Curve("", there.normal[i]),), fill=True),
         Panel("max σ", "pressure", (Curve("", np.asarray(result.stress.max(axis=0))),)),
-        Panel("w", "length", (Curve("", result.deflection[i, :, 1]),), fill=True),
+        Panel("w", "length", (Curve("", there.deflection[i, :, 1]),), fill=True),
     ]
     return stacked(given, InputAxis("length", result.stations, "s"), request, request.titled(result.title))
