@@ -1,6 +1,6 @@
 """Errors that belong to the command line."""
 
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import LinkwrightError, ModelError, RequestError
 from linkwright.words import _
 
 ONE_VALUE = _('{option}: "{text}" is more than one value; give one', code="draw.one_position")
@@ -8,6 +8,10 @@ ONE_VALUE = _('{option}: "{text}" is more than one value; give one', code="draw.
 
 class UsageError(RequestError):
     """The command is wrong, not the model: exit code 2."""
+
+
+class OptionError(ModelError, UsageError):
+    """Options that cannot be read; ``findings`` lists all that is wrong with them."""
 
 
 class OutputError(LinkwrightError):

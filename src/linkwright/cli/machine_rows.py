@@ -67,7 +67,7 @@ def of_areas(energy: EnergyFluctuation, wanted: Wanted, say: Say) -> list[Block]
         _after("energy_highest", float(energy.energy.max()), int(energy.high), say),
     ]
     flywheel, rows = _by_formula(energy.value, wanted)
-    total = wanted.inertia + flywheel
+    total = wanted.present + flywheel
     if total and wanted.speed:
         rows.append(share("formula_fluctuation", speed_fluctuation(energy.value, wanted.speed, total)))
     return _blocks(first, rows, dimensions(flywheel, wanted.speed or 0.0, wanted))
@@ -107,7 +107,7 @@ def of_curves(driver: TorqueCurve, load: TorqueCurve | None, wanted: Wanted, say
         placed("energy_highest", float(energy.energy.max()), "energy", energy.high),
     ]
     flywheel, third = _by_formula(energy.value, wanted)
-    total = wanted.inertia + flywheel
+    total = wanted.present + flywheel
     if total and wanted.speed:
         third.append(share("formula_fluctuation", speed_fluctuation(energy.value, wanted.speed, total)))
         third += speeds(true_speed(resisting, total, wanted.speed, driver=driver), lambda angle: angle, say)
@@ -127,10 +127,10 @@ def _after(key: str, energy: float, area: int, say: Say) -> Row:
 
 def _by_formula(energy: float, wanted: Wanted) -> tuple[float, list[Row]]:
     """Flywheel that is needed beside what is there, 0 where none is asked for."""
-    rows = [Row("inertia", wanted.inertia, "inertia")] if wanted.inertia else []
+    rows = [Row("inertia", wanted.present, "inertia")] if wanted.present else []
     if wanted.fluctuation is None or not wanted.speed:
         return 0.0, rows
-    needed = flywheel_inertia(energy, wanted.speed, wanted.fluctuation, present=wanted.inertia)
+    needed = flywheel_inertia(energy, wanted.speed, wanted.fluctuation, present=wanted.present)
     rows += [
         share("required_fluctuation", wanted.fluctuation),
         Row("flywheel", needed, "inertia"),

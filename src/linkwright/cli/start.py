@@ -166,13 +166,14 @@ def _unknown(said: Message, word: str, known: Sequence[str]) -> UsageError:
 
 def _refused(error: LinkwrightError, session: Session) -> int:
     """Tells what is wrong; with ``--json`` as data as well."""
+    misused = isinstance(error, RequestError)
     missing = isinstance(error, ModelError) and all(found.code in NO_FILE for found in error.findings)
     said = error.say(session.language)
-    (session.tell if isinstance(error, ModelError) else session.tell_error)(said)
+    (session.tell if isinstance(error, ModelError) and not misused else session.tell_error)(said)
     if session.json:
         findings = [found.data() for found in getattr(error, "findings", ())]
         session.show_data({"ok": False, "error": str(error), "code": error.code, "findings": findings})
-    return MISUSED if missing or isinstance(error, RequestError) else FAULTY
+    return MISUSED if missing or misused else FAULTY
 
 
 def _unexpected(error: Exception, session: Session) -> int:

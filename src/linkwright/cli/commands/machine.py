@@ -40,6 +40,10 @@ linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(the
 
 ENDINGS = (".csv", ".json")
 CURVE_OPTIONS = ("scale", "load", "period", "speed", "inertia", "mass", "gyration")
+#: Options that say the same, or of which one says nothing of the other's diagram.
+APART = (
+    ("areas", "load"), ("areas", "period"), ("torque", "scale"), ("inertia", "mass"), ("inertia", "gyration"),
+)  # fmt: skip
 
 
 def arguments(option: Options) -> None:
@@ -49,68 +53,17 @@ def arguments(option: Options) -> None:
         nargs="?",
         help=_("model file, or gallery:NAME; leave it out with --areas or --torque"),
     )
+    from linkwright.cli.declared import declare
+    from linkwright.cli.machine_options import Wanted
+    from linkwright.fields.base import given_by_file
+
+    fields = given_by_file(Wanted)
     what = option.group(_("motor and flywheel"))
-    what(
-        "--fluctuation",
-        "δ",
-        help=_("required coefficient of speed fluctuation (of a machine: 0.02 where left out)"),
-    )
-    what(
-        "--ratio",
-        "i",
-        default="1",
-        help=_("speed of the flywheel's shaft over that of the crank (default 1)"),
-    )
-    what(
-        "--efficiency",
-        "η",
-        default="1",
-        help=_("efficiency of all between motor and crank, up to 1 (default 1)"),
-    )
-    what("--margin", "NUMBER", default="1", help=_("factor on the motor's power, 1 or more (default 1)"))
-    shape = what.exclusive()
-    shape(
-        "--disk",
-        "KEY=VALUE,…",
-        nargs="?",
-        const="",
-        help=_("dimensions as a disk: density=7850kg/m³,width=0.1 (width over diameter)"),
-    )
-    shape(
-        "--rim",
-        "KEY=VALUE,…",
-        nargs="?",
-        const="",
-        help=_("dimensions as a rim: density=…,width=0.1,thickness=0.1 (over the outer diameter)"),
-    )
+    declare(what, fields, {"fluctuation": "δ", "ratio": "i", "efficiency": "η", "margin": "NUMBER"})
+    declare(what.exclusive(), fields, {"disk": "KEY=VALUE,…", "rim": "KEY=VALUE,…"})
     curves = option.group(_("a torque diagram instead of a machine"))
-    given = curves.exclusive()
-    given(
-        "--areas",
-        "MM²,…",
-        help=_(
-            'areas between torque curve and mean line in mm², in turn: "+295, -685, …"; needs '
-            '--scale; or works: "+580 J, -320 J, …"',
-        ),
-    )
-    given(
-        "--torque", "EXPRESSION", help=_('driving torque in N·m over theta in rad: "5000 + 600*sin(2*theta)"')
-    )
-    curves(
-        "--scale",
-        "SCALE",
-        help=_('scales of the diagram: "5 N·m/mm, 1 deg/mm", or the work of an area: "20 J/mm²"'),
-    )
-    curves(
-        "--load",
-        "LOAD",
-        help=_("resisting torque in N·m over theta (default: constant, the mean of --torque)"),
-    )
-    curves("--period", "PERIOD", help=_("angle of a cycle (default 360deg; four-stroke engines 720deg)"))
-    curves("--speed", "SPEED", help=_("mean speed of the shaft: 180rpm"))
-    curves("--inertia", "INERTIA", help=_('moment of inertia that is on the shaft: "0.81 kg·m²"'))
-    curves("--mass", "MASS", help=_("mass of the flywheel that is there, with --gyration: 36kg"))
-    curves("--gyration", "GYRATION", help=_("its radius of gyration: 150mm"))
+    declare(curves.exclusive(), fields, {"areas": "MM²,…", "torque": "EXPRESSION"})
+    declare(curves, fields, {name: name.upper() for name in CURVE_OPTIONS})
     form = option.group(_("form"))
     form.count(
         "--steps",
@@ -123,13 +76,14 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Lays out motor and flywheel and prints them."""
-    from linkwright.cli.machine_options import wanted
+    from linkwright.cli.declared import values_of
+    from linkwright.cli.machine_options import Wanted
 
     _refuse_contradictions(options)
-    asked = wanted(options)
+    asked = values_of(Wanted, options)
     if options.file is not None:
         return _mechanism(options, asked, session)
-    if asked.speed is None and (asked.fluctuation is not None or asked.inertia):
+    if asked.speed is None and (asked.fluctuation is not None or asked.present):
         raise UsageError(
             _(
                 "a flywheel or a speed fluctuation needs the mean speed; add --speed, such as --speed 180rpm",
@@ -171,17 +125,23 @@ def _refuse_contradictions(options: argparse.Namespace) -> None:
         raise UsageError(
             _("--output writes the cycle of a mechanism; name a model file", code="machine.output_needs_file")
         )
-    only = {"--areas": ("load", "period"), "--torque": ("scale",)}
-    for name in only.get(curves or "", ()):
-        if getattr(options, name) is not None:
+    for first, other in APART:
+        if getattr(options, first) is not None and getattr(options, other) is not None:
             raise UsageError(
                 _(
                     "{name} cannot be used together with {other}",
                     code="cli.not_together",
-                    name=str(curves),
-                    other=f"--{name}",
+                    name=f"--{first}",
+                    other=f"--{other}",
                 )
             )
+    if (options.mass is None) != (options.gyration is None):
+        raise UsageError(
+            _(
+                "--mass and --gyration belong together; give both, or --inertia",
+                code="machine.mass_and_gyration",
+            )
+        )
 
 
 def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> int:
@@ -211,21 +171,19 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
 
 
 def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> Layout:
-    from linkwright.cli.machine_options import areas, curve
     from linkwright.cli.machine_rows import Layout, of_areas, of_curves
     from linkwright.machine.energy import fluctuation_from_areas
 
     say = session.say
-    if options.areas is not None:
-        given, (torque, angle) = areas(options.areas, options.scale)
+    if asked.areas is not None:
+        given, (torque, angle) = asked.areas
         energy = fluctuation_from_areas(given, torque_scale=torque, angle_scale=angle)
         title = say(_("Torque diagram of {count} areas", count=len(given)))
         return Layout(title, partial(of_areas, energy, asked))
-    driver = curve("--torque", options.torque, options.period)
-    load = None if options.load is None else curve("--load", options.load, options.period)
+    assert asked.torque is not None
     against = say(_("its mean")) if options.load is None else options.load
     title = say(_("T = {torque}, against {load}", torque=options.torque, load=against))
-    return Layout(title, partial(of_curves, driver, load, asked))
+    return Layout(title, partial(of_curves, asked.torque, asked.load, asked))
 
 
 def _cycle(running: SteadyRunning) -> dict[str, Any]:
