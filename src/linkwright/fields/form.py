@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from linkwright import units
 from linkwright.words import Message, _
-from linkwright.words.sentence import Gloss
 
 
 def missing_remedy(key: str, doc: str, shape: Mapping[str, Any]) -> Message:
     """What to write for a missing key: its description, or in other languages its name and its form."""
     own = form(shape)
-    return _("add {key_}: {form}", key_=key, form=Gloss(doc, own) if doc else own)
+    return _("add {key_}: {form}", key_=key, form=partial(_described, doc, own) if doc else own)
+
+
+def _described(doc: str, own: Message, language: str) -> str:
+    return doc if language == "en" else own.translate(language)
 
 
 _NAMES = {

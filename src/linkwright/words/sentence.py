@@ -6,25 +6,12 @@ import errno
 import re
 from collections.abc import Mapping, Sequence
 
-from linkwright.core.dataclass import dataclass
 from linkwright.words.characters import one_line
 from linkwright.words.message import LANGUAGES, Message, _
 
 _OWN_NAMES = re.compile(
     r"(?<![\w.-])(?:frame|driver)(?![\w-])|\b(?:max|min)(?=→)|(?<=→)(?:max|min)\b|(?<= )(?:max|min)$"
 )
-
-
-@dataclass(frozen=True)
-class Gloss:
-    """An English text that is given, such as a field's description, and what is said in other languages instead."""
-
-    english: str
-    other: Message
-
-    def say(self, language: str = "en") -> str:
-        """The text in a language."""
-        return self.english if language == "en" else self.other.say(language)
 
 
 class Worded(str):
