@@ -32,7 +32,7 @@ from linkwright.words.sentence import in_language
 
 sys.path.insert(0, str(Path(__file__).parent))
 import codes as coded
-from chinese import FORMS, MEANINGS, NAMES
+from chinese import FORMS, LOADS, NAMES
 
 ROOT = Path(__file__).parent
 MADE = ROOT / "made"
@@ -234,8 +234,8 @@ def model_file(language: str = "en") -> Iterator[str]:
 
 def sentence(schema: Mapping[str, Any], language: str) -> str:
     """What a key is, in its own words."""
-    found = str(schema.get("description", ""))
-    text = " ".join((MEANINGS.get(found, found) if language == "zh" else found).replace("``", "`").split())
+    found = in_language(schema.get("description", ""), language)
+    text = " ".join((LOADS.get(found, found) if language == "zh" else found).replace("``", "`").split())
     stop = "。" if language == "zh" else "."
     return text[:1].upper() + text[1:] + (stop if text and not text.endswith((".", "。")) else "")
 

@@ -11,6 +11,7 @@ from linkwright.fields.base import Field, Quantity, Schema, Word, given
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Flag
+from linkwright.words import _
 
 KINDS = ("roller", "knife", "flat")
 MOTIONS = ("translating", "oscillating")
@@ -27,9 +28,9 @@ class Follower:
     from the pivot towards the cam.
     """
 
-    kind: str = given(Word(KINDS, required=True, doc="what touches the cam"), "roller")
+    kind: str = given(Word(KINDS, required=True, doc=_("what touches the cam")), "roller")
     motion: str = given(Word(MOTIONS, doc="translating unless given"), "translating")
-    roller_radius: float = given(Quantity("length", above=0.0, doc="radius of the roller"), 0.0)
+    roller_radius: float = given(Quantity("length", above=0.0, doc=_("radius of the roller")), 0.0)
     offset: float = given(
         Quantity("length", doc="distance of a translating follower's line to the right of the centre, 0"), 0.0
     )

@@ -48,11 +48,11 @@ class ShareOfAnswer(Value):
 SECTION = Keys({
     "vary": ByAddress(
         Listed(Value(), "[0.3 m, 0.35 m]", alone=True),
-        doc="dimensions that change, by a share (8 %) or between two values",
+        doc=_("dimensions that change, by a share (8 %) or between two values"),
     ),
-    "ask": Listed(Text(), "[rocker.angle, driver.effort]", doc="results that are asked for"),
-    "at": Value(doc="input at which they are asked for, such as 60 deg"),
-    "tolerance": ShareOfAnswer(doc="how far an answer may be off, such as 1 %"),
+    "ask": Listed(Text(), "[rocker.angle, driver.effort]", doc=_("results that are asked for")),
+    "at": Value(doc=_("input at which they are asked for, such as 60 deg")),
+    "tolerance": ShareOfAnswer(doc=_("how far an answer may be off, such as 1 %")),
 })  # fmt: skip
 #: By how much lengths change, and how far an answer may be off, where nobody says.
 SHARE, TOLERANCE = 0.08, 0.01

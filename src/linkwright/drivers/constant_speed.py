@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import LAWS, Law
 from linkwright.fields.base import Field, Quantity
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array
@@ -56,9 +57,9 @@ class ConstantSpeed(Law):
     def fields(cls, rotary: bool) -> Mapping[str, Field]:
         return {
             "speed": Quantity(
-                "angular_velocity" if rotary else "velocity", doc="constant speed of the joint"
+                "angular_velocity" if rotary else "velocity", doc=_("constant speed of the joint")
             ),
-            "start": Quantity("angle" if rotary else "length", doc="coordinate at time 0 (default 0)"),
+            "start": Quantity("angle" if rotary else "length", doc=_("coordinate at time 0 (default 0)")),
         }
 
     @classmethod

@@ -10,6 +10,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.drivers.base import LAWS, Law
 from linkwright.fields.base import Field, Formula
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags
@@ -64,7 +65,7 @@ class ExpressionLaw(Law):
     def fields(cls, rotary: bool) -> Mapping[str, Field]:
         return {
             "position": Formula(
-                "angle" if rotary else "length", doc="coordinate, an expression of the time t"
+                "angle" if rotary else "length", doc=_("coordinate, an expression of the time t")
             )
         }
 

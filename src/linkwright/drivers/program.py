@@ -12,6 +12,7 @@ from linkwright.drivers.base import BEYOND_LAW, LAWS, Law, repeated
 from linkwright.errors import LinkwrightError
 from linkwright.fields.base import Field, Quantity
 from linkwright.laws.program_fields import ProgramField
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array
@@ -72,9 +73,9 @@ class ProgramLaw(Law):
     def fields(cls, rotary: bool) -> Mapping[str, Field]:
         lift = "angle" if rotary else "length"
         return {
-            "start": Quantity(lift, doc="coordinate at time 0 (default 0)"),
+            "start": Quantity(lift, doc=_("coordinate at time 0 (default 0)")),
             "program": ProgramField(
-                lift, "time", closed=False, doc="segments over time, one after the other"
+                lift, "time", closed=False, doc=_("segments over time, one after the other")
             ),
         }
 

@@ -10,6 +10,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import BEYOND_LAW, LAWS, Law, repeated
 from linkwright.errors import LinkwrightError
 from linkwright.fields.base import Field, TimeTable, TimeTableValues
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.core.spline import Spline
@@ -85,7 +86,7 @@ class TableLaw(Law):
 
     @classmethod
     def fields(cls, rotary: bool) -> Mapping[str, Field]:
-        return {"table": TimeTable("angle" if rotary else "length", doc="positions over time")}
+        return {"table": TimeTable("angle" if rotary else "length", doc=_("positions over time"))}
 
     @classmethod
     def from_values(

@@ -416,9 +416,9 @@ class TimeTable(Field):
 
     def _fields(self) -> dict[str, Field]:
         return {
-            "time": Quantities("time", required=True, doc="increasing times"),
-            "position": Quantities(self.dimension, required=True, doc="coordinate at each time"),
-            "interpolation": Word(("cubic", "periodic", "linear"), doc="default cubic"),
+            "time": Quantities("time", required=True, doc=_("increasing times")),
+            "position": Quantities(self.dimension, required=True, doc=_("coordinate at each time")),
+            "interpolation": Word(("cubic", "periodic", "linear"), doc=_("default cubic")),
         }
 
     def read(

@@ -10,57 +10,59 @@ from linkwright.fields.base import Field, Free, Quantities, Quantity, Schema, Te
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import ByAddress, Flag, Listed, Table, Whole
-from linkwright.words import LANGUAGES
+from linkwright.words import LANGUAGES, _
 
 #: Sizes of paper, and the standards of frames and title blocks.
 SIZES, STANDARDS = ("A0", "A1", "A2", "A3", "A4"), ("gb", "iso")
 #: Texts of the title block.
 WORDS: Mapping[str, Field] = {
     "title": Text(
-        doc="title of the task in the title block; otherwise that of the report, else the machine's name"
+        doc=_("title of the task in the title block; otherwise that of the report, else the machine's name")
     ),
-    "drawing": Text(doc="name of the drawing in the title block"),
-    "number": Text(doc="number of the drawing"),
-    "school": Text(doc="school or company in the title block"),
-    "faculty": Text(doc="faculty or department"),
-    "class": Text(doc="class of the student"),
-    "student": Text(doc="who made the drawing; otherwise the report's author"),
-    "student_number": Text(doc="number of the student"),
-    "adviser": Text(doc="who advises"),
-    "checker": Text(doc="who checks"),
-    "date": Text(doc="date of the drawing"),
+    "drawing": Text(doc=_("name of the drawing in the title block")),
+    "number": Text(doc=_("number of the drawing")),
+    "school": Text(doc=_("school or company in the title block")),
+    "faculty": Text(doc=_("faculty or department")),
+    "class": Text(doc=_("class of the student")),
+    "student": Text(doc=_("who made the drawing; otherwise the report's author")),
+    "student_number": Text(doc=_("number of the student")),
+    "adviser": Text(doc=_("who advises")),
+    "checker": Text(doc=_("who checks")),
+    "date": Text(doc=_("date of the drawing")),
 }
 PANEL: Mapping[str, Field] = {
     "at": Quantities(
-        "length", ("x", "y"), doc="lower left corner of the panel with its caption, from that of the paper"
+        "length", ("x", "y"), doc=_("lower left corner of the panel with its caption, from that of the paper")
     ),
-    "size": Quantity("length", above=0.0, doc="longest side of the picture at most, on paper"),
-    "scale": Quantity("dimensionless", above=0.0, doc="scale in SI units per millimetre of paper"),
+    "size": Quantity("length", above=0.0, doc=_("longest side of the picture at most, on paper")),
+    "scale": Quantity("dimensionless", above=0.0, doc=_("scale in SI units per millimetre of paper")),
 }
 SHEET: Mapping[str, Field] = {
-    "size": Word(SIZES, doc="paper size, A0 to A4; default A1"),
-    "orientation": Word(("landscape", "portrait"), doc="default landscape; A4 portrait"),
+    "size": Word(SIZES, doc=_("paper size, A0 to A4; default A1")),
+    "orientation": Word(("landscape", "portrait"), doc=_("default landscape; A4 portrait")),
     "standard": Word(
-        STANDARDS, doc="gb (GB/T 14689, 10609.1) or iso (ISO 5457, 7200); default by the language"
+        STANDARDS, doc=_("gb (GB/T 14689, 10609.1) or iso (ISO 5457, 7200); default by the language")
     ),
     "block": Word(
         ("full", "short"),
-        doc="title block: full, or the short one of schools; default full, short on A3 and A4",
+        doc=_("title block: full, or the short one of schools; default full, short on A3 and A4"),
     ),
-    "binding": Flag(doc="whether a margin for binding is left (gb); default true"),
-    "zones": Flag(doc="whether the frame has numbered fields; default false"),
+    "binding": Flag(doc=_("whether a margin for binding is left (gb); default true")),
+    "zones": Flag(doc=_("whether the frame has numbered fields; default false")),
     **WORDS,
-    "sheet": Whole(1, 999, doc="number of this sheet"),
-    "sheets": Whole(1, 999, doc="how many sheets there are"),
+    "sheet": Whole(1, 999, doc=_("number of this sheet")),
+    "sheets": Whole(1, 999, doc=_("how many sheets there are")),
     "positions": Listed(
-        Text(), "[60 deg, 240 deg]", doc="inputs of the positions that are worked out, one or two"
+        Text(), "[60 deg, 240 deg]", doc=_("inputs of the positions that are worked out, one or two")
     ),
     "only": Listed(
-        Text(), "[mechanism, velocity_1]", doc="panels that are drawn, in their order; default all"
+        Text(), "[mechanism, velocity_1]", doc=_("panels that are drawn, in their order; default all")
     ),
-    "leave_out": Listed(Text(), "[table_data]", doc="panels that are left out"),
-    "panels": ByAddress(Table(PANEL), doc="place, size and scale of single panels by their names"),
-    **{each: Table(WORDS, doc=f"the texts in the language {each}") for each in LANGUAGES},
+    "leave_out": Listed(Text(), "[table_data]", doc=_("panels that are left out")),
+    "panels": ByAddress(Table(PANEL), doc=_("place, size and scale of single panels by their names")),
+    **{
+        each: Table(WORDS, doc=_("the texts in the language {language}", language=each)) for each in LANGUAGES
+    },
 }
 
 
@@ -76,4 +78,4 @@ class SheetSection(Free):
 
 
 #: The key of files.
-FIELD = SheetSection(doc="size, title block, panels and their places for the command sheet")
+FIELD = SheetSection(doc=_("size, title block, panels and their places for the command sheet"))

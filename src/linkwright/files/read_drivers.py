@@ -23,12 +23,14 @@ from linkwright.words import _
 from linkwright.words.sentence import together
 
 TURN_FIELDS: Mapping[str, Field] = {
-    "turn": LinkName(required=True, moving=True, doc="the link that is turned"),
-    "about": JointName(("turn",), required=True, doc="the pin about which it turns"),
-    "relative_to": LinkName(doc="the link against which (default: the frame, or the other link on the pin)"),
+    "turn": LinkName(required=True, moving=True, doc=_("the link that is turned")),
+    "about": JointName(("turn",), required=True, doc=_("the pin about which it turns")),
+    "relative_to": LinkName(
+        doc=_("the link against which (default: the frame, or the other link on the pin)")
+    ),
 }
 SLIDE_FIELDS: Mapping[str, Field] = {
-    "slide": JointName(("slide",), required=True, doc="the prismatic joint that is driven"),
+    "slide": JointName(("slide",), required=True, doc=_("the prismatic joint that is driven")),
 }
 
 

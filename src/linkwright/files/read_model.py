@@ -34,21 +34,22 @@ FORMAT = 1
 #: Keys of a file that holds a task of synthesis and no model.
 TASK_KEYS = ("format", "name", "purpose", "source", "expected", "synthesis", "report")
 HEADER: Mapping[str, Field] = {
-    "format": Count(FORMAT, required=True, doc="1, in the first line"),
-    "name": WordedText(doc="name of the mechanism"),
-    "purpose": WordedText(doc="what it is for, one sentence"),
-    "source": WordedText(doc="where it is taken from"),
-    "expected": Free(doc="numbers to compare results with; not interpreted"),
-    "synthesis": Free(section="synthesis", doc="a task with its demands for the command synthesize"),
+    "format": Count(FORMAT, required=True, doc=_("1, in the first line")),
+    "name": WordedText(doc=_("name of the mechanism")),
+    "purpose": WordedText(doc=_("what it is for, one sentence")),
+    "source": WordedText(doc=_("where it is taken from")),
+    "expected": Free(doc=_("numbers to compare results with; not interpreted")),
+    "synthesis": Free(section="synthesis", doc=_("a task with its demands for the command synthesize")),
     "report": Free(
-        doc="title, own text, order of sections and more for the command report", section="report"
+        doc=_("title, own text, order of sections and more for the command report"), section="report"
     ),
     "sheet": SHEET_SECTION,
     "course": Free(
-        section="course", doc="what the command variants changes, within which limits, and what it asks"
+        section="course", doc=_("what the command variants changes, within which limits, and what it asks")
     ),
     "optimize": Free(
-        section="optimize", doc="what varies, what is made least and what is kept, for the command optimize"
+        section="optimize",
+        doc=_("what varies, what is made least and what is kept, for the command optimize"),
     ),
     "gravity": GRAVITY,
 }

@@ -15,6 +15,7 @@ from linkwright.joints.base import JOINTS
 from linkwright.loads.base import LOADS
 from linkwright.mechanism.link import FRAME_FIELDS, LINK_FIELDS
 from linkwright.mechanism.mechanism import Cycle
+from linkwright.words import _
 
 _NAME_PATTERN = r"^[^\W\d][\w'-]*$"
 
@@ -24,17 +25,17 @@ def json_schema() -> Schema:
     kind."""
     drivers = {"oneOf": _drivers()}
     sections: dict[str, tuple[Schema, str]] = {
-        "parameters": (_named({"type": ["string", "number"]}), "named quantities for expressions"),
-        "frame": (table_schema(FRAME_FIELDS), "the fixed link"),
-        "links": (_named(table_schema(LINK_FIELDS)), "the moving links; shared point names are pins"),
-        "joints": (_named({"oneOf": _joints()}), "guides, welds, and attributes of pins"),
-        "assembly": (_named({"enum": list(MODES)}), "assembly mode by inner joint"),
-        "drawing": (Coordinates().shape(), "coordinates of the assembled drawing, in frame axes"),
-        "driver": (drivers, "the one driver"),
-        "drivers": (_named(drivers), "several drivers by name"),
-        "cycle": (_cycle(), "what one cycle is (default: one turn of the driver)"),
-        "loads": (_named({"oneOf": [load.schema() for load in LOADS.values()]}), "loads by name"),
-        "outputs": (_named({"type": "string"}), "formulas of places and rates with names of their own"),
+        "parameters": (_named({"type": ["string", "number"]}), _("named quantities for expressions")),
+        "frame": (table_schema(FRAME_FIELDS), _("the fixed link")),
+        "links": (_named(table_schema(LINK_FIELDS)), _("the moving links; shared point names are pins")),
+        "joints": (_named({"oneOf": _joints()}), _("guides, welds, and attributes of pins")),
+        "assembly": (_named({"enum": list(MODES)}), _("assembly mode by inner joint")),
+        "drawing": (Coordinates().shape(), _("coordinates of the assembled drawing, in frame axes")),
+        "driver": (drivers, _("the one driver")),
+        "drivers": (_named(drivers), _("several drivers by name")),
+        "cycle": (_cycle(), _("what one cycle is (default: one turn of the driver)")),
+        "loads": (_named({"oneOf": [load.schema() for load in LOADS.values()]}), _("loads by name")),
+        "outputs": (_named({"type": "string"}), _("formulas of places and rates with names of their own")),
     }
     properties = {name: each.schema() for name, each in HEADER.items()}
     properties |= {name: {**shape, "description": doc} for name, (shape, doc) in sections.items()}

@@ -43,8 +43,10 @@ class BeltPair(WheelPair):
     def fields(cls) -> Mapping[str, Field]:
         return {
             **super().fields(),
-            "run": Word(("open", "crossed"), doc="default open"),
-            "pretension": Quantity("force", minimum=0, doc="tension of each strand without load (default 0)"),
+            "run": Word(("open", "crossed"), doc=_("default open")),
+            "pretension": Quantity(
+                "force", minimum=0, doc=_("tension of each strand without load (default 0)")
+            ),
         }
 
     @classmethod

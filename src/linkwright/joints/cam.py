@@ -29,7 +29,7 @@ from linkwright.joints.base import (
 from linkwright.joints.cam_geometry import Geometry
 from linkwright.joints.ends import Ends
 from linkwright.laws.program_fields import ProgramField
-from linkwright.words import _
+from linkwright.words import _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
@@ -113,32 +113,38 @@ class CamJoint(HigherPair):
         from linkwright.fields.base import Quantities
 
         return {
-            "cam": LinkName(required=True, doc="the link with the cam, pinned on the carrier"),
-            "follower": LinkName(required=True, doc="the link that is guided or pinned on the same carrier"),
-            "at": PointName(
-                "follower", required=True, doc="the roller's centre, the edge, a point of the face"
+            "cam": LinkName(required=True, doc=_("the link with the cam, pinned on the carrier")),
+            "follower": LinkName(
+                required=True, doc=_("the link that is guided or pinned on the same carrier")
             ),
-            "touch": Word(TOUCH, required=True, doc="what touches the cam"),
+            "at": PointName(
+                "follower", required=True, doc=_("the roller's centre, the edge, a point of the face")
+            ),
+            "touch": Word(TOUCH, required=True, doc=_("what touches the cam")),
             "side": Word(
                 ("left", "right"),
-                doc="of the ray pivot to cam, where the arm of an oscillating follower lies",
+                doc=_("of the ray pivot to cam, where the arm of an oscillating follower lies"),
             ),
-            "base_radius": Quantity("length", above=0, required=True, doc="radius of the base circle"),
-            "roller_radius": Quantity("length", above=0, doc="radius of the roller"),
+            "base_radius": Quantity(
+                "length", above=0, required=True, doc=pgettext("key", "radius of the base circle")
+            ),
+            "roller_radius": Quantity("length", above=0, doc=_("radius of the roller")),
             "phase": Quantity(
-                "angle", doc="angle of the cam's x axis to the carrier's where the program begins"
+                "angle", doc=_("angle of the cam's x axis to the carrier's where the program begins")
             ),
             "turn": Word(
-                ("counterclockwise", "clockwise"), doc="turn of the cam in which the program runs on"
+                ("counterclockwise", "clockwise"), doc=_("turn of the cam in which the program runs on")
             ),
             "closure": Word(
-                ("force", "groove"), doc="what keeps the contact: what presses it (default), a groove"
+                ("force", "groove"), doc=_("what keeps the contact: what presses it (default), a groove")
             ),
-            "program": ProgramField(_lift, "angle", doc="segments over one turn of the cam"),
-            "angles": Quantities("angle", doc="angles of a table of the lift, increasing within a turn"),
+            "program": ProgramField(_lift, "angle", doc=_("segments over one turn of the cam")),
+            "angles": Quantities("angle", doc=_("angles of a table of the lift, increasing within a turn")),
             "lifts": Quantities(
                 "length",
-                doc="lifts of the table, between them a periodic spline; four equal ones or more are a rest",
+                doc=_(
+                    "lifts of the table, between them a periodic spline; four equal ones or more are a rest"
+                ),
             ),
         }
 

@@ -33,8 +33,8 @@ class ChainPair(BeltPair):
         shared = {key: field for key, field in super().fields().items() if key not in ("run", "pretension")}
         return {
             **shared,
-            "teeth": Numbers(doc="their numbers of teeth [a, b]"),
-            "pitch": Quantity("length", above=0, doc="pitch of the chain, with teeth"),
+            "teeth": Numbers(doc=_("their numbers of teeth [a, b]")),
+            "pitch": Quantity("length", above=0, doc=_("pitch of the chain, with teeth")),
         }
 
     @classmethod

@@ -41,13 +41,13 @@ class GearPair(RollingPair):
         rolling = super().fields()
         return {
             "links": rolling["links"],
-            "teeth": Numbers(doc="their numbers of teeth [a, b]"),
+            "teeth": Numbers(doc=_("their numbers of teeth [a, b]")),
             **rolling,
             "module": Quantity(
-                "length", above=0, doc="module; with teeth it is checked against the centre distance"
+                "length", above=0, doc=_("module; with teeth it is checked against the centre distance")
             ),
             "pressure_angle": Quantity(
-                "angle", minimum=0, below=0.5 * pi, doc="pressure angle in mesh (default 20 deg)"
+                "angle", minimum=0, below=0.5 * pi, doc=_("pressure angle in mesh (default 20 deg)")
             ),
         }
 

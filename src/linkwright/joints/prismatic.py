@@ -50,17 +50,17 @@ class PrismaticJoint(SlidingJoint):
     @classmethod
     def fields(cls) -> Mapping[str, Field]:
         return {
-            "guide": LinkName(required=True, doc="the link that carries the guide"),
-            "through": PointName("guide", required=True, doc="point of the guide link on the guide line"),
+            "guide": LinkName(required=True, doc=_("the link that carries the guide")),
+            "through": PointName("guide", required=True, doc=_("point of the guide link on the guide line")),
             "direction": Direction(
-                required=True, doc="an angle in the guide link's axes, or two points [P, Q]"
+                required=True, doc=_("an angle in the guide link's axes, or two points [P, Q]")
             ),
-            "block": LinkName(required=True, doc="the link that slides"),
-            "at": PointName("block", required=True, doc="point of the block that follows the line"),
+            "block": LinkName(required=True, doc=_("the link that slides")),
+            "at": PointName("block", required=True, doc=_("point of the block that follows the line")),
             "offset": Quantity(
-                "length", doc="normal distance of the point from the line, left positive (default 0)"
+                "length", doc=_("normal distance of the point from the line, left positive (default 0)")
             ),
-            "block_angle": Quantity("angle", doc="direction of the line in the block's axes (default 0)"),
+            "block_angle": Quantity("angle", doc=_("direction of the line in the block's axes (default 0)")),
             "friction": FRICTION,
         }
 

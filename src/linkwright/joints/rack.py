@@ -69,24 +69,26 @@ class RackPair(HigherPair):
     @classmethod
     def fields(cls) -> Mapping[str, Field]:
         return {
-            "pinion": LinkName(required=True, doc="the wheel"),
-            "rack": LinkName(required=True, doc="the link that carries the rack"),
-            "through": PointName("rack", required=True, doc="point of the rack on its pitch line"),
+            "pinion": LinkName(required=True, doc=_("the wheel")),
+            "rack": LinkName(required=True, doc=_("the link that carries the rack")),
+            "through": PointName("rack", required=True, doc=_("point of the rack on its pitch line")),
             "direction": Direction(
-                of="rack", doc="direction of the pitch line in the rack's axes (default: its guide's)"
+                of="rack", doc=_("direction of the pitch line in the rack's axes (default: its guide's)")
             ),
             "centre": PointName(
-                "pinion", doc="the pinion's centre, its pin (default: the one that guides lead to)"
+                "pinion", doc=_("the pinion's centre, its pin (default: the one that guides lead to)")
             ),
-            "radius": Quantity("length", above=0, doc="pitch radius of the pinion"),
-            "teeth": Quantity("dimensionless", above=0, doc="number of teeth of the pinion, with module"),
-            "module": Quantity("length", above=0, doc="module, with teeth"),
+            "radius": Quantity("length", above=0, doc=_("pitch radius of the pinion")),
+            "teeth": Quantity("dimensionless", above=0, doc=_("number of teeth of the pinion, with module")),
+            "module": Quantity("length", above=0, doc=_("module, with teeth")),
             "phase": Quantity(
                 "angle",
-                doc="angle of the pinion's x axis to the rack's when its centre is at through (default: drawn)",
+                doc=_(
+                    "angle of the pinion's x axis to the rack's when its centre is at through (default: drawn)"
+                ),
             ),
             "pressure_angle": Quantity(
-                "angle", minimum=0, below=0.5 * pi, doc="pressure angle (default 20 deg)"
+                "angle", minimum=0, below=0.5 * pi, doc=_("pressure angle (default 20 deg)")
             ),
         }
 

@@ -17,7 +17,7 @@ from linkwright.words import _
 if TYPE_CHECKING:
     from linkwright.elements.topology import TreeJoint
 
-FRICTION = Quantity("dimensionless", minimum=0, doc="coefficient of Coulomb friction (default 0)")
+FRICTION = Quantity("dimensionless", minimum=0, doc=_("coefficient of Coulomb friction (default 0)"))
 
 
 @JOINTS.register("revolute")
@@ -34,7 +34,7 @@ class RevoluteJoint(TurningJoint):
     # the model file ---------------------------------------------------------------------------
     @classmethod
     def fields(cls) -> Mapping[str, Field]:
-        return {"pin_radius": Quantity("length", above=0, doc="radius of the pin"), "friction": FRICTION}
+        return {"pin_radius": Quantity("length", above=0, doc=_("radius of the pin")), "friction": FRICTION}
 
     @classmethod
     def read(cls, entry: Entry) -> Joint | None:

@@ -42,10 +42,10 @@ class RollingPair(WheelPair):
             "ratio": Quantity(
                 "dimensionless",
                 nonzero=True,
-                doc="ratio of b's speed to a's on the carrier: negative external, positive internal",
+                doc=_("ratio of b's speed to a's on the carrier: negative external, positive internal"),
             ),
             "mesh": Word(
-                ("external", "internal"), doc="default external; internal: the larger one is the ring"
+                ("external", "internal"), doc=_("default external; internal: the larger one is the ring")
             ),
         }
 

@@ -79,11 +79,11 @@ class WheelPair(HigherPair):
     @classmethod
     def fields(cls) -> Mapping[str, Field]:
         return {
-            "links": LinkNames(required=True, doc="the two wheels [a, b]"),
-            "radii": Quantities("length", count=2, above=0, doc="their pitch radii [a, b]"),
-            "carrier": LinkName(doc="the link on which both wheels have their pins, where it is in doubt"),
+            "links": LinkNames(required=True, doc=_("the two wheels [a, b]")),
+            "radii": Quantities("length", count=2, above=0, doc=_("their pitch radii [a, b]")),
+            "carrier": LinkName(doc=_("the link on which both wheels have their pins, where it is in doubt")),
             "phase": Quantity(
-                "angle", doc="angle of b's x axis to the carrier's when a's has none (default: drawn)"
+                "angle", doc=_("angle of b's x axis to the carrier's when a's has none (default: drawn)")
             ),
         }
 

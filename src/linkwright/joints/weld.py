@@ -14,6 +14,7 @@ from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower import RigidJoint
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import TreeJoint
@@ -33,9 +34,9 @@ class WeldJoint(RigidJoint):
     @classmethod
     def fields(cls) -> Mapping[str, Field]:
         return {
-            "links": LinkNames(required=True, doc="the two links [a, b]"),
-            "at": Text(required=True, doc="their common point"),
-            "angle": Quantity("angle", doc="angle of b's x axis to a's (default 0)"),
+            "links": LinkNames(required=True, doc=_("the two links [a, b]")),
+            "at": Text(required=True, doc=_("their common point")),
+            "angle": Quantity("angle", doc=_("angle of b's x axis to a's (default 0)")),
         }
 
     @classmethod

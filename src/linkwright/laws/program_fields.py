@@ -142,14 +142,14 @@ class ProgramField(Field):
         """Keys of one segment."""
         velocity, acceleration = RATES[lift, self.across]
         return {
-            "dwell": Quantity(self.across, above=0.0, doc="nothing moves while this passes"),
-            "rise": Quantity(lift, doc="how far up"),
-            "fall": Quantity(lift, doc="how far down"),
-            "to": Quantity(lift, doc="to this lift"),
-            "over": Quantity(self.across, above=0.0, doc="while this passes"),
-            "law": LawField(doc="motion law, polynomial_5 unless given"),
-            "velocity": Quantity(velocity, doc="velocity at its end, where both sides can meet it"),
-            "acceleration": Quantity(acceleration, doc="acceleration at its end"),
+            "dwell": Quantity(self.across, above=0.0, doc=_("nothing moves while this passes")),
+            "rise": Quantity(lift, doc=_("how far up")),
+            "fall": Quantity(lift, doc=_("how far down")),
+            "to": Quantity(lift, doc=_("to this lift")),
+            "over": Quantity(self.across, above=0.0, doc=_("while this passes")),
+            "law": LawField(doc=_("motion law, polynomial_5 unless given")),
+            "velocity": Quantity(velocity, doc=_("velocity at its end, where both sides can meet it")),
+            "acceleration": Quantity(acceleration, doc=_("acceleration at its end")),
         }
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:

@@ -299,7 +299,7 @@ def word(*choices: str, default: Any = REQUIRED, doc: str = "", key: str = "") -
     return given(Word(choices, doc=doc, key=key), default)
 
 
-def magnitude(dimension: str, *, word: str = "magnitude") -> Any:
+def magnitude(dimension: str, *, word: str = _("magnitude")) -> Any:
     """A Magnitude, with the keys ``magnitude``, ``ramp``, ``table`` and ``phase``; ``word``: what it is."""
     return dataclasses.field(default=Magnitude(), metadata={"magnitude": magnitude_fields(dimension, word)})
 

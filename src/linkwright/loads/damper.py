@@ -11,6 +11,7 @@ from linkwright.formula.vector import choose
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load
 from linkwright.loads.site import Site, Wrench
+from linkwright.words import _
 
 
 @LOADS.register("damper")
@@ -26,8 +27,8 @@ class Damper(Load):
     Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
-    between: tuple[LinkPoint, LinkPoint] = base.points(doc="its two ends, [link.point, link.point]")
-    damping: float = base.quantity("damping", minimum=0, doc="force per speed of elongation")
+    between: tuple[LinkPoint, LinkPoint] = base.points(doc=_("its two ends, [link.point, link.point]"))
+    damping: float = base.quantity("damping", minimum=0, doc=_("force per speed of elongation"))
 
     @classmethod
     def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:

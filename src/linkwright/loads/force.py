@@ -35,22 +35,22 @@ class Force(Load):
         ("direction", "in_link", "normal_to", "along", "opposes", "components"),
         ("magnitude", "ramp", "table", "components"),
     )
-    on: str = base.link(moving=True, doc="the link on which the force acts")
-    at: str = base.point_of("on", doc="the point of the link at which it acts")
-    direction: float | None = base.quantity("angle", default=None, doc="direction, fixed in space")
-    in_link: float | None = base.quantity("angle", default=None, doc="direction in the axes of the link")
+    on: str = base.link(moving=True, doc=_("the link on which the force acts"))
+    at: str = base.point_of("on", doc=_("the point of the link at which it acts"))
+    direction: float | None = base.quantity("angle", default=None, doc=_("direction, fixed in space"))
+    in_link: float | None = base.quantity("angle", default=None, doc=_("direction in the axes of the link"))
     normal_to: tuple[str, str] | None = base.ray(
-        "on", default=None, doc="[P, Q]: along the left normal of the ray P→Q"
+        "on", default=None, doc=_("[P, Q]: along the left normal of the ray P→Q")
     )
-    along: tuple[str, str] | None = base.ray("on", default=None, doc="[P, Q]: along the ray P→Q")
+    along: tuple[str, str] | None = base.ray("on", default=None, doc=_("[P, Q]: along the ray P→Q"))
     opposes: str | None = base.word(
-        "velocity", default=None, doc="velocity: against the velocity of the point"
+        "velocity", default=None, doc=_("velocity: against the velocity of the point")
     )
     components: tuple[float, float] | None = base.values(
         "force",
         names=("x", "y"),
         default=None,
-        doc="[Fx, Fy] in frame axes, instead of direction and magnitude",
+        doc=_("[Fx, Fy] in frame axes, instead of direction and magnitude"),
     )
     magnitude: Magnitude = base.magnitude("force")
 

@@ -31,10 +31,10 @@ from linkwright.loads.strokes import Amount, PartWord, StrokePart
 from linkwright.words import Message, _
 
 #: Keys of a phase that name a part of the stroke.
-PARTS: Mapping[PartWord, str] = {
-    "first": "only the first part of the stroke: a share (0.2) or a way (10 mm)",
-    "last": "only the last part of the stroke: a share (0.2) or a way (10 mm)",
-    "free": "free parts at both ends, or [at the beginning, at the end]: shares (0.05) or ways (10 mm)",
+PARTS: Mapping[PartWord, Message] = {
+    "first": _("only the first part of the stroke: a share (0.2) or a way (10 mm)"),
+    "last": _("only the last part of the stroke: a share (0.2) or a way (10 mm)"),
+    "free": _("free parts at both ends, or [at the beginning, at the end]: shares (0.05) or ways (10 mm)"),
 }
 
 
@@ -42,9 +42,9 @@ def magnitude_fields(dimension: str, word: str) -> dict[str, Field]:
     """The keys of a magnitude by their names; ``word``: what it is."""
     return {
         "magnitude": SizeField(dimension, doc=word),
-        "ramp": RampField(dimension, (), 2, doc="from, to over the phase"),
-        "table": TableField(dimension, doc=f"{word} over the input, the time or an output"),
-        "phase": PhaseField(doc="when the load acts (default: always)"),
+        "ramp": RampField(dimension, (), 2, doc=_("from, to over the phase")),
+        "table": TableField(dimension, doc=_("{what} over the input, the time or an output", what=word)),
+        "phase": PhaseField(doc=_("when the load acts (default: always)")),
     }
 
 
@@ -129,10 +129,10 @@ class TableField(_Part):
 
     def _fields(self, across: str) -> dict[str, Field]:
         return {
-            "over": Text(required=True, doc="input, time, or an output"),
+            "over": Text(required=True, doc=_("input, time, or an output")),
             "x": Quantities(across, required=True, doc="increasing values of what the table goes over"),
-            "y": Quantities(self.dimension, required=True, doc="the magnitude at each x"),
-            "interpolation": Word(("linear", "cubic", "periodic"), doc="default linear"),
+            "y": Quantities(self.dimension, required=True, doc=_("the magnitude at each x")),
+            "interpolation": Word(("linear", "cubic", "periodic"), doc=_("default linear")),
         }
 
     def shape(self) -> Schema:
@@ -194,14 +194,16 @@ class PhaseField(_Part):
         limits = ("max", "min")
         return {
             "input": {
-                "input": Quantities(across, count=2, required=True, doc="from, to of the input's coordinate")
+                "input": Quantities(
+                    across, count=2, required=True, doc=_("from, to of the input's coordinate")
+                )
             },
             "moving": {
-                "moving": OutputName(required=True, doc="an output"),
+                "moving": OutputName(required=True, doc=_("an output")),
                 "direction": Word(("increasing", "decreasing"), required=True),
             },
             "of": {
-                "of": OutputName(required=True, doc="an output"),
+                "of": OutputName(required=True, doc=_("an output")),
                 "from": Word(limits, required=True),
                 "to": Word(limits, required=True),
                 **{word: StrokePartField(word, doc=doc) for word, doc in PARTS.items()},

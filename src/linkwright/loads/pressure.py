@@ -10,6 +10,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load, Magnitude
 from linkwright.loads.site import Site, Wrench
+from linkwright.words import _
 
 
 @LOADS.register("pressure")
@@ -29,13 +30,13 @@ class Pressure(Load):
     """
 
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (("area", "bore"), ("magnitude", "ramp", "table"))
-    joint: str = base.joint("slide", doc="the prismatic joint whose block is the piston")
-    area: float | None = base.quantity("area", above=0, default=None, doc="area of the piston")
-    bore: float | None = base.quantity("length", above=0, default=None, doc="diameter of the piston")
+    joint: str = base.joint("slide", doc=_("the prismatic joint whose block is the piston"))
+    area: float | None = base.quantity("area", above=0, default=None, doc=_("area of the piston"))
+    bore: float | None = base.quantity("length", above=0, default=None, doc=_("diameter of the piston"))
     pushes: str = base.word(
-        "forward", "backward", default="forward", doc="where it pushes the block (default: forward)"
+        "forward", "backward", default="forward", doc=_("where it pushes the block (default: forward)")
     )
-    magnitude: Magnitude = base.magnitude("pressure", word="pressure")
+    magnitude: Magnitude = base.magnitude("pressure", word=_("pressure"))
 
     def wrenches(self, site: Site) -> list[Wrench]:
         direction, place, _ = site.guide(self.joint)

@@ -10,6 +10,7 @@ from linkwright.formula.trace import select, sqrt
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, LinkPoint, Load
 from linkwright.loads.site import Site, Wrench
+from linkwright.words import _
 
 
 @LOADS.register("spring")
@@ -27,12 +28,12 @@ class Spring(Load):
     Energy k·(L - L0)²/2 + F0·(L - L0). Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
-    between: tuple[LinkPoint, LinkPoint] = base.points(doc="its two ends, [link.point, link.point]")
-    stiffness: float = base.quantity("stiffness", minimum=0, doc="force per elongation")
+    between: tuple[LinkPoint, LinkPoint] = base.points(doc=_("its two ends, [link.point, link.point]"))
+    stiffness: float = base.quantity("stiffness", minimum=0, doc=_("force per elongation"))
     free_length: float = base.quantity(
-        "length", minimum=0, default=0.0, doc="length without elongation (default 0)"
+        "length", minimum=0, default=0.0, doc=_("length without elongation (default 0)")
     )
-    preload: float = base.quantity("force", default=0.0, doc="tension at the free length (default 0)")
+    preload: float = base.quantity("force", default=0.0, doc=_("tension at the free length (default 0)"))
 
     @classmethod
     def check(cls, values: Mapping[str, Any], report: Callable[[str, str, str], None]) -> None:

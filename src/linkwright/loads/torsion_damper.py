@@ -6,6 +6,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load
 from linkwright.loads.site import Site, Wrench
+from linkwright.words import _
 
 
 @LOADS.register("torsion_damper")
@@ -17,8 +18,8 @@ class TorsionDamper(Load):
     back. Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
-    links: tuple[str, str] = base.links(doc="[a, b]: the two links between which it acts")
-    damping: float = base.quantity("torsional_damping", minimum=0, doc="torque per angular velocity")
+    links: tuple[str, str] = base.links(doc=_("[a, b]: the two links between which it acts"))
+    damping: float = base.quantity("torsional_damping", minimum=0, doc=_("torque per angular velocity"))
 
     def wrenches(self, site: Site) -> list[Wrench]:
         a, b = self.links

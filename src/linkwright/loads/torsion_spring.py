@@ -7,6 +7,7 @@ from linkwright.loads import base
 from linkwright.loads.base import LOADS, Load, Magnitude
 from linkwright.loads.site import Site, Wrench
 from linkwright.loads.sizes import Twist
+from linkwright.words import _
 
 
 @LOADS.register("torsion_spring")
@@ -22,12 +23,12 @@ class TorsionSpring(Load):
     Energy k·(φ - φ0)²/2 + M0·(φ - φ0). Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
-    links: tuple[str, str] = base.links(doc="[a, b]: the two links between which it acts")
-    stiffness: float = base.quantity("torsional_stiffness", minimum=0, doc="torque per angle")
+    links: tuple[str, str] = base.links(doc=_("[a, b]: the two links between which it acts"))
+    stiffness: float = base.quantity("torsional_stiffness", minimum=0, doc=_("torque per angle"))
     free_angle: float = base.quantity(
-        "angle", default=0.0, doc="angle of b against a without twist (default 0)"
+        "angle", default=0.0, doc=_("angle of b against a without twist (default 0)")
     )
-    preload: float = base.quantity("torque", default=0.0, doc="torque at the free angle (default 0)")
+    preload: float = base.quantity("torque", default=0.0, doc=_("torque at the free angle (default 0)"))
 
     @property
     def magnitude(self) -> Magnitude:

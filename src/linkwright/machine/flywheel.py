@@ -14,7 +14,7 @@ from linkwright.words import _
 #: Coefficient of speed fluctuation δ for which flywheels are laid out where none is asked for.
 FLUCTUATION = 0.02
 #: How files give another one.
-COEFFICIENT = Number(above=0.0, below=1.0, doc="coefficient of speed fluctuation")
+COEFFICIENT = Number(above=0.0, below=1.0, doc=_("coefficient of speed fluctuation"))
 #: A mean torque below this share of the largest one is zero.
 NOTHING = 1e-9
 

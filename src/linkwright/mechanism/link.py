@@ -10,6 +10,7 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Quantities, Quantity
 from linkwright.fields.references import Coordinates, LinkPoints, PlaceOrPoint
+from linkwright.words import _
 
 T = TypeVar("T")
 Vec = tuple[float, float]
@@ -17,17 +18,23 @@ Pair = tuple[Any, Any]
 Geometry = Literal["length", "bent", "coordinates", "drawing", "point"]
 
 LINK_FIELDS: Mapping[str, Field] = {
-    "points": LinkPoints(required=True, doc="the link's points: [A, B], or {A: [x, y], …} in its own axes"),
-    "length": Quantity("length", above=0, doc="distance from the first point to the second"),
-    "lengths": Quantities("length", count=2, above=0, doc="bent link: first to second, first to third point"),
-    "angle": Quantity("angle", doc="bent link: angle from the first length to the second"),
-    "also": Coordinates(doc="further points, by coordinates in the link's axes"),
-    "mass": Quantity("mass", minimum=0, doc="mass (default 0)"),
-    "inertia": Quantity("inertia", minimum=0, doc="moment of inertia about the mass centre (default 0)"),
-    "mass_centre": PlaceOrPoint("length", ("x", "y"), doc="mass centre: [x, y] or a point (default: midway)"),
+    "points": LinkPoints(
+        required=True, doc=_("the link's points: [A, B], or {A: [x, y], …} in its own axes")
+    ),
+    "length": Quantity("length", above=0, doc=_("distance from the first point to the second")),
+    "lengths": Quantities(
+        "length", count=2, above=0, doc=_("bent link: first to second, first to third point")
+    ),
+    "angle": Quantity("angle", doc=_("bent link: angle from the first length to the second")),
+    "also": Coordinates(doc=_("further points, by coordinates in the link's axes")),
+    "mass": Quantity("mass", minimum=0, doc=_("mass (default 0)")),
+    "inertia": Quantity("inertia", minimum=0, doc=_("moment of inertia about the mass centre (default 0)")),
+    "mass_centre": PlaceOrPoint(
+        "length", ("x", "y"), doc=_("mass centre: [x, y] or a point (default: midway)")
+    ),
 }
 FRAME_FIELDS: Mapping[str, Field] = {
-    "points": Coordinates(required=True, doc="fixed points: {O1: [0 m, 0 m], …}"),
+    "points": Coordinates(required=True, doc=_("fixed points: {O1: [0 m, 0 m], …}")),
 }
 
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 #: What has dimensions of its own.
 _SORTS = ("link", "joint", "driver", "load")
 
-GRAVITY = Quantities("acceleration", ("x", "y"), doc="gravity in frame axes", form="[0, -9.81 m/s²]")
+GRAVITY = Quantities("acceleration", ("x", "y"), doc=_("gravity in frame axes"), form="[0, -9.81 m/s²]")
 
 
 @dataclass(frozen=True)
@@ -48,10 +48,10 @@ class Cycle:
     def fields(across: str) -> dict[str, Field]:
         """The keys of the section ``cycle``; ``across``: dimension of the first driver's coordinate."""
         return {
-            "duration": Quantity("time", above=0, doc="time of one cycle"),
-            "from": Quantity(across, doc="first coordinate of the first driver"),
-            "to": Quantity(across, doc="last coordinate of the first driver"),
-            "turns": Quantity("dimensionless", above=0, doc="turns of the first driver"),
+            "duration": Quantity("time", above=0, doc=_("time of one cycle")),
+            "from": Quantity(across, doc=_("first coordinate of the first driver")),
+            "to": Quantity(across, doc=_("last coordinate of the first driver")),
+            "turns": Quantity("dimensionless", above=0, doc=_("turns of the first driver")),
         }
 
     def dimensions(self) -> dict[str, float]:

@@ -46,12 +46,12 @@ KINDS: Mapping[str, str] = {
     "throw": "linkwright.parts.trajectories.conveyor.Conveyor",
 }
 HEADING: Mapping[str, Field] = {
-    "format": Count(FORMAT, required=True, doc="1, in the first line"),
+    "format": Count(FORMAT, required=True, doc=_("1, in the first line")),
     "kind": Word(tuple(KINDS), required=True, doc="say what is calculated, such as kind: beam"),
     "name": WordedText(doc="name of the calculation"),
-    "purpose": WordedText(doc="what it is for, one sentence"),
-    "source": WordedText(doc="where it is taken from"),
-    "expected": Free(doc="numbers to compare results with; not interpreted"),
+    "purpose": WordedText(doc=_("what it is for, one sentence")),
+    "source": WordedText(doc=_("where it is taken from")),
+    "expected": Free(doc=_("numbers to compare results with; not interpreted")),
     "parameters": Free(doc="named quantities for use in expressions"),
     "report": Free(doc="title, own text, errata and more for the command report", section="report"),
     "sheet": SHEET_SECTION,

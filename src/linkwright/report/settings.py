@@ -20,7 +20,7 @@ from linkwright.kinematics.names import place_meant
 from linkwright.machine.flywheel import COEFFICIENT, FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import listed
-from linkwright.words import LANGUAGES, Message, _
+from linkwright.words import LANGUAGES, Message, _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.report.markdown import Beside
@@ -53,10 +53,10 @@ SAYINGS: Sayings = {
 class Erratum:
     """A mistake of the source: where, what is printed, what is right, why."""
 
-    where: str = given(Line(doc="where it stands in the source"))
-    printed: str = given(Line(doc="what is printed there"))
-    right: str = given(Line(doc="what is right"))
-    why: str = given(Line(doc="why"), "")
+    where: str = given(Line(doc=_("where it stands in the source")))
+    printed: str = given(Line(doc=_("what is printed there")))
+    right: str = given(Line(doc=_("what is right")))
+    why: str = given(Line(doc=pgettext("key", "why")), "")
 
 
 @dataclass(frozen=True)
@@ -64,17 +64,17 @@ class Chapter:
     """A chapter of the user's own: title and text, Markdown, or Typst after a first line ``typst``; ``label``: the
     name by which texts refer to it."""
 
-    title: str = given(Line(doc="title of an own chapter"))
-    text: str = given(Text(doc="text of the chapter, Markdown"))
-    label: str = given(Line(doc="name by which texts refer to it: [[label]]"), "")
+    title: str = given(Line(doc=_("title of an own chapter")))
+    text: str = given(Text(doc=_("text of the chapter, Markdown")))
+    label: str = given(Line(doc=_("name by which texts refer to it: [[label]]")), "")
 
 
 @dataclass(frozen=True)
 class OwnSource:
     """A source of the user's own: the name by which texts cite it, and the text that the list prints."""
 
-    key: str = given(Line(doc="name by which texts cite it: [@key]"))
-    text: str = given(Line(doc="the source as the list of references prints it"))
+    key: str = given(Line(doc=_("name by which texts cite it: [@key]")))
+    text: str = given(Line(doc=_("the source as the list of references prints it")))
 
 
 @dataclass(frozen=True)
@@ -166,21 +166,21 @@ class CoverField(Keys):
 
 
 COVER: Mapping[str, Field] = {
-    "school": Line(doc="name of the school, at the top"),
-    "kind": Line(doc="what the document is (default: Course design report)"),
-    "logo": Line(doc="picture beside the model file: PNG, JPG or SVG"),
-    "faculty": Line(doc="faculty or department"),
-    "major": Line(doc="major"),
-    "class": Line(doc="class"),
-    "author": Line(doc="author (default: that of the report)"),
-    "student_number": Line(doc="student number, in quotation marks where it begins with 0"),
-    "adviser": Line(doc="adviser"),
-    "date": Line(doc="date (default: that of the report)"),
-    "fields": ByAddress(Line(), doc="further rows of the cover: {Mark: }"),
+    "school": Line(doc=_("name of the school, at the top")),
+    "kind": Line(doc=_("what the document is (default: Course design report)")),
+    "logo": Line(doc=_("picture beside the model file: PNG, JPG or SVG")),
+    "faculty": Line(doc=_("faculty or department")),
+    "major": Line(doc=_("major")),
+    "class": Line(doc=pgettext("key", "class")),
+    "author": Line(doc=_("author (default: that of the report)")),
+    "student_number": Line(doc=_("student number, in quotation marks where it begins with 0")),
+    "adviser": Line(doc=_("adviser")),
+    "date": Line(doc=_("date (default: that of the report)")),
+    "fields": ByAddress(Line(), doc=_("further rows of the cover: {Mark: }")),
 }
 SECTIONS = Listed(
     Either(SectionName(BESIDE_SECTIONS), Table.of(Chapter)),
-    doc="sections and own chapters in order; rest: all others",
+    doc=_("sections and own chapters in order; rest: all others"),
 )
 
 
@@ -191,27 +191,27 @@ class Settings:
     ``references``: own sources by the name by which texts cite them; ``folder``: where pictures lie.
     """
 
-    title: str = given(Line(doc="title of the report"), "")
-    author: str = given(Line(doc="author of the report"), "")
-    course: str = given(Line(doc="course"), "")
-    date: str = given(Line(doc="date of the report"), "")
-    purpose: str = given(Line(doc="what the machine is for, instead of the model's"), "")
-    source: str = given(Line(doc="where it is taken from, instead of the model's"), "")
-    position: str = given(Position(doc="position that is worked out, such as 60 deg"), "")
+    title: str = given(Line(doc=_("title of the report")), "")
+    author: str = given(Line(doc=_("author of the report")), "")
+    course: str = given(Line(doc=_("course")), "")
+    date: str = given(Line(doc=_("date of the report")), "")
+    purpose: str = given(Line(doc=_("what the machine is for, instead of the model's")), "")
+    source: str = given(Line(doc=_("where it is taken from, instead of the model's")), "")
+    position: str = given(Position(doc=_("position that is worked out, such as 60 deg")), "")
     sections: tuple[str | Chapter, ...] = given(SECTIONS, ())
     text: Mapping[str, str] = given(
-        SectionTexts(Text(), doc="own text by the name of a section, Markdown"), dict
+        SectionTexts(Text(), doc=_("own text by the name of a section, Markdown")), dict
     )
-    errata: tuple[Erratum, ...] = given(Listed(Table.of(Erratum), doc="mistakes of the source"), ())
-    cover: CoverWords | None = given(CoverField(COVER, doc="a cover of its own page"), None)
+    errata: tuple[Erratum, ...] = given(Listed(Table.of(Erratum), doc=_("mistakes of the source")), ())
+    cover: CoverWords | None = given(CoverField(COVER, doc=_("a cover of its own page")), None)
     references: Mapping[str, str] = given(
-        Listed(Either(Line(), Table.of(OwnSource)), doc="own sources"), dict
+        Listed(Either(Line(), Table.of(OwnSource)), doc=_("own sources")), dict
     )
     positions: int | PositionList | None = given(
         Listed(Either(Value(), Table({key: Value() for key in STEPPED})), alone=True,
-               doc="numbered positions of the tables"), None
+               doc=_("numbered positions of the tables")), None
     )  # fmt: skip
-    numbered_from: str = given(Line(doc="limit position that is number 1, such as rocker min"), "")
+    numbered_from: str = given(Line(doc=_("limit position that is number 1, such as rocker min")), "")
     fluctuation: float = given(COEFFICIENT, FLUCTUATION)
     folder: str = ""
 
@@ -228,8 +228,8 @@ _KEYS = given_by_file(Settings)
 OWN = {key: each for key, each in _KEYS.items() if key not in ("positions", "numbered_from", "fluctuation")}
 SECTION = Keys({
     **_KEYS,
-    "en": Keys(OWN, doc="what an English report says instead"),
-    "zh": Keys(OWN, doc="what a Chinese report says instead"),
+    "en": Keys(OWN, doc=_("what an English report says instead")),
+    "zh": Keys(OWN, doc=_("what a Chinese report says instead")),
 }, own=SAYINGS)  # fmt: skip
 
 

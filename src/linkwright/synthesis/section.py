@@ -238,18 +238,17 @@ class TaskSection(Field):
 
 
 #: The section of a file.
-SECTION = TaskSection(doc="a task with its demands for the command synthesize")
+SECTION = TaskSection(doc=_("a task with its demands for the command synthesize"))
 
 
 def _fields(task: Task) -> dict[str, Field]:
     needed = task.needed
     return {
-        "task": Word(tuple(tasks()), doc="the task"),
-        "unit": UnitOf("length", doc="unit of bare lengths in lists"),
-        "angle_unit": UnitOf("angle", doc="unit of bare angles in lists"),
+        "task": Word(tuple(tasks()), doc=_("the task")),
+        "unit": UnitOf("length", doc=_("unit of bare lengths in lists")),
+        "angle_unit": UnitOf("angle", doc=_("unit of bare angles in lists")),
         **{
-            key: Demand(form, required=key in needed, doc=str(form_of(form)))
-            for key, form in task.demands.items()
+            key: Demand(form, required=key in needed, doc=form_of(form)) for key, form in task.demands.items()
         },
     }
 

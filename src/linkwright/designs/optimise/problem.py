@@ -126,23 +126,23 @@ class Problem:
     define: Mapping[str, str] = field(default_factory=dict)
     paths: Mapping[str, PathError] = field(default_factory=dict)
     tolerances: Mapping[str, float] = field(default_factory=dict)
-    robust: Robust = given(Word(("worst", "yield"), doc="how the tolerances count"), "")
+    robust: Robust = given(Word(("worst", "yield"), doc=_("how the tolerances count")), "")
     least_yield: float = given(
         Number(
             above=0.0,
             maximum=1.0,
             key="yield",
-            doc="share of the machines made that meets the demands; default 0.99",
+            doc=_("share of the machines made that meets the demands; default 0.99"),
         ),
         0.99,
     )
     fluctuation: float = given(COEFFICIENT, FLUCTUATION)
-    steps: int = given(Whole(1, 1_000_000, doc="positions of the cycle; default 360"), STEPS)
+    steps: int = given(Whole(1, 1_000_000, doc=_("positions of the cycle; default 360")), STEPS)
     evaluations: int = given(
-        Whole(1, 1_000_000_000, doc="designs that are judged at most; default 4000"), 4000
+        Whole(1, 1_000_000_000, doc=_("designs that are judged at most; default 4000")), 4000
     )
-    population: int = given(Whole(0, 1_000_000, doc="designs of a generation; chosen unless given"), 0)
-    seed: int = given(Whole(0, 1_000_000_000, doc="of the random numbers; default 0"), 0)
+    population: int = given(Whole(0, 1_000_000, doc=_("designs of a generation; chosen unless given")), 0)
+    seed: int = given(Whole(0, 1_000_000_000, doc=_("of the random numbers; default 0")), 0)
 
     @property
     def addresses(self) -> tuple[str, ...]:
@@ -160,25 +160,25 @@ _NUMBERS = "[peak_input_torque, flywheel]"
 SECTION = Keys({
     "vary": ByAddress(
         Either(_VALUES, Table({"values": _VALUES, "whole": _VALUES})),
-        doc="bounds of dimensions and parameters, such as 80..120 mm",
+        doc=_("bounds of dimensions and parameters, such as 80..120 mm"),
     ),
-    "minimize": Listed(Text(), _NUMBERS, alone=True, doc="numbers that are made least"),
-    "maximize": Listed(Text(), _NUMBERS, alone=True, doc="numbers that are made greatest"),
+    "minimize": Listed(Text(), _NUMBERS, alone=True, doc=_("numbers that are made least")),
+    "maximize": Listed(Text(), _NUMBERS, alone=True, doc=_("numbers that are made greatest")),
     "keep": ByAddress(
         DemandText(Value(), Table({key: Value() for key in ("at_least", "at_most", "same")})),
-        doc="demands on numbers, such as at least 40 deg",
+        doc=_("demands on numbers, such as at least 40 deg"),
     ),
     "define": ByAddress(
         Either(Line(), Table({
-            "point": Text(required=True, doc="point that follows a path, such as coupler.P"),
+            "point": Text(required=True, doc=_("point that follows a path, such as coupler.P")),
             "target": Listed(
                 Target("length", ("x", "y")), "[[30 mm, 40 mm], [32 mm, 41 mm]]", required=True,
-                doc="places of the point, one for each position",
+                doc=_("places of the point, one for each position"),
             ),
         }, PathError)),
-        doc="names for numbers, and errors of paths",
+        doc=_("names for numbers, and errors of paths"),
     ),
-    "tolerance": ByAddress(Line(), doc="± of dimensions, such as 0.1 mm"),
+    "tolerance": ByAddress(Line(), doc=_("± of dimensions, such as 0.1 mm")),
     **given_by_file(Problem),
 })  # fmt: skip
 

@@ -13,6 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Quantities, Quantity, Text
 from linkwright.fields.tables import Listed, Table
 from linkwright.parts.fields import AnyQuantity
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ EXCITATION = {
     "speed": Quantity("angular_velocity", above=0.0, doc="or speed of the rotor"),
     "table": Table(
         {
-            "times": Quantities("time", required=True, key="time", doc="increasing times"),
+            "times": Quantities("time", required=True, key="time", doc=_("increasing times")),
             "forces": Listed(
                 AnyQuantity(either("force")),
                 "[0 N, 20 N]",
