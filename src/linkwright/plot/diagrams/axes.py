@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import SHOWN, significant
-from linkwright.pictures.diagram import Axes, Figure
+from linkwright.pictures.diagram import INK, Axes, Figure
 from linkwright.units import si_unit
 from linkwright.words import _
 
@@ -137,11 +137,20 @@ def wrapped(text: str, inches: float) -> str:
     return "\n".join(textwrap.wrap(text, max(20, int(inches * 10.5 / wide)))) or text
 
 
-def equal(axes: Axes) -> None:
-    """The same scale on both axes, with lines through the origin."""
+def make_plane(axes: Axes, margin: float, unit: str = "mm") -> None:
+    """Axes of equal scale for places x and y."""
     axes.set_aspect("equal", adjustable="datalim")
-    axes.axhline(0.0, color="#9aa0a6", linewidth=0.8, zorder=1.2)
-    axes.axvline(0.0, color="#9aa0a6", linewidth=0.8, zorder=1.2)
+    axes.margins(margin)
+    axes.set(xlabel=f"x ({unit})", ylabel=f"y ({unit})")
+
+
+def make_force_plane(axes: Axes, unit: Unit, names: str = "xy") -> None:
+    """Axes of equal scale for components of a force, with lines through the origin and a cross there."""
+    make_plane(axes, 0.13)
+    axes.set(xlabel=unit.label(f"F{names[0]}"), ylabel=unit.label(f"F{names[1]}"))
+    for draw in (axes.axhline, axes.axvline):
+        draw(0.0, color="#9aa0a6", linewidth=0.8, zorder=1.2)
+    axes.plot([0], [0], "+", color=INK, markersize=9, zorder=5)
 
 
 #: Height of a row of a legend, inches, and rows for which a figure has room as it is.

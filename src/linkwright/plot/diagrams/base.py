@@ -70,13 +70,14 @@ class Request:
         return title if self.title is None else self.title
 
 
-def framed(figure: Figure, title: str, request: Request, legend: Legend | None = None) -> None:
-    """The title: the one asked for, or this one; none where an empty one is asked for. The legend goes below."""
+def framed(figure: Figure, title: str, request: Request, legend: Legend | None = None) -> Figure:
+    """The figure with its title, the one asked for (none where that is empty) or this one, and the legend below."""
     text = printable(request.heading(title))
     if text:
         figure.suptitle(wrapped(text, figure.get_size_inches()[0]), x=0.02, ha="left", color=INK)
     if legend is not None:
         legend.put(figure)
+    return figure
 
 
 class Kind(ABC):

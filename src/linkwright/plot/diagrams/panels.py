@@ -12,7 +12,15 @@ from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import InputAxis, Legend, Unit, label_input, plain_ticks, unit_of
+from linkwright.plot.diagrams.axes import (
+    InputAxis,
+    Legend,
+    Unit,
+    label_input,
+    make_plane,
+    plain_ticks,
+    unit_of,
+)
 from linkwright.plot.diagrams.base import Kind, Request, framed
 from linkwright.plot.diagrams.marks import (
     Curve,
@@ -144,10 +152,7 @@ def plane(title: str, request: Request, unit: str = "mm") -> tuple[Figure, Axes]
     """Axes of equal scale."""
     figure = new_figure(request.size or (5.4, 4.6))
     axes = figure.subplots()
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.margins(0.15)
-    axes.set_xlabel(f"x ({unit})")
-    axes.set_ylabel(f"y ({unit})")
+    make_plane(axes, 0.15, unit)
     framed(figure, title, request)
     return figure, axes
 

@@ -11,7 +11,7 @@ from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_or_point
 from linkwright.pictures.diagram import COLOURS, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend
+from linkwright.plot.diagrams.axes import Legend, make_plane
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request, framed
 from linkwright.plot.diagrams.marks import draw_curve, mark_inputs
 from linkwright.plot.diagrams.names import LINK, Names, draw_machine, write_names
@@ -43,12 +43,8 @@ class Paths(Kind):
             for one in names:
                 _draw(one, source, found, request, legend, None if single else number)
         for one in axes:
-            one.set_aspect("equal", adjustable="datalim")
-            one.margins(0.1)
-            one.set_xlabel("x (mm)")
-            one.set_ylabel("y (mm)")
-        title = request.say(_("paths of points"))
-        framed(figure, request.titled(sources[0].label if single else "", title), request, legend)
+            make_plane(one, 0.1)
+        framed(figure, request.titled(sources[0].label if single else ""), request, legend)
         write_names(figure, names)
         return figure
 

@@ -15,7 +15,7 @@ from linkwright.mechanism.force_names import chosen_pairs
 from linkwright.metrics.analysis import Analysis
 from linkwright.metrics.reactions import size as magnitude
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, Unit, equal, unit_of
+from linkwright.plot.diagrams.axes import Legend, Unit, make_force_plane, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request, framed
 from linkwright.plot.diagrams.marks import Curve, draw_curve, jumps, mark_inputs
 from linkwright.plot.diagrams.names import Names, write_names
@@ -40,7 +40,7 @@ class Reactions(OverInput):
 
     def subject(self, sources: Sequence[Source], request: Request) -> str:
         if request.joint is None and request.on is None:
-            return request.say(_("joint forces"))
+            return request.say(self.title)
         joint, link = joint_and_link(sources[0].forces, request.joint, request.on)
         return request.say(_("force of joint {joint} on {link}", joint=joint, link=link))
 
@@ -183,16 +183,11 @@ def draw_hodograph(
             mark_inputs(noted, curve * unit.factor, source.axis, colour)
             if largest:
                 _largest(axes, source, what, curve, unit, legend, request)
-    names = ("x", "y") if view == "frame" else ("ξ", "η")
     axes.set_title(
         say(_("in the axes of the frame")) if view == "frame" else say(_("in the axes of {link}", link=view)),
         color=INK,
     )
-    axes.set_xlabel(f"F{names[0]} ({unit.name})")
-    axes.set_ylabel(f"F{names[1]} ({unit.name})")
-    equal(axes)
-    axes.plot([0], [0], "+", color=INK, markersize=9, zorder=4)
-    axes.margins(0.13)
+    make_force_plane(axes, unit, "xy" if view == "frame" else "ξη")
     if not any(curve.any() for curve in curves):
         axes.update_datalim([(-1.0, -1.0), (1.0, 1.0)])
     return noted
@@ -256,7 +251,6 @@ class Hodographs(Kind):
             place.set_title(request.say(_("{joint}, force on {link}", joint=joint, link=link)), color=INK)
         for place in places[len(pairs) :]:
             place.set_axis_off()
-        title = request.say(_("hodographs of all joint forces"))
-        framed(figure, request.titled(sources[0].label if len(sources) == 1 else "", title), request, legend)
+        framed(figure, request.titled(sources[0].label if len(sources) == 1 else ""), request, legend)
         write_names(figure, names)
         return figure

@@ -15,8 +15,8 @@ from linkwright.designs.study import Study
 from linkwright.errors import RequestError
 from linkwright.metrics.base import METRICS, MetricValue
 from linkwright.metrics.table import MetricsTable
-from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import SYMBOLS, InputAxis, Legend, Unit, equal, unit_of
+from linkwright.pictures.diagram import COLOURS, FAINT, Axes, Figure, new_figure
+from linkwright.plot.diagrams.axes import SYMBOLS, InputAxis, Legend, Unit, make_force_plane, unit_of
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.panels import Panel, look, stacked
@@ -88,13 +88,8 @@ def draw_pivot_hodograph(result: Comparison, request: Request) -> Figure:
         colour, dash = look(number)
         (line,) = axes.plot(x * unit.factor, y * unit.factor, color=colour, linestyle=dash)
         legend.add(label, line)
-    axes.set_xlabel(unit.label("Fx"))
-    axes.set_ylabel(unit.label("Fy"))
-    equal(axes)
-    axes.plot([0], [0], "+", color=INK, markersize=9, zorder=4)
-    axes.margins(0.1)
-    framed(figure, request.titled(""), request, legend)
-    return figure
+    make_force_plane(axes, unit)
+    return framed(figure, request.titled(""), request, legend)
 
 
 def _chosen(result: Comparison, names: Sequence[str]) -> list[Overlay]:
@@ -183,8 +178,7 @@ def draw_metrics(result: MetricsTable, request: Request) -> Figure:
     legend = Legend()
     for axes, (name, rows) in zip(places, groups, strict=True):
         _draw(axes, name, rows, request, legend)
-    framed(figure, request.titled(result.title), request, legend)
-    return figure
+    return framed(figure, request.titled(result.title), request, legend)
 
 
 def _groups(result: MetricsTable, request: Request) -> list[Group]:

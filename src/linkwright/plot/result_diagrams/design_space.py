@@ -48,8 +48,7 @@ def draw_designs(table: DesignTable, request: Request) -> Figure:
         figure = _over_two(table, request, legend)
     else:
         figure = _clouds(table, request, legend)
-    framed(figure, request.titled(table.title), request, legend)
-    return figure
+    return framed(figure, request.titled(table.title), request, legend)
 
 
 def _over_one(table: DesignTable, request: Request, legend: Legend) -> Figure:

@@ -9,7 +9,7 @@ from linkwright.core.given import CURVE_STEPS
 from linkwright.machine.balancing import Balancing
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.pictures.diagram import COLOURS, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import InputAxis, Legend, equal, label_input, unit_of
+from linkwright.plot.diagrams.axes import InputAxis, Legend, label_input, make_force_plane, unit_of
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.panels import DASHES, Panel, draw_panel, stacked, with_mean
@@ -44,8 +44,7 @@ def draw_balancing(result: Balancing, request: Request) -> Figure:
     places["moment"].set_xlabel("")
     places["moment"].tick_params(labelbottom=False)
     figure.align_ylabels([places["moment"], places["torque"]])
-    framed(figure, request.titled(before.label), request, legend)
-    return figure
+    return framed(figure, request.titled(before.label), request, legend)
 
 
 def _curves(names: tuple[str, str], values: list[Floats]) -> tuple[Curve, ...]:
@@ -65,11 +64,7 @@ def _hodograph(
         if largest(loop) <= VANISHED * widest:
             axes.plot([0], [0], "o", color=colour, markersize=6, zorder=4)
     axes.set_title(request.say(_("shaking force")), color=INK)
-    axes.set_xlabel(unit.label("Fx"))
-    axes.set_ylabel(unit.label("Fy"))
-    equal(axes)
-    axes.plot([0], [0], "+", color=INK, markersize=9, zorder=5)
-    axes.margins(0.13)
+    make_force_plane(axes, unit)
 
 
 #: How far before a jump the curve is drawn, as a share of its period.

@@ -65,8 +65,7 @@ def _front(axes: Any, result: Optimum, text: str, language: str) -> None:
         ).translate(language)
         axes.plot([x0] if near else [], [y0] if near else [], "s", ms=7, mfc="none", color=INK, label=said)
     axes.margins(0.06)
-    axes.set_xlabel(x_label)
-    axes.set_ylabel(y_label)
+    axes.set(xlabel=x_label, ylabel=y_label)
     axes.legend()
 
 
@@ -132,8 +131,7 @@ def draw_sensitivity(result: Sensitivity, request: Request) -> Figure:
     axes.set_ylim(len(result.by) - 0.4, -0.6)
     axes.margins(x=0.06)
     axes.set_xlabel(request.say(_("change per 1 % of the dimension (%)")))
-    framed(figure, request.titled(result.mechanism.name), request, legend)
-    return figure
+    return framed(figure, request.titled(result.mechanism.name), request, legend)
 
 
 @result_diagram("sensitivity_curves", _("sensitivities over the input"), Sensitivity, options=("of",),

@@ -14,7 +14,7 @@ from linkwright.parts.programs.problem import Variable
 from linkwright.parts.programs.program import Optimum
 from linkwright.parts.statistics.samples import Statistics
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import unit_of
+from linkwright.plot.diagrams.axes import Unit, unit_of
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.panels import DASHES
 from linkwright.words import _, pgettext
@@ -39,8 +39,7 @@ def draw_samples(result: Statistics, request: Request) -> Figure:
         _histogram(one, result, name, colours, request)
     for one, name in zip(axes[len(names) :], lines, strict=False):
         _regression(one, result, name)
-    framed(figure, request.titled(result.title), request)
-    return figure
+    return framed(figure, request.titled(result.title), request)
 
 
 def _histogram(
@@ -75,8 +74,7 @@ def _regression(axes: Axes, result: Statistics, name: str) -> None:
     fitted = sum(float(b) * line**power for power, b in enumerate(found.coefficients))
     axes.plot(line / across.factor, fitted / up.factor, color=COLOURS[0])
     axes.margins(0.05)
-    axes.set_xlabel(f"{fitting.on[0]} ({across.unit})")
-    axes.set_ylabel(f"{fitting.y} ({up.unit})")
+    axes.set(xlabel=f"{fitting.on[0]} ({across.unit})", ylabel=f"{fitting.y} ({up.unit})")
 
 
 @result_diagram("tolerance", _("spread by tolerances"), Spread)
@@ -90,8 +88,7 @@ def draw_tolerance(result: Spread, request: Request) -> Figure:
         _machines(one, result, text, request)
     for one, output in zip(axes[len(texts) :], result.study.curves, strict=False):
         _band(one, result, output)
-    framed(figure, request.titled(result.title), request)
-    return figure
+    return framed(figure, request.titled(result.title), request)
 
 
 def _machines(axes: Axes, result: Spread, text: str, request: Request) -> None:
@@ -107,8 +104,7 @@ def _machines(axes: Axes, result: Spread, text: str, request: Request) -> None:
     for end in (limit.lower, limit.upper) if limit else ():
         if np.isfinite(end):
             axes.axvline(end * shown.factor, color=COLOURS[1], linestyle="--", linewidth=1.1)
-    axes.set_xlabel(shown.label(text))
-    axes.set_ylabel(request.say(_("machines")))
+    axes.set(xlabel=shown.label(text), ylabel=request.say(_("machines")))
 
 
 def _band(axes: Axes, result: Spread, output: str) -> None:
@@ -124,8 +120,9 @@ def _band(axes: Axes, result: Spread, output: str) -> None:
         nominal = result.curve(output)[1] - shift
         for edge in (result.curves[output].low, result.curves[output].high):
             axes.plot(x, (edge - nominal) * shown.factor, color=COLOURS[1], linestyle="--", linewidth=1.0)
-    axes.set_xlabel(turning.label("φ" if result.turning else "s"))
-    axes.set_ylabel(shown.label(f"Δ {output} ± 3σ", "\n"))
+    axes.set(
+        xlabel=turning.label("φ" if result.turning else "s"), ylabel=shown.label(f"Δ {output} ± 3σ", "\n")
+    )
 
 
 GRID = 241
@@ -140,8 +137,7 @@ def draw_optimum(result: Optimum, request: Request) -> Figure:
         _region(axes, result)
     else:
         _bars(axes, result, request)
-    framed(figure, request.titled(result.title), request)
-    return figure
+    return framed(figure, request.titled(result.title), request)
 
 
 def _span(variable: Variable, value: float) -> Floats:
@@ -158,8 +154,8 @@ def _region(axes: Axes, result: Optimum) -> None:
     spans = [_span(result.program.variables[n], result.x[n]) for n in names]
     u, v = (each.ravel() for each in np.meshgrid(*spans))
     point = dict(zip(names, (u, v), strict=True))
-    scales = [unit_of_kind(result.program.variables[n].dimension) for n in names]
-    x, y = (span * scale[1] for span, scale in zip(spans, scales, strict=True))
+    units = [Unit(*unit_of_kind(result.program.variables[n].dimension)) for n in names]
+    x, y = (span * unit.factor for span, unit in zip(spans, units, strict=True))
     value = result.program.model.objective.value(point).reshape(GRID, GRID)
     kept = np.ones(len(u), dtype=bool)
     for number, c in enumerate(result.program.subject_to):
@@ -171,9 +167,9 @@ def _region(axes: Axes, result: Optimum) -> None:
             axes.clabel(drawn, fmt={0.0: c.name}, fontsize=7.5)
     axes.contourf(x, y, kept.reshape(GRID, GRID).astype(float), [0.5, 1.5], colors=[SHADE], alpha=0.6)
     axes.contour(x, y, value, 14, colors=[FAINT], linewidths=0.7)
-    axes.plot(result.x[names[0]] * scales[0][1], result.x[names[1]] * scales[1][1], "o", color=INK)
-    axes.set_xlabel(f"{names[0]} ({scales[0][0]})" if scales[0][0] else names[0])
-    axes.set_ylabel(f"{names[1]} ({scales[1][0]})" if scales[1][0] else names[1])
+    best = (result.x[name] * unit.factor for name, unit in zip(names, units, strict=True))
+    axes.plot(*best, "o", color=INK)
+    axes.set(xlabel=units[0].label(names[0]), ylabel=units[1].label(names[1]))
 
 
 def _bars(axes: Axes, result: Optimum, request: Request) -> None:

@@ -10,7 +10,7 @@ from linkwright.core.arrays import Complexes, Floats
 from linkwright.errors import speaker
 from linkwright.metrics.coupler_curve import CouplerCurve
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
-from linkwright.plot.diagrams.axes import Legend, unit_of
+from linkwright.plot.diagrams.axes import Legend, make_plane, unit_of
 from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.names import draw_support
 from linkwright.synthesis.result import Candidate, Synthesis, title_said
@@ -45,8 +45,7 @@ def draw_synthesis(result: Synthesis, request: Request) -> Figure:
     _plane(axes[0], result, request.language, legend)
     if function:
         _function(axes[1], result, request.language)
-    framed(figure, title_said(result, speaker(request.language)), request, legend)
-    return figure
+    return framed(figure, title_said(result, speaker(request.language)), request, legend)
 
 
 def _plane(axes: Axes, result: Synthesis, language: str, legend: Legend) -> None:
@@ -70,10 +69,7 @@ def _plane(axes: Axes, result: Synthesis, language: str, legend: Legend) -> None
         legend.add(_("target").translate(language), marks)
         if target.ndim == 2:
             axes.quiver(*places, target[1].real, target[1].imag, color=INK, width=0.003)
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.set_xlabel("x (mm)")
-    axes.set_ylabel("y (mm)")
-    axes.margins(0.08)
+    make_plane(axes, 0.08)
 
 
 def _places(numbers: Complexes) -> tuple[Floats, Floats]:
@@ -91,8 +87,7 @@ def _function(axes: Axes, result: Synthesis, language: str) -> None:
     target = result.target
     if target is not None and not np.iscomplexobj(target):
         axes.plot(*(factors * target), "o", ms=4, mfc="none", color=INK)
-    axes.set_xlabel(_("input (°)").translate(language))
-    axes.set_ylabel(say(AXES[kind], language))
+    axes.set(xlabel=_("input (°)").translate(language), ylabel=say(AXES[kind], language))
 
 
 def _links(axes: Axes, each: Candidate, colour: str) -> Any:
@@ -138,16 +133,9 @@ def draw_structural_error(result: Synthesis, request: Request) -> Figure:
     axes.plot(x[order], factor * off[order], "o-", color=COLOURS[0], ms=4, linewidth=0.8)
     if result.error_name not in ("angle", "length"):
         axes.locator_params(axis="x", integer=True)
-    axes.set_xlabel(label)
-    axes.set_ylabel(
-        say(
-            _("deviation (°)") if angles else _("deviation (mm)"),
-            request.language,
-        )
-    )
+    axes.set(xlabel=label, ylabel=request.say(_("deviation (°)") if angles else _("deviation (mm)")))
     axes.margins(x=0.05, y=0.15)
-    framed(figure, title_said(result, speaker(request.language)), request)
-    return figure
+    return framed(figure, title_said(result, speaker(request.language)), request)
 
 
 def _abscissa(result: Synthesis, language: str) -> tuple[Floats, str]:
@@ -174,12 +162,9 @@ def draw_coupler_curve(result: CouplerCurve, request: Request) -> Figure:
                 (dots,) = axes.plot(*(np.array(spots).T * unit.factor), sign, color=COLOURS[1], markersize=7,
                                     fillstyle="none", markeredgewidth=1.4)  # fmt: skip
                 legend.add(request.say(name), dots)
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.margins(0.1)
-    axes.set_xlabel(unit.label("x"))
-    axes.set_ylabel(unit.label("y"))
+    make_plane(axes, 0.1)
     length, area = unit.text(result.length, 6), unit_of("area").text(result.area, 6)
-    framed(
+    return framed(
         figure,
         request.say(
             _(
@@ -192,4 +177,3 @@ def draw_coupler_curve(result: CouplerCurve, request: Request) -> Figure:
         request,
         legend,
     )
-    return figure
