@@ -19,7 +19,7 @@ Geometry = Literal["length", "bent", "coordinates", "drawing", "point"]
 
 LINK_FIELDS: Mapping[str, Field] = {
     "points": LinkPoints(
-        required=True, doc=_("the link's points: [A, B], or {A: [x, y], …} in its own axes")
+        required=True, doc=_("the link's points: [A, B], or {{A: [x, y], …}} in its own axes")
     ),
     "length": Quantity("length", above=0, doc=_("distance from the first point to the second")),
     "lengths": Quantities(
@@ -34,7 +34,7 @@ LINK_FIELDS: Mapping[str, Field] = {
     ),
 }
 FRAME_FIELDS: Mapping[str, Field] = {
-    "points": Coordinates(required=True, doc=_("fixed points: {O1: [0 m, 0 m], …}")),
+    "points": Coordinates(required=True, doc=_("fixed points: {{O1: [0 m, 0 m], …}}")),
 }
 
 

@@ -176,7 +176,7 @@ COVER: Mapping[str, Field] = {
     "student_number": Line(doc=_("student number, in quotation marks where it begins with 0")),
     "adviser": Line(doc=_("adviser")),
     "date": Line(doc=_("date (default: that of the report)")),
-    "fields": ByAddress(Line(), doc=_("further rows of the cover: {Mark: }")),
+    "fields": ByAddress(Line(), doc=_("further rows of the cover: {{Mark: }}")),
 }
 SECTIONS = Listed(
     Either(SectionName(BESIDE_SECTIONS), Table.of(Chapter)),
