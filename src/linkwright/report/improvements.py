@@ -23,8 +23,8 @@ EFFORT = "peak_input_torque"
 LEAST, MOST = 0.02, 50.0
 #: Links of machines of which the derivatives of forces cost no more than the rest of a report.
 FEW = 8
-#: By how much the value of the derivatives' program may differ from the design number: positions against extremes.
-SAME = 1e-3
+#: To this share the value that has derivatives is the one in the table, not that of another subject.
+SAME = 1e-6
 
 
 @dataclass(frozen=True)
