@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial as partial_of
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.given import STEPS
 from linkwright.core.progress import Progress, paced, part_of
+from linkwright.designs.finished_parts import identity, once, surrounding
+from linkwright.designs.one_by_one import changes_of
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.files.write import dump
 from linkwright.formula.machine_code import available
 from linkwright.formula.summaries import Backend
+from linkwright.formula.threads import chunks
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
@@ -26,6 +32,8 @@ from linkwright.words import _
 
 #: Designs up to which what finds their numbers together may choose to do so without a compiler.
 FEW = 512
+#: Designs whose numbers are kept together.
+PIECE = 8192
 
 
 def side_by_side(
@@ -76,15 +84,19 @@ def numbers_of(
     except LinkwrightError:  # of the machine as it is; designs tell for themselves
         cycles = []
     certain = np.full(len(designs), bool(cycles))
+    kept = surrounding() is not None
+    own = identity(dump(replace(mechanism, optimize={})), *names, partial) if kept else ""
     compiled = backend == "auto" and available()
     whole = progress is None or (compiled and len(designs) <= FEW)
     serving: Backend = "llvm" if compiled and not whole else backend  # as it serves all together
     for k, cycle in enumerate(cycles):
         tell = part_of(progress, k, len(cycles) + 1)
-        for low, high in [(0, len(designs))] if whole else paced(len(designs)):
+        pieces = [(0, len(designs))] if whole else paced(len(designs))
+        for low, high in chunks(len(designs), PIECE) if kept else pieces:
             some = designs[low:high]
             part = {address: column[some] for address, column in columns.items()}
-            known, sure_here = cycle.evaluate(part, threads=threads, backend=serving)
+            evaluate = partial_of(cycle.evaluate, part, threads=threads, backend=serving)
+            known, sure_here = once(evaluate, partial_of(tuple, (own, k, serving, part)))
             certain[low:high] &= sure_here
             for name, column in known.items():
                 values[name][some[sure_here]] = column[sure_here]
@@ -98,8 +110,9 @@ def numbers_of(
     left = designs.tolist() if rest else designs[~sure[designs]].tolist()
     tell = part_of(progress, len(cycles), len(cycles) + 1)
     for done, index in enumerate(left, 1):
-        design = mechanism.with_dimensions({a: float(column[index]) for a, column in columns.items()})
-        found_alone, why = _alone(design, rest if sure[index] else names, partial)
+        changes, asked = changes_of(columns, index), rest if sure[index] else names
+        alone = partial_of(_alone, mechanism, changes, asked, partial)
+        found_alone, why = once(alone, partial_of(tuple, (own, changes, *asked)))
         failed |= {index: why} if why else {}
         for name, (value, dimension) in found_alone.items():
             values[name][index], dimensions[name] = value, dimension
@@ -121,11 +134,11 @@ def numbers_of(
 
 
 def _alone(
-    design: Mechanism, names: Sequence[str], partial: bool
+    mechanism: Mechanism, changes: Mapping[str, float], names: Sequence[str], partial: bool
 ) -> tuple[dict[str, tuple[float, str]], str]:
     """Values and dimensions of the metrics that one design has, and why it lacks others."""
     found: dict[str, tuple[float, str]] = {}
-    why = ""
+    why, design = "", mechanism.with_dimensions(changes)
     try:
         motion = solve_motion(design, failures="mark" if partial else "raise")
         forces = any(needs_forces(name, design) for name in names)

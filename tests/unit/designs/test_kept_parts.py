@@ -12,13 +12,14 @@ import pytest
 import linkwright as lw
 from linkwright.cli import main
 from linkwright.core.arrays import Floats
-from linkwright.designs import finished_parts
+from linkwright.designs import design_numbers, finished_parts
 from linkwright.designs.criteria import Criterion
 from linkwright.designs.designs import sweep_curves
 from linkwright.designs.finished_parts import _made, _plain
 from linkwright.designs.study import PIECE, _Work
 from linkwright.designs.sweep_run import SweepRun
 from linkwright.formula.reductions import Results
+from linkwright.metrics.of_designs import NumbersOfDesigns
 from linkwright.words import _
 
 pytestmark = pytest.mark.rotating
@@ -56,6 +57,32 @@ def test_an_interrupted_study_goes_on_from_its_file_without_what_it_had(
         resumed = lw.study(machine, vary, metrics=metrics)
     assert measured == vary["coupler.length"].tolist()  # each of them once, in both runs together
     assert resumed.data() == whole.data() and resumed.text("zh") == whole.text("zh")
+
+
+def test_numbers_of_a_sweep_are_kept_piece_by_piece_and_one_by_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Those of whole designs together, of the one that reaches a part of its cycle by itself."""
+    monkeypatch.setattr(finished_parts, "WORTH", float("inf"))  # kept however fast it was found
+    crank, lengths, asked = lw.load(CRANK), np.array([3.0, 3.4, 2.3]), ["B.y max", "rocker.angle max"]
+    whole = lw.sweep(crank, {"coupler.length": lengths}, outputs=asked, partial=True)
+
+    def interrupt(done: int, total: int) -> None:
+        if done == total:
+            raise KeyboardInterrupt
+
+    with pytest.raises(lw.Interrupted) as stopped, lw.kept_in(None, crank.name, "asked"):
+        lw.sweep(crank, {"coupler.length": lengths}, outputs=asked, partial=True, progress=interrupt)
+
+    def never(*given: object, **named: object) -> None:
+        raise AssertionError("found again")
+
+    monkeypatch.setattr(NumbersOfDesigns, "evaluate", never)
+    monkeypatch.setattr(design_numbers, "_alone", never)
+    with lw.kept_in(stopped.value.state, crank.name, "asked"):
+        resumed = lw.sweep(crank, {"coupler.length": lengths}, outputs=asked, partial=True)
+    for each in asked:
+        assert np.isfinite(whole[each]).all() and np.array_equal(resumed[each], whole[each])
 
 
 def test_an_interrupted_tolerance_run_says_from_which_file_it_goes_on(

@@ -36,8 +36,6 @@ AGREE = 0.005
 SMALL = 0.1
 #: A cycle that comes nearer to a dead point than this (closeness, 0 at it) is near one.
 NEAR = 0.05
-#: Summaries that are values at one or two of the positions.
-EXTREMES = ("min", "max", "range", "peak", "argmin", "argmax")
 #: Shares of a normal distribution at ±3σ.
 QUANTILES = (0.00135, 0.99865)
 #: What the numbers are called.
@@ -497,19 +495,7 @@ class Spread(Result):
             note = say(_("∂y/∂p = {slope}", slope=slope))
             percent = f"{100 * each.share:.2f} %"
             parts.append(Row(each.name, each.share, label=each.name, note=note, text=percent))
-        remarks = [self.reason(text, say)]
-        if self.summaries[text].kind in EXTREMES:
-            remarks.append(
-                say(
-                    _(
-                        "{name} is that of {count} positions of the cycle; design numbers (`swing_angle`, "
-                        "`stroke`, `peak_…`) are exact between them as well.",
-                        name=text,
-                        count=self.study.steps,
-                    )
-                )
-            )
-        found = [Block(text, text, rows, tuple(filter(None, remarks)))]
+        found = [Block(text, text, rows, tuple(filter(None, [self.reason(text, say)])))]
         return (
             [*found, Block(f"{text}: contributions", say(_("Contributions to the variance")), parts)]
             if parts
