@@ -56,6 +56,15 @@ class Checked:
     findings: Sequence[Finding]
     fact: Mapping[str, object] = field(default_factory=dict)
 
+    @property
+    def errors(self) -> int:
+        """How many errors the file has."""
+        return sum(each.severity == "error" for each in self.findings)
+
+    def data(self) -> dict[str, Any]:
+        """Plain data."""
+        return {"ok": not self.errors, **self.fact, "findings": [each.data() for each in self.findings]}
+
 
 def check(source: str | Path) -> list[Finding]:
     """All findings about a file, errors, warnings and notes; never raises for bad content.

@@ -15,7 +15,7 @@ from linkwright.core.given import require
 from linkwright.core.outputs import NAMED, PLACES, Output
 from linkwright.core.quantity import SHOWN, shown
 from linkwright.core.table import Amount, Table, Tabular
-from linkwright.errors import RequestError, speaker
+from linkwright.errors import RequestError
 from linkwright.joints.cam import CamJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
@@ -64,7 +64,7 @@ class CompensatingCam(Tabular):
 
     def tables(self, language: str = "en") -> tuple[Table, ...]:
         """What is kept constant where, and how well."""
-        say, output, kind = speaker(language), str(self.output), self.output.dimension
+        output, kind = str(self.output), self.output.dimension
         first, last = (shown(each, self.mechanism.across) for each in self.zone)
         title = _(
             "{output} is constant by {joint} while the input goes from {first} to {last}",
@@ -78,7 +78,7 @@ class CompensatingCam(Tabular):
             (_("with the cam by"), Amount(self.after, kind)),
             (_("whole lift"), Amount(float(np.ptp(self.lifts)), self.lift_dimension)),
         )
-        return (Table(rows=rows, title=say(title)),)
+        return (Table(rows=rows, title=title),)
 
     def data(self) -> dict[str, Any]:
         """Plain data, SI."""

@@ -13,7 +13,7 @@ from linkwright.cli.solving import Solved, named_columns
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
 from linkwright.core.search import first_largest
-from linkwright.core.table import Column
+from linkwright.core.table import Column, Table
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
@@ -21,8 +21,6 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
 from linkwright.metrics.analysis import Kind
 from linkwright.words import Say, _, language_of, pgettext
-from linkwright.words.characters import aligned
-from linkwright.words.sentence import in_language
 
 Wanted = tuple[Callable[[Forces], Floats], Kind]
 
@@ -57,46 +55,21 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
     )
     pairs = reaction_pairs(forces.mechanism)
     peaks = largest_reactions(solved, degrees=degrees)
-    rows = [
-        tuple(
-            in_language(key, language_of(say))
-            for key in (
-                _("joint"),
-                pgettext("solve", "on"),
-                _("force N"),
-                "Fx N",
-                "Fy N",
-                pgettext("solve", "at input"),
-            )
-        )
-    ]
+    heads = (_("joint"), pgettext("solve", "on"), _("force N"), "Fx N", "Fy N", pgettext("solve", "at input"))
+    rows: list[tuple[str, ...]] = [heads]
     for (joint, link), peak in zip(pairs, peaks, strict=True):
         force = peak.forces.reaction(joint, on=link)[peak.row]
         number = Column("", "", "N", np.array([peak.value]), solved.force_scale).text
         rows.append((joint, link, number(peak.value), number(force[0]), number(force[1]), peak.input))
     wide = 6 if several else 5
-    table = aligned([row[:wide] for row in rows], "<<>>>>"[:wide])
-    heading = say(title)
-    rubbing = rubbing_guides(forces.mechanism)
-    apart = (
-        [
-            say(
-                _(
-                    "The force in a guide is what presses its parts together; its friction, μ times "
-                    "that, along the guide, comes on top: {names}",
-                    names=", ".join(rubbing),
-                )
-            )
-        ]
-        if rubbing
-        else []
+    rubbing = ", ".join(rubbing_guides(forces.mechanism))
+    apart = _(
+        "The force in a guide is what presses its parts together; its friction, μ times "
+        "that, along the guide, comes on top: {names}",
+        names=rubbing,
     )
-    return [
-        heading,
-        *(f"  {line}" for line in table),
-        *apart,
-        *_efforts(solved, forces, say, degrees=degrees),
-    ]
+    notes = [*([apart] if rubbing else []), *_efforts(solved, forces, say, degrees=degrees)]
+    return Table((), [row[:wide] for row in rows], "<<>>>>", title, notes).lines(language_of(say))
 
 
 def largest_reactions(solved: Solved, *, degrees: bool = True) -> list[Place]:

@@ -59,6 +59,11 @@ def with_unit(number: str, unit: str) -> str:
     return f"{number}{'' if unit in ('', '°') else ' '}{unit}"
 
 
+def per_mm(unit: str) -> str:
+    """The unit of a scale, a quantity over a millimetre of paper: ``N/mm``, ``(m/s)/mm``."""
+    return f"({unit})/mm" if "/" in unit else f"{unit}/mm"
+
+
 def unit_of_kind(kind: Dimension) -> tuple[str, float]:
     """The unit in which a dimension is shown that is known by its powers, and the factor from SI; an area is taken
     for a cross section."""

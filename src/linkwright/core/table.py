@@ -133,7 +133,7 @@ class Table:
     def alignment(self) -> str:
         """The alignment of every column."""
         columns = max(map(len, (self.head, *self.rows)))
-        return self.align or ("<" + ">" * columns)[:columns]
+        return (self.align or "<" + ">" * columns)[:columns]
 
     def lines(self, language: str = "en", width: int | None = None) -> list[str]:
         """Title, rows and notes on a terminal; under a heading the rows stand apart, folded within a width, without

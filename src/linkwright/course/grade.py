@@ -101,7 +101,7 @@ class Grades(Tabular, Sequence[Grade]):
             shown = ", ".join([*wrong, *(say(_("{name} (open)", name=name)) for name in open_)])
             score = Amount(round(each.score, 2), scale=PERCENT)
             rows.append([each.student, each.variant, score, shown, said])
-        return (Table([say(head) for head in heads], rows, "<>><<"),)
+        return (Table(heads, rows, "<>><<"),)
 
     def data(self) -> dict[str, Any]:
         """Plain data."""

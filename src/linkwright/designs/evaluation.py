@@ -37,12 +37,12 @@ def tables(comparison: Comparison, language: str = "en") -> tuple[Table, ...]:
         values = zip(row.values, marks, strict=True)
         cells = ("—  " if v is None else Amount(v.value, v.dimension, 5, mark=mark) for v, mark in values)
         rows.append([row.criterion.label(language), *cells])
-    head = [say(_("design number")), *comparison.labels]
-    title = say(_("Ranking (mean over the metrics of how near each comes to the best, 100 = best in all)"))
+    head = [_("design number"), *comparison.labels]
+    title = _("Ranking (mean over the metrics of how near each comes to the best, 100 = best in all)")
     return (
-        Table(head, rows, notes=[say(_("* best of the alternatives"))]),
+        Table(head, rows, notes=[_("* best of the alternatives")]),
         Table(title=title, notes=ranking(comparison, say)),
-        Table(title=say(_("Evaluation")), notes=sentences(comparison, language)),
+        Table(title=_("Evaluation"), notes=sentences(comparison, language)),
         *([Table(notes=comparison.notes)] if comparison.notes else []),
     )
 

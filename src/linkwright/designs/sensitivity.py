@@ -111,9 +111,9 @@ class Sensitivity(Plotted, Tabular, Frozen):
             [summary.name, *map(Amount, (self.values[summary], *row))]
             for summary, row in self.gradients.items()
         ]
-        title = _("Sensitivity of {name!r} (SI units)", name=self.mechanism.name).translate(language)
+        title = _("Sensitivity of {name!r} (SI units)", name=self.mechanism.name)
         curves = _("curves: {curves}; by {names}", curves=", ".join(self.curves), names=", ".join(self.by))
-        head = ["", _("value").translate(language), *(f"∂/∂ {by}" for by in self.by)]
+        head = ["", _("value"), *(f"∂/∂ {by}" for by in self.by)]
         return (Table(head if rows else (), rows, title=title, notes=[curves] if self.curves else []),)
 
     def data(self) -> dict[str, Any]:

@@ -19,16 +19,16 @@ def tables(study: Study, language: str = "en", rows: int = 40) -> tuple[Table, .
     say = speaker(language)
     failures = [_failure(each, say, language) for each in study.failures]
     below = (
-        Table(title=say(_("Best designs")), notes=_best(study, language, say)),
-        Table(title=say(_("Designs that fail")), notes=failures),
+        Table(title=_("Best designs"), notes=_best(study, language, say)),
+        Table(title=_("Designs that fail"), notes=failures),
         Table(notes=study.notes),
     )
-    return (_designs(study, language, rows, say), *(each for each in below if each.notes))
+    return (_designs(study, language, rows), *(each for each in below if each.notes))
 
 
-def _designs(study: Study, language: str, rows: int, say: Say) -> Table:
+def _designs(study: Study, language: str, rows: int) -> Table:
     chosen = _chosen(study.designs, rows)
-    head = [say(pgettext("study", "no.")), *(each.address for each in study.ranges)]
+    head = [pgettext("study", "no."), *(each.address for each in study.ranges)]
     head += [_heading(study, name, language) for name in study.metrics]
     table: list[list[Cell]] = []
     for index in chosen:
@@ -49,7 +49,7 @@ def _designs(study: Study, language: str, rows: int, say: Say) -> Table:
         designs=study.designs,
     )
     notes = [more] if len(chosen) < study.designs else []
-    return Table(head, table, ">" * len(head), say(title), notes)
+    return Table(head, table, ">" * len(head), title, notes)
 
 
 def _chosen(designs: int, rows: int) -> list[int]:

@@ -24,7 +24,7 @@ from linkwright.designs.designs import sweep
 from linkwright.designs.ranges import Range
 from linkwright.designs.sampling import BAD_SEED
 from linkwright.designs.varied_dimensions import varied_ranges
-from linkwright.errors import RequestError, speaker
+from linkwright.errors import RequestError
 from linkwright.export.export import package
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.base import METRICS
@@ -132,7 +132,6 @@ class SweepParts(Tabular):
     def tables(self, language: str = "en", best: str | None = None) -> tuple[Table, ...]:
         """How many designs lie in the folder, the range of every column, SI, notes, and the ten designs that are best
         in a number."""
-        say = speaker(language)
         title = _(
             "{designs} designs in {parts} parts in {folder} ({skipped} were there already); values in SI",
             designs=self.designs,
@@ -140,16 +139,15 @@ class SweepParts(Tabular):
             skipped=self.skipped,
             folder=self.folder,
         )
-        head = [say(each) for each in (_("column"), _("least"), _("greatest"), pgettext("sweep", "designs"))]
+        head = (_("column"), _("least"), _("greatest"), pgettext("sweep", "designs"))
         ranges = self.ranges().items()
         rows: list[list[Cell]] = [[name, Amount(a), Amount(b), count] for name, (a, b, count) in ranges]
-        notes = [_("Note: {text}", text=in_language(note, language)) for note in self.notes]
-        found = [Table(head, rows, title=say(title), notes=notes)]
+        notes = [_("Note: {text}", text=note) for note in self.notes]
+        found = [Table(head, rows, title=title, notes=notes)]
         if best is not None:
             columns = self.best(best)
             designs = [[Amount(float(value)) for value in row] for row in zip(*columns.values(), strict=True)]
-            heading = say(_("Best {number}:", number=best))
-            found.append(Table(list(columns), designs, ">" * len(columns), heading))
+            found.append(Table(list(columns), designs, ">" * len(columns), _("Best {number}:", number=best)))
         return tuple(found)
 
     def data(self, language: str = "en") -> dict[str, Any]:

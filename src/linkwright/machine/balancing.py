@@ -14,7 +14,7 @@ from linkwright.core.given import STEPS, real, require
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import PERCENT, ROUNDING, Amount, Cell, Table, Tabular
 from linkwright.cycle.summary import Summary
-from linkwright.errors import LinkwrightError, RequestError, speaker
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.base import Joint
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
@@ -22,7 +22,6 @@ from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.analysis import Analysis
 from linkwright.words import _
-from linkwright.words.sentence import in_language
 
 Radius = Mapping[str, float] | float
 #: What is compared, by its output.
@@ -65,36 +64,18 @@ class Balancing(Plotted, Tabular, Frozen):
 
     def tables(self, language: str = "en") -> tuple[Table, ...]:
         """The counterweights, places in link axes, where there are any; the peaks without and with them."""
-        say = speaker(language)
         weights: list[list[Cell]] = [
             [each.link, Amount(each.mass, "mass", bare=True),
              *(Amount(value, "length", bare=True) for value in _cleared(each.place))]
             for each in self.counterweights
         ]  # fmt: skip
         peaks: list[list[Cell]] = [
-            [say(PEAKS[name]), unit, Amount(without), Amount(having),
+            [PEAKS[name], unit, Amount(without), Amount(having),
              Amount(having / without, digits=4, scale=PERCENT) if without else ""]
             for name, unit, without, having in self._peaks()
         ]  # fmt: skip
-        head = [
-            in_language(key, language)
-            for key in (
-                _("counterweight on"),
-                _("mass kg"),
-                "x mm",
-                "y mm",
-            )
-        ]
-        beside = [
-            say(key)
-            for key in (
-                _("peak of"),
-                _("unit"),
-                _("without"),
-                _("with"),
-                _("remains"),
-            )
-        ]
+        head = (_("counterweight on"), _("mass kg"), "x mm", "y mm")
+        beside = (_("peak of"), _("unit"), _("without"), _("with"), _("remains"))
         none = _(
             "No counterweight is needed: the links have no mass, or their mass centres lie where they must."
         )

@@ -172,7 +172,7 @@ class MetricsTable(Plotted, Tabular, Sequence[MetricValue]):
             width is not None
             and table.rows
             and max(map(cells, rows)) > width
-            and (fold or table.head[-1] == self._remark(language))
+            and (fold or table.head[-1] == REMARK)
         ):
             lines[2 : 3 + len(table.rows)] = self._beneath(
                 table, width - len(MARK) if fold else None, language
@@ -187,7 +187,7 @@ class MetricsTable(Plotted, Tabular, Sequence[MetricValue]):
                     title=self.title, notes=["", _("none of the design numbers applies to this mechanism")]
                 ),
             )
-        head = [*(head.translate(language) for head in CELLS), self._remark(language)]
+        head = (*CELLS, REMARK)
         rows = [[*texts, _remarks(row, language)] for texts, row in told(self.rows, language)]
         kept = [i for i in range(len(head)) if i < 5 or any(row[i] for row in rows)]
         notes = [f"! {warning}" for warning in self.warnings_in(language)]
@@ -195,13 +195,10 @@ class MetricsTable(Plotted, Tabular, Sequence[MetricValue]):
         cells = [[row[i] for i in kept] for row in rows]
         return (Table([head[i] for i in kept], cells, align, self.title, notes),)
 
-    def _remark(self, language: str) -> str:
-        return REMARK.translate(language)
-
     def _beneath(self, table: Table, width: int | None, language: str) -> list[str]:
         """Lines of the table with each remark on a line of its own beneath its number."""
         rows, remarks, align = table.texts(language), [""] * len(table.rows), table.alignment
-        if table.head[-1] == self._remark(language):
+        if table.head[-1] == REMARK:
             remarks = [row[-1] for row in rows[1:]]
             rows, align = [row[:-1] for row in rows], align[:-1]
         head, *body = aligned_within(rows, align, width)

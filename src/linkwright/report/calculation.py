@@ -84,12 +84,12 @@ def numbers_and_way(found: Result, say: Say, language: str, level: int) -> Itera
 
 
 def _results(found: Result, say: Say, language: str) -> Iterator[Block]:
-    head = (say(_("name")), say(_("value")), say(_("unit")), say(_("remark")))
+    head = (_("name"), _("value"), _("unit"), _("remark"))
     for table in found.tables(language)[1:]:
         width = 4 if any(row[3] for row in table.rows) else 3
         if table.rows:
-            cells = Table(head[:width], [row[:width] for row in table.rows], "<><<"[:width])
-            yield printed(cells, literal(table.title or say(_("Results"))), language, first=_label)
+            title, rows = literal(table.title) or _("Results"), [row[:width] for row in table.rows]
+            yield printed(Table(head[:width], rows, "<><<"[:width], title), language, first=_label)
         for remark in table.notes:
             yield Paragraph(literal(remark))
 

@@ -19,6 +19,7 @@ from linkwright.report.formula import formula
 from linkwright.report.formula_lines import width
 from linkwright.words import Say, _
 from linkwright.words.characters import cells
+from linkwright.words.sentence import in_language
 
 #: Signs that switch a style on and off, and those around the target of a link, a source, the label of a link.
 STYLES = {"strong": "\ue010", "emphasis": "\ue011", "raised": "\ue012", "struck": "\ue013"}
@@ -141,13 +142,12 @@ def _bare(cell: str) -> str:
     return literal(cell.strip())
 
 
-def printed(
-    given: Cells, caption: str, language: str, label: str = "", first: Callable[[str], str] = _bare
-) -> Table:
-    """A table of results as a table of the document; ``first``: how the cells of its first column are written."""
+def printed(given: Cells, language: str, label: str = "", first: Callable[[str], str] = _bare) -> Table:
+    """A table as one of the document, its title as caption; title and heading may hold marks, ``first`` writes the
+    cells of the first column."""
     head, *rows = given.texts(language)
     cells = tuple((first(row[0]), *map(_bare, row[1:])) for row in rows)
-    return Table(caption, tuple(map(literal, head)), cells, given.alignment, label)
+    return Table(in_language(given.title, language), tuple(head), cells, given.alignment, label)
 
 
 @dataclass(frozen=True)

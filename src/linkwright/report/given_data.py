@@ -56,7 +56,7 @@ def given_data(problem: Problem, say: Say) -> Iterator[Block]:
         else:
             single += list(_rows(problem.kind, (key,), value, say))
     if single:
-        head = (say(_("name")), say(_("symbol")), say(_("value")), say(_("unit")))
+        head = tuple(map(say, (_("name"), _("symbol"), _("value"), _("unit"))))
         yield Table(say(_("Given data")), head, tuple(single), "<^><")
     yield from tables
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.quantity import significant
+from linkwright.core.quantity import per_mm, significant
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import LEAST, Pen, Picture, Runs, Words, as_runs, indexed, joined
 from linkwright.plot.diagrams.axes import InputAxis, Unit
@@ -38,8 +38,7 @@ def _scale(symbol: Runs, dimension: str, unit: Unit, chosen: float) -> Runs:
     mu = indexed("μ", symbol[0][0])
     if dimension == "angle":
         return joined(mu, f" = {chosen:g} °/mm")
-    per = f"({si_unit(dimension)})" if "/" in si_unit(dimension) else si_unit(dimension)
-    return joined(mu, f" = {chosen / unit.factor:.6g} {per}/mm")
+    return joined(mu, f" = {chosen / unit.factor:.6g} {per_mm(si_unit(dimension))}")
 
 
 class CurvePanel(Panel):

@@ -9,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.quantity import per_mm
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.labels import Name, put
@@ -56,10 +57,10 @@ class ScaledPanel(Panel):
 
     def drawn(self, size: float, scale: float | None) -> Drawn:
         chosen = scale or preferred(self.reach() / max(size - 10.0, 8.0))
-        per_mm = joined(indexed("μ", self.symbol), f" = {chosen:g} {self.unit}/mm")
+        mu = joined(indexed("μ", self.symbol), f" = {chosen:g} {per_mm(self.unit)}")
         if chosen not in self._pictures:
             self._pictures[chosen] = self.picture(chosen)
-        return Drawn(self._pictures[chosen], (as_runs(self.caption()), per_mm))
+        return Drawn(self._pictures[chosen], (as_runs(self.caption()), mu))
 
 
 class MotionPolygonPanel(ScaledPanel):

@@ -51,7 +51,7 @@ class Structure(Tabular):
         """The structure analysis as a student would write it: mobility, groups in solving order, class, trains."""
         say = speaker(language)
         groups = [_row(number, group, say) for number, group in enumerate(self.groups, 1)]
-        title = say(_("Assur groups in solving order:"))
+        title = _("Assur groups in solving order:")
         return (
             Table(notes=_mobility(self, say)),
             Table((), groups, "<<<<<", title, turned_against(self, say)),
@@ -249,7 +249,7 @@ def _train(train: GearTrain, say: Say) -> Table:
         for wheel, ratio in list(train.ratios.items())[1:]
         if train.planetary
     ]
-    return Table((), rows, "<" * len(rows[0]), say(title), notes)
+    return Table((), rows, "<" * len(rows[0]), title, notes)
 
 
 def _row(number: int, group: Group, say: Say) -> tuple[str, str, str, str, str]:

@@ -181,7 +181,7 @@ class Synthesis(Plotted, Tabular):
         below = [counts_said(self, tell)] if self.counts else []
         return (
             Table(title=title_said(self, tell), notes=[ERRORS[self.error_name]]),
-            Table([tell(each) for each in COLUMNS], rows, "><>><<>>>"),
+            Table(COLUMNS, rows, "><>><<>>>"),
             Table(notes=_dimensions(self, tell)),
             Table(notes=[*below, *self.notes]),
         )

@@ -67,31 +67,27 @@ class Validation(Tabular):
     ) -> tuple[Table, ...]:
         """A row per case with its counts, where asked its source; in full what fails and the errata, or ``every``
         number."""
-        say = speaker(language)
-        heads = (_("case"), _("source"), _("numbers"), _("printed by the source"), _("agree"),
-                 _("largest difference, last digits"))  # fmt: skip
-        rows: list[list[Cell]] = [[say(each) for each in heads]]
+        head = (_("case"), _("source"), _("numbers"), _("printed by the source"), _("agree"),
+                _("largest difference, last digits"))  # fmt: skip
+        rows: list[tuple[Cell, ...]] = []
         for (case, source), checks in self.cases().items():
             agree, worst = sum(each.ok for each in checks), max(abs(each.digits) for each in checks)
-            counts = len(checks), _printed(checks), agree
-            rows.append([case, source, *counts, Amount(worst, digits=2)])
-        head, *cells = rows if sources else [[row[0], *row[2:]] for row in rows]
+            rows.append((case, source, len(checks), _printed(checks), agree, Amount(worst, digits=2)))
+        table = Table(head, rows, "<<>>>>")
+        if not sources:
+            table = Table((head[0], *head[2:]), [(row[0], *row[2:]) for row in rows])
         shown = self.checks if every else [each for each in self.checks if not each.ok or each.erratum]
-        lines = [line(each, language) for each in shown]
-        count = say(
-            _(
-                "{agree} of {all} numbers of {cases} cases agree to the digits given. {printed} are "
-                "printed by their sources, and {errata} of these are printed wrongly; the others are "
-                "derived from what the sources give.",
-                agree=sum(each.ok for each in self.checks),
-                all=len(self.checks),
-                cases=len(self.cases()),
-                printed=_printed(self.checks),
-                errata=sum(each.erratum for each in self.checks),
-            )
+        count = _(
+            "{agree} of {all} numbers of {cases} cases agree to the digits given. {printed} are "
+            "printed by their sources, and {errata} of these are printed wrongly; the others are "
+            "derived from what the sources give.",
+            agree=sum(each.ok for each in self.checks),
+            all=len(self.checks),
+            cases=len(self.cases()),
+            printed=_printed(self.checks),
+            errata=sum(each.erratum for each in self.checks),
         )
-        said = [Table(notes=lines)] if lines else []
-        return Table(list(map(str, head)), cells, "<<>>>>"[1 - sources :]), *said, Table(notes=[count])
+        return table, Table(notes=[line(each, language) for each in shown]), Table(notes=[count])
 
     def data(self) -> dict[str, object]:
         """Plain data."""

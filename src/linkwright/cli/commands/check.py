@@ -40,7 +40,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     results = [(name, checked(name)) for name in options.files]
     if session.json:
-        _show_data(results, session)
+        files = [{"file": name, **found.data()} for name, found in results]
+        session.show_data({"ok": all(entry["ok"] for entry in files), "files": files})
     else:
         for name, found in results:
             _show(name, found, session)
@@ -54,9 +55,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
 def _show(name: str, found: Checked, session: Session) -> None:
     for finding in found.findings:
         session.show(session.finding(finding))
-    errors, fact = sum(finding.severity == "error" for finding in found.findings), found.fact
-    if errors:
-        session.show(session.strong(session.say(_("{name}: errors: {count}", name=name, count=errors))))
+    fact = found.fact
+    if found.errors:
+        session.show(session.strong(session.say(_("{name}: errors: {count}", name=name, count=found.errors))))
     elif "kind" in fact:
         session.show(session.say(_("{name}: fine (kind {kind})", name=name, kind=fact["kind"])))
     else:
@@ -70,17 +71,3 @@ def _show(name: str, found: Checked, session: Session) -> None:
                 )
             )
         )
-
-
-def _show_data(results: list[tuple[str, Checked]], session: Session) -> None:
-
-    files = [
-        {
-            "file": name,
-            "ok": all(finding.severity != "error" for finding in found.findings),
-            **found.fact,
-            "findings": [finding.data() for finding in found.findings],
-        }
-        for name, found in results
-    ]
-    session.show_data({"ok": all(entry["ok"] for entry in files), "files": files})

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.table import Cell, Table
-from linkwright.words import Say, _
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.formula.program import Program
@@ -60,7 +60,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         session.show(session.say(_("{sentence}.", sentence=rank)))
     if program is not None:
         session.show()
-        session.show(_counts(program, session.say))
+        session.show("\n".join(_counts(program).lines(session.language)))
         session.show()
         session.show_as_is(program.text())
     return 0
@@ -80,19 +80,11 @@ def _program(mechanism: Mechanism, forces: bool) -> Program:
     return whole.program((*names[:-1], *whole.outputs.standard)).program
 
 
-def _counts(program: Program, say: Say) -> str:
+def _counts(program: Program) -> Table:
     """Operations in a table: once per design, once per position."""
     counts = program.counts()
     design, position = counts["design"], counts["position"]
     kinds = sorted({*design, *position})
     rows: list[list[Cell]] = [[kind, design.get(kind, 0), position.get(kind, 0)] for kind in kinds]
-    rows.append([say(_("total")), sum(design.values()), sum(position.values())])
-    head = [
-        say(key)
-        for key in (
-            _("operation"),
-            _("per design"),
-            _("per position"),
-        )
-    ]
-    return "\n".join(Table(head, rows).lines())
+    rows.append([_("total"), sum(design.values()), sum(position.values())])
+    return Table((_("operation"), _("per design"), _("per position")), rows)

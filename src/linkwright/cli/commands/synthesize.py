@@ -10,7 +10,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, number_of
 from linkwright.cli.session import Session
 from linkwright.core.table import Amount, Cell, Table
-from linkwright.words import Say, _, pgettext
+from linkwright.words import _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.synthesis.result import Synthesis, SynthesisError
@@ -178,12 +178,12 @@ def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, ses
         return
     session.show(found.text(session.language, session.room) if worked is None else worked.text())
     if efforts:
-        session.show("\n" + "\n".join(_effort_table(efforts, session.say).lines()))
+        session.show("\n" + "\n".join(_effort_table(efforts).lines(session.language)))
     session.show_written(*written)
 
 
-def _effort_table(efforts: list[dict[str, float]], say: Say) -> Table:
-    head = [say(_("no.")), say(_("peak torque")), say(pgettext("synthesize", "peak reaction"))]
+def _effort_table(efforts: list[dict[str, float]]) -> Table:
+    head = (_("no."), _("peak torque"), pgettext("synthesize", "peak reaction"))
     rows: list[list[Cell]] = [
         [number, Amount(each["peak_input_torque"], "torque", 5), Amount(each["peak_reaction"], "force", 5)]
         for number, each in enumerate(efforts, 1)

@@ -21,10 +21,9 @@ LISTED = 24
 
 def tables(found: Optimum, language: str = "en") -> tuple[Table, ...]:
     """The best design beside the start, the front, and notes."""
-    tell = speaker(language)
     name = found.problem.mechanism.name
     best = comparison(found, found.best, language)
-    title = tell(_("{name}: {goals}", name=name, goals=_goals(found, language)))
+    title = _("{name}: {goals}", name=name, goals=_goals(found, language))
     front = [_front(found, language)] if len(found.problem.goals) > 1 else []
     return replace(best, title=title), *front, Table(notes=tuple(_notes(found)))
 
@@ -82,13 +81,7 @@ def label(found: Optimum, text: str, language: str) -> str:
 def comparison(found: Optimum, choice: Choice, language: str) -> Table:
     """A row for every variable and number: name, start, design, change, bounds."""
     tell = speaker(language)
-    head = [
-        tell(_("number")),
-        tell(_("start")),
-        tell(_("found")),
-        tell(_("change")),
-        tell(_("bounds")),
-    ]
+    head = (_("number"), _("start"), _("found"), _("change"), _("bounds"))
     rows: list[list[str]] = []
     for variable, was in zip(found.problem.variables, found.problem.start, strict=True):
         now = choice.values[variable.address]
@@ -138,7 +131,7 @@ def _front(found: Optimum, language: str) -> Table:
         count=count,
         hypervolume=f"{found.hypervolume or 0.0:.4f}",
     )
-    return Table(head, rows, ">" * len(head), title.translate(language))
+    return Table(head, rows, ">" * len(head), title)
 
 
 def _worst(found: Optimum) -> list[str]:

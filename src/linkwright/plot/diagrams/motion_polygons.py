@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.quantity import significant
+from linkwright.core.quantity import per_mm, significant
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.pictures.drawing import BLUE, GREEN, ORANGE, PURPLE, TEAL, Drawing, arrow_rules
@@ -102,7 +102,7 @@ class MotionPolygons(Kind):
         self, source: Source, motion: Motion, polygon: MotionPolygon, scale: float, request: Request
     ) -> Drawing:
         say = request.say
-        scale_text = scale_title(say(_("polygon")), self.letter, f"{significant(scale)} {self.unit}/mm")
+        scale_text = scale_title(say(_("polygon")), self.letter, f"{significant(scale)} {per_mm(self.unit)}")
         bar = f"{significant(BAR * MILLIMETRE * scale)} {self.unit}"
         cells = [
             position_cell(motion, say),

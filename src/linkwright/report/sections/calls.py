@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from linkwright.core.table import Table
 from linkwright.dyads.calls import FORMAL, Call, Calls, NumberedLink, NumberedPoint, calls, length
 from linkwright.dyads.plan import plan
-from linkwright.report.document import Block, Code, Heading, Paragraph, Table, literal
+from linkwright.report.document import Block, Code, Heading, Paragraph, literal, printed
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.numbers import typeset
 from linkwright.report.section import section
@@ -57,18 +58,18 @@ def blocks(case: Case) -> Iterator[Block]:
         yield Paragraph(literal(case.sentence(said)), "note")
 
 
-def _points(case: Case, points: Sequence[NumberedPoint]) -> Table:
+def _points(case: Case, points: Sequence[NumberedPoint]) -> Block:
     say = case.say
     rows = []
     for point in points:
         links = ", ".join(say(_("frame")) if link == "frame" else link for link in point.links)
         place = "–" if point.place is None else f"({length(point.place.real)}, {length(point.place.imag)})"
-        rows.append((str(point.number), literal(case.sentence(point.name)), literal(links), literal(place)))
-    head = (say(_("n")), say(_("point")), say(pgettext("calls", "on")), say(_("fixed place / m")))
-    return Table(say(_("Numbers of the points")), head, tuple(rows), "><<<")
+        rows.append((point.number, case.sentence(point.name), links, place))
+    head = (_("n"), _("point"), pgettext("calls", "on"), _("fixed place / m"))
+    return printed(Table(head, rows, "><<<", _("Numbers of the points")), case.language)
 
 
-def _links(case: Case, made: Calls) -> Table:
+def _links(case: Case, made: Calls) -> Block:
     """Links, and guides that need a direction of their own; masses where forces are found."""
     say, width = case.say, 5 if made.forces else 3
     rows = []
@@ -76,16 +77,10 @@ def _links(case: Case, made: Calls) -> Table:
         part = case.mechanism.links.get(link.name)
         mass, inertia = (length(part.mass), length(part.inertia)) if part else ("–", "–")
         name = link.name if part else say(_("direction of guide {guide}", guide=link.name))
-        cells = (str(link.number), literal(name), literal(_direction(case, link)), mass, inertia)
+        cells = (str(link.number), name, _direction(case, link), mass, inertia)
         rows.append(tuple(map(typeset, cells[:width])))
-    head = (
-        say(_("k")),
-        say(_("link")),
-        say(_("t(k)")),
-        say(_("mass / kg")),
-        say(_("moment of inertia / kg·m²")),
-    )[:width]
-    return Table(say(_("Numbers of the links")), head, tuple(rows), "><<>>"[:width])
+    head = (_("k"), _("link"), _("t(k)"), _("mass / kg"), _("moment of inertia / kg·m²"))[:width]
+    return printed(Table(head, rows, "><<>>"[:width], _("Numbers of the links")), case.language)
 
 
 def _direction(case: Case, link: NumberedLink) -> str:
@@ -136,17 +131,12 @@ def _program(group: Sequence[Call]) -> str:
     return "\n".join(f"Call {call.text}" for call in group)
 
 
-def _tables(case: Case, group: Sequence[Call]) -> Iterator[Table]:
+def _tables(case: Case, group: Sequence[Call]) -> Iterator[Block]:
     """A table for every subprogram, a row for every call."""
-    say = case.say
     for name in FORMAL:
         mine = [call for call in group if call.name == name]
         if mine:
-            head = (say(_("formal:")), *FORMAL[name])
-            rows = tuple((literal(", ".join(call.links)), *map(typeset, call.actual)) for call in mine)
-            yield Table(
-                say(_("{name}: formal arguments (head) and actual ones", name=name)),
-                head,
-                rows,
-                "<" + "^" * len(FORMAL[name]),
-            )
+            head = (_("formal:"), *FORMAL[name])
+            rows = [(", ".join(call.links), *map(typeset, call.actual)) for call in mine]
+            title = _("{name}: formal arguments (head) and actual ones", name=name)
+            yield printed(Table(head, rows, "<" + "^" * len(FORMAL[name]), title), case.language)

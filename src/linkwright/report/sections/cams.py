@@ -9,13 +9,13 @@ import numpy as np
 
 from linkwright.cams.joint import cam_of
 from linkwright.cams.result import CamDesign
-from linkwright.core.quantity import number
+from linkwright.core.table import Amount, Cell, Table
 from linkwright.errors import with_remedy
 from linkwright.joints.cam import CamJoint
 from linkwright.laws.base import LABELS
 from linkwright.laws.program import MotionProgram
 from linkwright.report.calculation import numbers_and_way
-from linkwright.report.document import Block, Heading, Paragraph, Table, literal
+from linkwright.report.document import Block, Heading, Paragraph, literal, printed
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.words import _
@@ -74,18 +74,18 @@ def _speed(case: Case, joint: CamJoint) -> float:
     return float(known[0]) if np.ptp(known) <= 1e-9 * abs(known[0]) else 0.0
 
 
-def _program(case: Case, program: MotionProgram, lift_unit: str) -> Table:
+def _program(case: Case, program: MotionProgram, lift_unit: str) -> Block:
     """The segments of a program: from where to where, lifts, law."""
-    say, kind = case.say, "angle" if lift_unit == "°" else "length"
+    kind = "angle" if lift_unit == "°" else "length"
     ends = list(itertools.pairwise(program.edges))
     lifts = list(itertools.pairwise(program.lift_at_edges))
-    rows = tuple(
-        (str(index), *(number(each, "angle") for each in place), *(number(each, kind) for each in lift),
-         literal(say(LABELS[law]) if law in LABELS else law))
+    rows: list[list[Cell]] = [
+        [index, *(Amount(each, "angle", bare=True) for each in place),
+         *(Amount(each, kind, bare=True) for each in lift), LABELS.get(law, law)]
         for index, (place, lift, law) in enumerate(zip(ends, lifts, program.law_names, strict=True), 1)
-    )  # fmt: skip
+    ]  # fmt: skip
     head = (
-        say(_("no.")), say(_("from $\\varphi$ / °")), say(_("to $\\varphi$ / °")),
-        say(_("lift from")) + f" / {lift_unit}", say(_("lift to")) + f" / {lift_unit}", say(_("law")),
+        _("no."), _("from $\\varphi$ / °"), _("to $\\varphi$ / °"), case.say(_("lift from")) + f" / {lift_unit}",
+        case.say(_("lift to")) + f" / {lift_unit}", _("law"),
     )  # fmt: skip
-    return Table(say(_("Motion program")), head, rows, ">>>>><")
+    return printed(Table(head, rows, ">>>>><", _("Motion program")), case.language)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from linkwright.designs.evaluation import ranking, sentences
 from linkwright.errors import LinkwrightError
@@ -10,6 +11,7 @@ from linkwright.report.document import Block, Figure, Heading, Paragraph, litera
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.words import _
+from linkwright.words.sentence import in_language
 
 
 @section("comparison", _("Comparison and evaluation"), 20.0, optional=True, common=True)
@@ -30,7 +32,9 @@ def blocks(cases: Sequence[Case]) -> Iterator[Block]:
             raise Missing(error.sentence) from None
         raise
     table = found.tables(first.language)[0]
-    yield printed(table, say(_("Design numbers of the alternatives")), first.language, "comparison")
+    head = [literal(in_language(each, first.language)) for each in table.head]
+    alternatives = replace(table, head=head, title=_("Design numbers of the alternatives"))
+    yield printed(alternatives, first.language, "comparison")
     for note in table.notes:
         yield Paragraph(literal(note))
     yield Heading(say(_("Ranking")), 2)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from linkwright.report.document import Block, Paragraph, Table, literal
+from linkwright.core.table import Table
+from linkwright.report.document import Block, Paragraph, literal, printed
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.report.settings import Erratum
-from linkwright.words import Say, _
+from linkwright.words import Say, _, language_of
 
 
 @section("errata", _("Mistakes of the source"), 13.0, optional=True)
@@ -31,6 +32,6 @@ def errata_blocks(found: Sequence[Erratum], source: str, say: Say) -> Iterator[B
             )
         )
     )
-    head = (say(_("where")), say(_("printed")), say(_("right")), say(_("why")))
-    rows = tuple(tuple(map(literal, (e.where, e.printed, e.right, e.why))) for e in found)
-    yield Table(say(_("Mistakes of the source")), head, rows, "<<<<", "errata")
+    rows = [(e.where, e.printed, e.right, e.why) for e in found]
+    table = Table((_("where"), _("printed"), _("right"), _("why")), rows, "<<<<", _("Mistakes of the source"))
+    yield printed(table, language_of(say), "errata")

@@ -51,10 +51,10 @@ def blocks(case: Case) -> Iterator[Block]:
                 )
             )
         )
-    head = (say(_("design number")), say(_("value")), say(_("unit")), say(_("at the input")))
+    head = (_("design number"), _("value"), _("unit"), _("at the input"))
     rows = [row for table in running.tables(case.language, digits=6) for row in table.rows]
-    caption = say(_("Motor, energy fluctuation and flywheel"))
-    yield printed(Table(head, rows, "<><>"), caption, case.language, "flywheel")
+    table = Table(head, rows, "<><>", _("Motor, energy fluctuation and flywheel"))
+    yield printed(table, case.language, "flywheel")
     yield from _speed(case)
     yield from pictures(case, ("energy",))
 

@@ -6,13 +6,14 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from linkwright.core.quantity import number
+from linkwright.core.table import Amount, Cell, Table
 from linkwright.equations.notation import Fraction, Row, row, sign
 from linkwright.equations.reading import read, read_name
 from linkwright.errors import LinkwrightError
 from linkwright.gears.gear import Gear
 from linkwright.gears.pair import GearPair, gear_pair
 from linkwright.mechanism.wheel_sizes import WheelSizes, wheel_sizes
-from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, Table, literal
+from linkwright.report.document import Block, Figure, Formula, Heading, Paragraph, literal, printed
 from linkwright.report.machine_results import Case, Missing
 from linkwright.report.section import section
 from linkwright.structure.trains import GearTrain, written
@@ -44,14 +45,21 @@ def blocks(case: Case) -> Iterator[Block]:
         yield from _teeth(case, names, pairs[names[0]])
 
 
-def _sizes(case: Case, pairs: Mapping[str, WheelSizes]) -> Table:
-    say = case.say
-    rows = tuple(tuple(map(literal, _row(case, name, sizes))) for name, sizes in pairs.items())
+def _sizes(case: Case, pairs: Mapping[str, WheelSizes]) -> Block:
+    rows = [_row(case, name, sizes) for name, sizes in pairs.items()]
     head = (
-        say(_("joint")), say(_("kind")), say(_("wheels")), "$z$", "$m$ / mm", "$r$ / mm",
-        "$a$ / mm", r"$\alpha$ / °", "$i$",
-    )  # fmt: skip
-    return Table(say(_("Pairs of wheels and racks")), head, rows, "<<<>>>>>>", "wheels")
+        _("joint"),
+        _("kind"),
+        _("wheels"),
+        "$z$",
+        "$m$ / mm",
+        "$r$ / mm",
+        "$a$ / mm",
+        r"$\alpha$ / °",
+        "$i$",
+    )
+    table = Table(head, rows, "<<<>>>>>>", _("Pairs of wheels and racks"))
+    return printed(table, case.language, "wheels")
 
 
 def _row(case: Case, name: str, sizes: WheelSizes) -> tuple[str, ...]:
@@ -89,9 +97,8 @@ def _train(case: Case, train: GearTrain) -> Iterator[Block]:
             carrier=held,
         )
     )
-    head = (say(pgettext("report", "motion")), *wheels, *carrier)
-    yield Table(literal(caption), tuple(map(literal, head)),
-                tuple(tuple(map(literal, row)) for row in rows), "<" + ">" * (len(head) - 1))  # fmt: skip
+    head = (pgettext("report", "motion"), *map(literal, (*wheels, *carrier)))
+    yield printed(Table(head, rows, title=literal(caption)), case.language)
     omega = {name: read_name(f"ω{number}") for name, number in case.heads.numbers.items()}
     first = omega[train.first]
     for wheel, ratio in list(train.ratios.items())[1:]:
@@ -170,14 +177,13 @@ angle=number(mesh.working_pressure_angle, "angle"),
                  ((mesh.draw(language=case.language).svg, 0.7),), tallest=110.0)  # fmt: skip
 
 
-def _diameters(case: Case, mesh: GearPair, names: list[str]) -> Table:
-    say = case.say
-    rows = tuple(
-        (literal(name), str(gear.teeth), *(number(each, "length") for each in _circles(gear)))
+def _diameters(case: Case, mesh: GearPair, names: list[str]) -> Block:
+    rows: list[list[Cell]] = [
+        [name, gear.teeth, *(Amount(each, "length", bare=True) for each in _circles(gear))]
         for name, gear in zip(names, (mesh.pinion, mesh.wheel), strict=True)
-    )
-    head = (say(_("link")), "$z$", "$d$ / mm", "$d_{b}$ / mm", "$d_{a}$ / mm", "$d_{f}$ / mm", "$s$ / mm")
-    return Table(say(_("Circles and teeth")), head, rows, "<>>>>>>")
+    ]
+    head = (_("link"), "$z$", "$d$ / mm", "$d_{b}$ / mm", "$d_{a}$ / mm", "$d_{f}$ / mm", "$s$ / mm")
+    return printed(Table(head, rows, title=_("Circles and teeth")), case.language)
 
 
 def _circles(gear: Gear) -> tuple[float, ...]:

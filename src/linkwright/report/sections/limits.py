@@ -29,9 +29,9 @@ def blocks(case: Case) -> Iterator[Block]:
     yield from _quick_return(case, rows)
     for metric in dict.fromkeys(row.metric for row in rows):
         case.used[metric] = None
-    head = [say(each) for each in (*CELLS[:4], _("at the input"), _("recommended"))]
-    table = Table(head, [cells for cells, _unused in told(rows, case.language)], "<<><>>")
-    yield printed(table, say(_("Design numbers")), case.language, "numbers")
+    head = (*CELLS[:4], _("at the input"), _("recommended"))
+    cells = [cells for cells, _unused in told(rows, case.language)]
+    yield printed(Table(head, cells, "<<><>>", _("Design numbers")), case.language, "numbers")
     for sentence in case.metrics.warnings_in(case.language):
         yield Paragraph(literal(sentence), "note")
 

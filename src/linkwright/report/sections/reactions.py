@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.core.quantity import shown
+from linkwright.core.table import Amount, Cell, Table
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
 from linkwright.plot.diagrams.base import title_of
-from linkwright.report.document import Block, Figure, Paragraph, Table, literal
+from linkwright.report.document import Block, Figure, Paragraph, literal, printed
 from linkwright.report.machine_results import Case
 from linkwright.report.numbers import ROUNDING, faded
 from linkwright.report.section import section
@@ -43,13 +43,13 @@ def blocks(case: Case) -> Iterator[Block]:
         )
     )
     peaks = [row for row in case.metrics if row.metric == "peak_reaction"]
-    rows = tuple(
-        (literal(in_words(row.subject, case.language)), shown(row.value, row.dimension),
-         "" if row.at is None else shown(faded(row.at), row.at_dimension)) for row in peaks
-    )  # fmt: skip
+    rows: list[list[Cell]] = [
+        [in_words(row.subject, case.language), Amount(row.value, row.dimension),
+         None if row.at is None else Amount(faded(row.at), row.at_dimension)] for row in peaks
+    ]  # fmt: skip
     if rows:
-        head = (say(_("joint")), say(_("largest force")), say(_("at the input")))
-        yield Table(say(_("Largest force in every joint")), head, rows, "<>>", "peaks")
+        head = (_("joint"), _("largest force"), _("at the input"))
+        yield printed(Table(head, rows, "<>>", _("Largest force in every joint")), case.language, "peaks")
     if rubbing := rubbing_guides(case.mechanism):
         yield Paragraph(
             literal(

@@ -6,11 +6,12 @@ import re
 from collections.abc import Iterator, Sequence
 from inspect import getdoc
 
+from linkwright.core.table import Table
 from linkwright.elements.topology import Group
 from linkwright.errors import LinkwrightError
 from linkwright.groups.base import DYADS
 from linkwright.metrics.base import METRICS
-from linkwright.report.document import Block, Sources, Table, literal
+from linkwright.report.document import Block, Sources, literal, printed
 from linkwright.report.machine_results import Case
 from linkwright.report.markdown import own_words
 from linkwright.report.section import section
@@ -52,15 +53,12 @@ def _groups(case: Case) -> Sequence[Group]:
 
 def _definitions(cases: Sequence[Case]) -> Iterator[Block]:
     """Where the design numbers of the report are defined."""
-    say, language = cases[0].say, cases[0].language
     names = dict.fromkeys(name for case in cases for name in case.used)
-    rows = tuple(
-        (literal(METRICS[name]().label_in(language)), literal(_titles(METRICS[name].source, cases[0])))
-        for name in names
-    )
+    language = cases[0].language
+    rows = [(METRICS[name]().label_in(language), _titles(METRICS[name].source, cases[0])) for name in names]
     if rows:
-        head = (say(_("design number")), say(_("defined in")))
-        yield Table(say(_("Definitions of the design numbers")), head, rows, "<<")
+        head = (_("design number"), _("defined in"))
+        yield printed(Table(head, rows, "<<", _("Definitions of the design numbers")), language)
 
 
 def _titles(source: str, case: Case) -> str:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from linkwright.core.table import Cell, Table
 from linkwright.equations.reading import sides
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import JOINTS
 from linkwright.kinematics.rank_of_motion import rank_sentence
-from linkwright.report.document import Block, Figure, Formula, Paragraph, Table, literal, symbols
+from linkwright.report.document import Block, Figure, Formula, Paragraph, literal, printed, symbols
 from linkwright.report.group_pictures import group_picture, to_one_scale
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
@@ -71,23 +72,15 @@ def _mobility(case: Case) -> Formula:
     return Formula(sides(f"F = {symbols} = {numbers} = {case.structure.grubler}"), "mobility")
 
 
-def _groups(case: Case) -> Table:
-    say, rows = case.say, []
+def _groups(case: Case) -> Block:
+    rows: list[list[Cell]] = []
     for number, group in enumerate(case.structure.groups, 1):
         outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))
         inner = ", ".join(dict.fromkeys(c.joint for c in group.inner_joints))
-        level = numeral(group.assur_class, say)
-        kind = say(_("driven link")) if group.assur_class == 1 and group.drivers else group.signature
-        rows.append(tuple(map(literal, (
-            str(number), kind, ", ".join(group.links), level, str(group.assur_order), outer, inner or "–",
-        ))))  # fmt: skip
-    head = (
-        say(_("step")),
-        say(_("group")),
-        say(_("links")),
-        say(_("class")),
-        say(pgettext("report", "order")),
-        say(_("outer joints")),
-        say(_("inner joints")),
-    )
-    return Table(say(_("Assur groups in solving order")), head, tuple(rows), "<<<<<<<", "groups")
+        kind = _("driven link") if group.assur_class == 1 and group.drivers else group.signature
+        level = numeral(group.assur_class, case.say)
+        rows.append([number, kind, ", ".join(group.links), level, group.assur_order, outer, inner or "–"])
+    head = (_("step"), _("group"), _("links"), _("class"), pgettext("report", "order"), _("outer joints"),
+            _("inner joints"))  # fmt: skip
+    groups = Table(head, rows, "<<<<<<<", _("Assur groups in solving order"))
+    return printed(groups, case.language, "groups")

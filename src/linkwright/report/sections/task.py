@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.quantity import number
+from linkwright.core.table import Amount, Cell, Table
 from linkwright.drivers.base import LABELS as DRIVER_LAWS
 from linkwright.files.write import to_data
 from linkwright.joints.base import PAIRS
 from linkwright.laws.base import LABELS
-from linkwright.report.document import Block, Paragraph, Table, literal
+from linkwright.report.document import Block, Paragraph, literal, printed
 from linkwright.report.key_names import MODEL_KEYS, VALUES
 from linkwright.report.machine_results import Case
 from linkwright.report.section import section
@@ -58,10 +59,8 @@ def blocks(case: Case) -> Iterator[Block]:
     yield _points(case)
     yield _links(case)
     if mechanism.parameters:
-        rows = tuple(
-            (literal(name), literal(written(value, say))) for name, value in data["parameters"].items()
-        )
-        yield Table(say(_("Parameters")), (say(_("name")), say(_("value"))), rows, "<>")
+        rows = [(name, written(value, say)) for name, value in data["parameters"].items()]
+        yield printed(Table((_("name"), _("value")), rows, "<>", _("Parameters")), case.language)
     drivers = {"driver": data["driver"]} if "driver" in data else data.get("drivers", {})
     for title, part in (
         (_("Joints beside the pins"), data.get("joints", {})),
@@ -69,28 +68,25 @@ def blocks(case: Case) -> Iterator[Block]:
         (_("Loads"), data.get("loads", {})),
     ):
         if part:
-            head = (say(_("name")), say(_("kind")), say(pgettext("report", "given")))
-            body = tuple((literal(name), literal(kind_of(value, say)), literal(given(value, say)))
-                         for name, value in part.items())  # fmt: skip
-            yield Table(say(title), head, body, "<<<")
+            body = [(name, kind_of(value, say), given(value, say)) for name, value in part.items()]
+            head = (_("name"), _("kind"), pgettext("report", "given"))
+            yield printed(Table(head, body, "<<<", title), case.language)
     if any(mechanism.gravity):
         x, y = (f"{value:g}" for value in mechanism.gravity)
         yield Paragraph(say(_("Gravity acts with ({x}; {y}) m/s².", x=x, y=y)))
 
 
-def _points(case: Case) -> Table:
-    say = case.say
-    rows = tuple(
-        (literal(name), number(x, "length"), number(y, "length"))
-        for name, (x, y) in case.mechanism.frame.points.items()
-    )
-    return Table(
-        say(_("Points of the frame")), (say(_("point")), "$x$ / mm", "$y$ / mm"), rows, "<>>", "frame"
-    )
+def _points(case: Case) -> Block:
+    rows: list[list[Cell]] = [
+        [name, *(Amount(each, "length", bare=True) for each in place)]
+        for name, place in case.mechanism.frame.points.items()
+    ]
+    head = (_("point"), "$x$ / mm", "$y$ / mm")
+    return printed(Table(head, rows, "<>>", _("Points of the frame")), case.language, "frame")
 
 
-def _links(case: Case) -> Table:
-    say, rows = case.say, []
+def _links(case: Case) -> Block:
+    rows: list[tuple[Cell, ...]] = []
     for index, (name, link) in enumerate(case.mechanism.links.items(), 1):
         points = [f"{point} {_place(*at)}" for point, at in link.points.items()]
         named = list(link.points)
@@ -100,14 +96,12 @@ def _links(case: Case) -> Table:
             size = number(float(np.hypot(bx - ax, by - ay)), "length")
         centre = _place(*link.centre) if link.mass else "–"
         rows.append(
-            (str(index), literal(name), literal(", ".join(points)), size, _or_dash(link.mass),
+            (index, name, ", ".join(points), size, _or_dash(link.mass),
              _or_dash(link.inertia), centre)
         )  # fmt: skip
-    head = (
-        say(_("no.")), say(_("link")), say(_("points in the link's axes, mm")), "$l$ / mm", "$m$ / kg",
-        "$J_G$ / kg·m²", say(_("mass centre, mm")),
-    )  # fmt: skip
-    return Table(say(_("Moving links")), head, tuple(rows), "<<<>>><", "links")
+    head = (_("no."), _("link"), _("points in the link's axes, mm"), "$l$ / mm", "$m$ / kg", "$J_G$ / kg·m²",
+            _("mass centre, mm"))  # fmt: skip
+    return printed(Table(head, rows, "<<<>>><", _("Moving links")), case.language, "links")
 
 
 def _place(x: float, y: float) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.core.quantity import significant
+from linkwright.core.quantity import per_mm, significant
 from linkwright.pictures.labels import Name
 from linkwright.pictures.picture import Picture, Runs, as_runs, indexed, joined
 from linkwright.sheets.cams.division import Paper, divided, inverted, pair, pitch_of, sharpest, widest_gap
@@ -25,7 +25,7 @@ def equal(symbol: Runs, value: float, unit: str, digits: int = 4) -> Runs:
 
 def graphical(index: str, value: float, unit: str) -> Runs:
     """``μ_s = 0.5 mm/mm``: a quantity per millimetre of paper; ``unit`` empty for a plain number."""
-    over = f"({unit})/mm" if "/" in unit else f"{unit}/mm"
+    over = per_mm(unit)
     gap = "" if over[0] in "°/" else " "
     return joined(indexed("μ", index), f" = {significant(value)}{gap}{over}")
 
