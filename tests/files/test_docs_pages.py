@@ -46,6 +46,8 @@ def test_the_gallery_shows_every_model(language: str) -> None:
     assert all(
         f":link: {name}\n" in index and f"pictures/{name}.svg" in index for name in every(gallery.names())
     )
+    by_kinds = re.findall(r"(?m)^\| `(\w+)` \| .+ \| .+ \|$", "\n".join(pages.gallery_by_kinds(language)))
+    assert sorted(by_kinds) == sorted(gallery.names())
     page = "\n".join(pages.gallery_page("truss", language))
     assert "linkwright structure gallery:truss" in page and gallery.file("truss").read_text("utf-8") in page
 
