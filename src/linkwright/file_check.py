@@ -94,14 +94,14 @@ def checked_text(text: str, place: str, folder: str = "", source: str = "") -> C
         from linkwright.parts.file import HEADING, read_calculation
 
         _unused, found = read_calculation(root, faults, place, folder)
-        return Checked([*found, *_of_sections(root, HEADING, place, folder)], {"kind": kind})
+        return Checked(_with_sections(found, root, HEADING, place, folder), {"kind": kind})
     if is_task(root):
         reader, task = Reader(place), below(root, "synthesis", "task")
         reader.table(cast(Node, root), Place("", ""), {key: HEADER[key] for key in TASK_KEYS})
-        found = [*faults, *reader.findings, *_of_sections(root, TASK_KEYS, place, folder)]
+        found = _with_sections([*faults, *reader.findings], root, TASK_KEYS, place, folder)
         return Checked(found, {"kind": f"synthesis, {task.text if isinstance(task, Scalar) else ''}"})
     mechanism, found = read_tree(root, faults, place)
-    found = [*found, *_of_sections(root, HEADER, place, folder)]
+    found = _with_sections(found, root, HEADER, place, folder)
     if mechanism is None:
         return Checked(found)
     rests = any(each.code == "no-motion" for each in found)
@@ -110,15 +110,18 @@ def checked_text(text: str, place: str, folder: str = "", source: str = "") -> C
     return Checked([*found, *(new if fact else (replace(each, key="") for each in new))], fact)
 
 
-def _of_sections(root: Node | None, keys: Iterable[str], place: str, folder: str) -> list[Finding]:
-    """What is wrong with the sections that only some commands read, whatever is wrong with the others."""
+def _with_sections(
+    found: list[Finding], root: Node | None, keys: Iterable[str], place: str, folder: str
+) -> list[Finding]:
+    """The findings, and what is wrong with the sections that only some commands read, whatever else is wrong."""
     reader = Reader(place)
     for key in keys:
         if key in SECTIONS and (node := below(root, key)) is not None:
             loaded(SECTIONS[key]).read(reader, node, Place(key, key), {})
     report = below(root, "report")
     more = _of_report(reader.free(report), None, folder) if isinstance(report, MappingNode) else []
-    return [*reader.findings, *_placed(more, reader.findings, place, root, place)]
+    found = [*found, *(each for each in reader.findings if each not in found)]
+    return [*found, *_placed(more, found, place, root, place)]
 
 
 def _placed(

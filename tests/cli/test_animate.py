@@ -50,7 +50,7 @@ def test_mp4(tmp_path: Path) -> None:
         (["--paths", "Q"], "names.no_such", {"name": "--paths", "noun": "point"}),
         (["--curves", "jaw.angel"], "study.no_such_output", {"offer": "jaw.angle"}),
         (["--seconds", "3 kg"], "wrong-dimension", {"name": "--seconds", "text": "3 kg"}),
-        (["--frames", "many"], "cli.bad_whole", {"name": "--frames", "value": "many"}),
+        (["--frames", "many"], "range", {"text": "many"}),
     ],
 )
 def test_wrong_usage(options: list[str], code: str, values: dict[str, object], tmp_path: Path) -> None:

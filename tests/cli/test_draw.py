@@ -112,7 +112,7 @@ def test_png_and_pdf(tmp_path: Path) -> None:
         (["--at", "30 deg, 40 deg"], "draw.one_position", {"option": "--at"}),
         (["--at", "1 deg", "--time", "1 s"], "cli.not_together", {"name": "--time", "other": "--at"}),
         (["--labels", "some"], "cli.bad_choice", {"choices": {"all", "points", "none"}}),
-        (["--steps", "0"], "cli.bad_whole", {"name": "--steps", "value": "0"}),
+        (["--steps", "0"], "range", {"text": "0"}),
     ],
 )
 def test_wrong_usage(options: list[str], code: str, values: dict[str, object], tmp_path: Path) -> None:

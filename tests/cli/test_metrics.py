@@ -82,7 +82,7 @@ def test_the_numbers_are_written(tmp_path: Path) -> None:
         (["--names", "stroke,,grashof"], "metrics.no_names", {"text": "stroke,,grashof"}),
         (["--names", "grashof"], "metrics.does_not_apply", {"name": "grashof"}),
         (["--names", "peak_reaction"], "metrics.unloaded", {"names": {"peak_reaction"}}),
-        (["--steps", "0"], "cli.bad_whole", {"name": "--steps"}),
+        (["--steps", "0"], "range", {"text": "0"}),
     ],
 )
 def test_wrong_names_are_refused(arguments: list[str], code: str, values: dict[str, object]) -> None:

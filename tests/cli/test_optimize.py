@@ -68,10 +68,10 @@ def test_what_cannot_be_met_is_shown_with_the_nearest_design() -> None:
 
 def test_misuse() -> None:
     search = [*SEARCH, "--minimize", "flywheel"]
-    is_refused([*search, "--keep", "jaw"], "optimize.bad_pair", text="jaw")
+    is_refused([*search, "--keep", "jaw"], "syntax", text="jaw")
     is_refused(["optimize", "gallery:jaw_crusher_sixbar"], "optimize.no_section")
     twice = ["--vary", "crank.length=1..2m", "crank.length=2..3m"]
-    is_refused([*search, *twice], "optimize.given_twice", name="crank.length")
+    is_refused([*search, *twice], "duplicate-key", name="crank.length")
 
 
 PRESS = """

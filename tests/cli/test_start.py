@@ -65,7 +65,7 @@ SLIPS: list[tuple[list[str], str, dict[str, object]]] = [
     (["solve", "m", "--step", "3"], "cli.unknown_option", {"name": "--step", "offer": "--steps"}),
     (["solve"], "cli.missing", {"names": {"FILE"}}),
     (["solve", "gallery:crank_rokcer"], "no-file", {"name": "crank_rokcer"}),
-    (["solve", "m", "--steps", "0"], "cli.bad_whole", {"name": "--steps", "value": "0"}),
+    (["solve", "m", "--steps", "0"], "range", {"text": "0"}),
     (["solve", "m", "--steps"], "cli.needs_value", {"name": "--steps"}),
     (
         ["solve", "m", "--steps", "3", "--at", "0 deg"],
@@ -94,7 +94,10 @@ def test_slips_are_named_in_one_sentence(arguments: list[str], code: str, values
 
 def test_data_of_a_refusal_have_its_code() -> None:
     slip = data("solve", "gallery:kite", "--steps", "0", code=2)
-    assert (slip["ok"], slip["code"], slip["findings"]) == (False, "cli.bad_whole", [])
+    assert (slip["ok"], slip["code"]) == (False, "range")
+    assert [each["key"] for each in slip["findings"]] == ["--steps"]
+    slip = data("solve", "gallery:kite", "--colums", "x", code=2)
+    assert (slip["ok"], slip["code"], slip["findings"]) == (False, "cli.unknown_option", [])
 
 
 @pytest.mark.parametrize(

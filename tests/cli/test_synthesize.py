@@ -83,7 +83,7 @@ def test_picture(tmp_path: Path) -> None:
     [
         (["synthesize", "nothing.yaml"], "no-file", {}),
         (["synthesize", "slider_crank", "stroke"], "synthesize.bad_demand", {"text": "stroke"}),
-        ([*PRESS, "--mass", "x"], "synthesize.bad_mass", {"text": "x"}),
+        ([*PRESS, "--mass", "x"], "type", {"text": "x"}),
         ([*PRESS, "--speed", "50 mm"], "wrong-dimension", {"name": "speed", "text": "50 mm"}),
         ([*PRESS, "--output", f"{__file__}/models"], "file.no_folder_there", {"there": __file__}),
         ([*PRESS, "--output", "/proc/models"], "file.cannot_make", {"path": "/proc/models"}),

@@ -54,9 +54,9 @@ def test_an_unknown_kind_lists_the_kinds(tmp_path: Path) -> None:
     ("options", "code", "values"),
     [
         (["--output", "x.bmp"], "cli.bad_suffix", {"path": "x.bmp", "endings": (".svg", ".pdf", ".png")}),
-        (["--dpi", "nan"], "plot.bad_dpi", {"text": "nan"}),
-        (["--fluctuation", "0"], "picture.no_use", {"option": "fluctuation", "users": ("speed",)}),
-        (["--kind", "speed", "--fluctuation", "0"], "plot.bad_fluctuation", {"text": "0"}),
+        (["--dpi", "nan"], "type", {"text": "nan"}),
+        (["--fluctuation", "0.1"], "picture.no_use", {"option": "fluctuation", "users": ("speed",)}),
+        (["--kind", "speed", "--fluctuation", "0"], "range", {"shown": "0"}),
         (["--kind", "hodograph", "--joint", "O55"], "names.no_such", {"name": "O55", "offer": "O1"}),
         (["--kind", "velocity_polygon", "--at", "30"], "missing-unit", {"name": "--at", "right": "30 deg"}),
         (["--kind", "velocity_polygon", "--at", "foo"], "quantity", {"name": "--at", "text": "foo"}),

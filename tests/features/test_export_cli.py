@@ -44,7 +44,7 @@ def test_a_file_that_exists_is_kept_without_force(tmp_path: Path, capsys: pytest
         (["--output", "a.csv", "--curve", "spline"], "export.no_option", {"name": "csv", "option": "curve"}),
         (["--output", "a.csv", "--format", "exel"], "cli.bad_choice", {"name": "--format", "value": "exel"}),
         (["--output", "no/folder/a.csv"], "file.no_folder", {"path": "no/folder"}),
-        (["--output", "a.csv", "--steps", "0"], "cli.bad_whole", {"name": "--steps", "value": "0"}),
+        (["--output", "a.csv", "--steps", "0"], "range", {"text": "0"}),
         ([], "cli.missing", {"names": ("--output",)}),
     ],
 )

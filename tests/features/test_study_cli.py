@@ -73,18 +73,18 @@ def test_the_studys_designs_that_cannot_move_are_told(capsys: pytest.CaptureFixt
     [
         (["compare", SIX], 2, "compare.too_few", {}),
         (["compare", SIX, "gallery:shaper_quick_return"], 1, "study.no_common_output", {"names": ("rocker", "jaw")}),
-        (["compare", SIX, FOUR, "--weights", "flywheel"], 2, "compare.bad_weight", {"text": "flywheel"}),
-        (["compare", SIX, FOUR, "--fluctuation", "no"], 2, "compare.bad_fluctuation", {"text": "no"}),
+        (["compare", SIX, FOUR, "--weights", "flywheel"], 2, "syntax", {"text": "flywheel"}),
+        (["compare", SIX, FOUR, "--fluctuation", "no"], 2, "type", {"text": "no"}),
         (["compare", SIX, FOUR, "--of", "jaw", "jaw", "jaw"], 2, "compare.bad_count", {"count": 3, "files": 2}),
         (["compare", SIX, FOUR, "--metrics", "flywhel"], 2, "study.no_metric", {"offer": "flywheel"}),
         (["study", SIX], 2, "cli.missing", {"names": ("--vary",)}),
-        (["study", SIX, "--vary", "pitman.length"], 2, "study.bad_vary", {"text": "pitman.length"}),
-        (["study", SIX, "--vary", "pitman.length=1 m", "pitman.length=2 m"], 2, "study.twice",
+        (["study", SIX, "--vary", "pitman.length"], 2, "syntax", {"text": "pitman.length"}),
+        (["study", SIX, "--vary", "pitman.length=1 m", "pitman.length=2 m"], 2, "duplicate-key",
          {"name": "pitman.length"}),
         (["study", SIX, "--vary", "pitman.lenth=1 m"], 2, "study.no_dimension", {"offer": "pitman.length"}),
         (["study", SIX, "--vary", "pitman.length=20..30 m:3"], 1, "study.none_passes", {"count": 3}),
         (["study", SIX, "--vary", "pitman.length=1.2 m", "--output", "study.txt"], 2, "cli.bad_suffix",
-         {"path": "study.txt", "endings": (".csv", ".json")}),
+         {"path": "study.txt", "endings": (".csv", ".json", ".xlsx", ".md", ".html")}),
     ],
 )  # fmt: skip
 def test_what_the_commands_refuse(

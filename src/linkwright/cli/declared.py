@@ -1,52 +1,57 @@
-"""Options that are declared as fields: what their help says of them, and their values by the reader of files."""
+"""Values of options that are declared as fields, by the reader of files, with all findings at once."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any, TypeVar, cast
 
 from linkwright.cli.errors import OptionError
-from linkwright.cli.parser import Options
-from linkwright.fields.base import Field, given_by_file
+from linkwright.fields.base import Field
 from linkwright.fields.nodes import Entry, Node, Scalar
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.reading import Place
-from linkwright.fields.tables import Table
-from linkwright.words import Message
+from linkwright.fields.tables import ByAddress, Either, Line, Table
+from linkwright.files.reader import Reader
+from linkwright.words import _
 
-Made = TypeVar("Made")
-
-
-def declare(option: Options, fields: Mapping[str, Field], metavars: Mapping[str, str]) -> None:
-    """Options for some fields, each with what stands for its value; ``KEY=VALUE,…``, or nothing, where it is a
-    table."""
-    for name, metavar in metavars.items():
-        own: dict[str, Any] = {"nargs": "?", "const": ""} if isinstance(fields[name], Table) else {}
-        option(f"--{name}", metavar, help=cast(Message, fields[name].doc), **own)
+#: NAME=VALUE, each a word of the command.
+PAIRS = ByAddress(Line())
 
 
-def values_of(made: type[Made], options: argparse.Namespace) -> Made:
-    """The object of what stands in the options of its fields; raises OptionError with all findings."""
-    from linkwright.files.reader import Reader
-
-    fields, reader = given_by_file(made), Reader("")
-    texts = {name: text for name in fields if (text := getattr(options, name)) is not None}
-    entries = [Entry(_scalar(f"--{name}"), _node(fields[name], text)) for name, text in texts.items()]
-    named = {name: replace(each, key=f"--{name}") for name, each in fields.items()}
-    values = reader.table(MappingNode(0, 0, 0, 0, entries), Place("", ""), named)
+def read_declared(options: argparse.Namespace, given: Iterable[argparse.Action]) -> None:
+    """Puts values in the place of the texts of declared options; raises OptionError with all findings."""
+    reader, fields, entries = Reader(""), dict[str, Field](), list[Entry]()
+    declared = [(vars(each), each) for each in given if "field" in vars(each)]
+    for own, each in sorted(declared, key=lambda pair: pair[0]["rank"]):
+        key, field = each.option_strings[0], own["field"]
+        fields[each.dest] = replace(field, key=key)
+        entries.append(Entry(_scalar(key), _node(reader, key, field, getattr(options, each.dest))))
+    values = reader.table(MappingNode(0, 0, 0, 0, entries), Place("", ""), fields)
     if reader.error_count:
         raise OptionError(reader.findings)
-    return made(**values or {})
+    vars(options).update(values or {})
 
 
-def _node(field: Field, text: str) -> Node:
-    if not isinstance(field, Table):
-        return _scalar(text)
-    parts = (part.partition("=") for part in text.split(",") if part.strip())
-    entries = [Entry(_scalar(key), _scalar(value)) for key, _sign, value in parts]
-    return MappingNode(0, 0, 0, 0, entries)
+def _node(reader: Reader, key: str, field: Field, given: str | list[str]) -> Node:
+    """The node of an option's words; of KEY=VALUE, separated by commas in one word, where the field takes a table."""
+    table = isinstance(field, Table | ByAddress) or (isinstance(field, Either) and "=" in given)
+    if not table:
+        return _scalar(str(given))
+    entries: dict[str, Entry] = {}
+    for text in given.split(",") if isinstance(given, str) else given:
+        name, sign, value = (each.strip() for each in text.partition("="))
+        if not (sign and name and value) and text.strip():
+            told = _('"{text}" is no setting', text=text)
+            reader.error(
+                None, key, told, _("write NAME=VALUE, such as crank.length=80..120mm or flywheel=2"), "syntax"
+            )
+        elif name in entries:
+            told = _("{name} is given twice", name=name)
+            reader.error(None, key, told, _("write it once"), "duplicate-key")
+        elif name:
+            entries[name] = Entry(_scalar(name), _scalar(value))
+    return MappingNode(0, 0, 0, 0, [*entries.values()])
 
 
 def _scalar(text: str) -> Scalar:

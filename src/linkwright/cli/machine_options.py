@@ -41,7 +41,6 @@ _BAD_AREA = _(
     '"{text}" is no area; give numbers in mm² separated by commas, such as "+295, -685, +390"',
     code="machine.bad_area",
 )
-_NO_SCALE = _('areas need the scales of the diagram: --scale "5 N·m/mm, 1 deg/mm"', code="machine.no_scale")
 _NOT_FINITE = _(
     "{text} is not finite somewhere in the cycle, or more than any machine has; check numbers, divisions and roots",
     code="machine.not_finite",
@@ -65,7 +64,7 @@ class Scale(Text):
 
 @dataclass(frozen=True)
 class Areas(Text):
-    """Areas of a torque diagram in mm² with its scales, or works in J with scales of 1."""
+    """Areas of a torque diagram in mm² with its scales, if they are given, or works in J with scales of 1."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         text = super().read(reader, node, place, given) or ""
@@ -77,14 +76,12 @@ class Areas(Text):
             found.append(number_of(plain.replace(" ", "")))
             if not math.isfinite(found[-1]):
                 return _refused(reader, node, place, _BAD_AREA, part)
-        if not works and "scale" not in given:
-            return _refused(reader, node, place, _NO_SCALE)
-        return found, ((1.0, 1.0) if works else given["scale"])
+        return found, ((1.0, 1.0) if works else given.get("scale"))
 
 
 @dataclass(frozen=True)
 class Torque(Text):
-    """A torque as an expression of theta over the period."""
+    """A torque as an expression of theta over the period: its text, and the curve."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         import numpy as np
@@ -103,7 +100,7 @@ class Torque(Text):
             return None
         if not (np.abs(values) <= units.LARGEST["torque"]).all():
             return _refused(reader, node, place, _NOT_FINITE, text)
-        return found
+        return text, found
 
 
 @dataclass(frozen=True)
@@ -151,7 +148,7 @@ class Wanted:
     scale: tuple[float, float] | None = given(
         Scale(doc=_('scales of the diagram: "5 N·m/mm, 1 deg/mm", or the work of an area: "20 J/mm²"')), None
     )
-    areas: tuple[list[float], tuple[float, float]] | None = given(
+    areas: tuple[list[float], tuple[float, float] | None] | None = given(
         Areas(
             doc=_(
                 'areas between torque curve and mean line in mm², in turn: "+295, -685, …"; needs '
@@ -164,10 +161,10 @@ class Wanted:
         Quantity("angle", above=0.0, doc=_("angle of a cycle (default 360deg; four-stroke engines 720deg)")),
         None,
     )
-    torque: TorqueCurve | None = given(
+    torque: tuple[str, TorqueCurve] | None = given(
         Torque(doc=_('driving torque in N·m over theta in rad: "5000 + 600*sin(2*theta)"')), None
     )
-    load: TorqueCurve | None = given(
+    load: tuple[str, TorqueCurve] | None = given(
         Torque(doc=_("resisting torque in N·m over theta (default: constant, the mean of --torque)")), None
     )
     speed: float | None = given(

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, cast
 
 from linkwright.cli.reading import read
 from linkwright.errors import with_remedy
+from linkwright.fields.base import Field
+from linkwright.fields.tables import Table, Whole
 from linkwright.words import Message, Say, _
 
 #: Options that every command has, or the program without a command, and what they do.
@@ -73,14 +75,6 @@ def did_you_mean(said: Message, word: str, known: Iterable[str], otherwise: str 
     return with_remedy(said, _('did you mean "{offer}"?', offer=offer) if offer else otherwise)
 
 
-def whole_number(text: str) -> int:
-    """A number of steps, 1 or more."""
-    number = int(text)
-    if number < 1:
-        raise ValueError(text)
-    return number
-
-
 def number_of(text: str) -> float:
     """The number of a text; NaN where it is none."""
     try:
@@ -96,12 +90,29 @@ class Options:
         self.place, self.say = place, say
 
     def __call__(
-        self, name: str, metavar: str | None = None, *others: str, help: Message, **settings: Any
+        self,
+        name: str,
+        metavar: str | None = None,
+        *others: str,
+        help: Message,
+        of: Field | None = None,
+        rank: int = 0,
+        **settings: Any,
     ) -> None:
-        """An option or an argument, with further names."""
+        """An option or an argument, with further names; ``of``: the field that reads its value, after those of lower
+        ``rank``."""
         if metavar is not None:
             settings["metavar"] = metavar
-        self.place.add_argument(name, *others, help=self.say(help), **settings)
+        action = self.place.add_argument(name, *others, help=self.say(help), **settings)
+        if of is not None:
+            vars(action).update(field=of, rank=rank)
+
+    def fields(self, fields: Mapping[str, Field], metavars: Mapping[str, str]) -> None:
+        """Options of some fields of a table, each with what stands for its value; a table of its own needs none."""
+        for name, metavar in metavars.items():
+            each, rank = fields[name], [*fields].index(name)
+            own: dict[str, Any] = {"nargs": "?", "const": ""} if isinstance(each, Table) else {}
+            self(f"--{name}", metavar, help=cast(Message, each.doc), of=each, rank=rank, **own)
 
     def flag(self, name: str, help: Message) -> None:
         """An option that stands or does not."""
@@ -113,7 +124,7 @@ class Options:
 
     def count(self, name: str, usual: int | None = None, *, help: Message) -> None:
         """An option with a whole number, 1 or more."""
-        self(name, "N", type=whole_number, default=usual, help=help)
+        self(name, "N", of=Whole(1), default=usual, help=help)
 
     def model(self) -> None:
         """The model file that a command takes."""

@@ -9,13 +9,11 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.dataclass import dataclass
+from linkwright.fields.tables import Whole
 from linkwright.words import Message, _
 
 if TYPE_CHECKING:
     from linkwright.parts.base import Problem, Result
-
-#: Digits that numbers can be shown with.
-DIGITS = range(3, 16)
 
 
 def part_arguments(option: Options) -> None:
@@ -25,8 +23,8 @@ def part_arguments(option: Options) -> None:
     option(
         "--digits",
         "N",
-        type=int,
-        choices=DIGITS,
+        of=Whole(3, 15),
+        choices=tuple(map(str, range(3, 16))),
         default=6,
         help=_("significant digits of the numbers (3 to 15; default: 6)"),
     )

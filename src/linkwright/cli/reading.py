@@ -12,6 +12,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import field
 
+from linkwright.cli.declared import read_declared
 from linkwright.cli.errors import UsageError
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import with_remedy
@@ -56,6 +57,7 @@ def read(
     ]
     if missing:
         raise _slip(parser, _("{names} is missing", code="cli.missing", names=tuple(missing)))
+    read_declared(options, [action for action in parser._actions if id(action) in named])
     return options
 
 
@@ -126,23 +128,12 @@ def _value(each: _Given, parser: argparse.ArgumentParser) -> object:
         return action.const
     if not each.words and action.nargs != "*":
         raise _slip(parser, _("{name} needs a value", code="cli.needs_value", name=each.name))
-    values = [_converted(action, each.name, word, parser) for word in each.words]
+    values = [_allowed(action, each.name, word, parser) for word in each.words]
     return values if action.nargs in _LISTS else values[0]
 
 
-def _converted(action: argparse.Action, name: str, word: str, parser: argparse.ArgumentParser) -> object:
-    value: object = word
-    if callable(action.type):
-        try:
-            value = action.type(word)
-        except ValueError:
-            said = (
-                _('{name} takes a number, not "{value}"', code="cli.bad_number")
-                if action.type is float
-                else _('{name} takes a whole number, not "{value}"', code="cli.bad_whole")
-            )
-            raise _slip(parser, said.format(name=name, value=word)) from None
-    if action.choices is not None and value not in action.choices:
+def _allowed(action: argparse.Action, name: str, word: str, parser: argparse.ArgumentParser) -> str:
+    if action.choices is not None and word not in action.choices:
         offered = tuple(map(str, action.choices))
         raise _slip(
             parser,
@@ -154,7 +145,7 @@ def _converted(action: argparse.Action, name: str, word: str, parser: argparse.A
                 choices=offered,
             ),
         )
-    return value
+    return word
 
 
 def _place(
@@ -172,7 +163,7 @@ def _place(
                 raise _slip(parser, _("{names} is missing", code="cli.missing", names=(name,)))
             continue
         count = len(free) if action.nargs in _LISTS else 1
-        values = [_converted(action, name, word, parser) for word in free[:count]]
+        values = [_allowed(action, name, word, parser) for word in free[:count]]
         del free[:count]
         setattr(options, action.dest, values if action.nargs in _LISTS else values[0])
     if free:

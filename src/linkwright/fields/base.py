@@ -187,6 +187,9 @@ class Quantity(Field):
                 else _("{noun} above {low}, up to {high}")
             )
             return told.format(noun=noun, low=f"{self.above:g}", high=units.format(most, self.dimension))
+        if self.maximum is not None:
+            low, high = (units.format(each, self.dimension) for each in (least or 0.0, self.maximum))
+            return _("{noun} from {low} to {high}", noun=noun, low=low, high=high)
         if self.below is not None:
             unit = "deg" if self.dimension == "angle" else None
             low, high = (units.format(each, self.dimension, unit) for each in (least or 0.0, self.below))

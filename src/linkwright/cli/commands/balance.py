@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options, did_you_mean, number_of
+from linkwright.cli.parser import Options, did_you_mean
 from linkwright.cli.session import Session
 from linkwright.core.given import STEPS
-from linkwright.errors import about
+from linkwright.fields.base import Number, Quantity
+from linkwright.fields.tables import ByAddress, Either
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ linkwright balance press.yaml --radius 120mm --share 0.5
 linkwright balance linkage.yaml --radius 80mm --output balanced.yaml"""
 
 ENDINGS = (".yaml", ".yml")
+RADIUS = Quantity("length", above=0.0)
 
 
 def arguments(option: Options) -> None:
@@ -38,6 +40,7 @@ def arguments(option: Options) -> None:
     option(
         "--radius",
         "LENGTH",
+        of=Either(RADIUS, ByAddress(RADIUS)),
         required=True,
         help=_(
             "distance of the counterweights from the pins that carry them, one (80mm) or by link "
@@ -47,7 +50,8 @@ def arguments(option: Options) -> None:
     option(
         "--share",
         "NUMBER",
-        default="1",
+        of=Number(minimum=0.0, maximum=1.0),
+        default=1.0,
         help=_("share that is balanced, from 0 to 1 (default 1: the shaking force vanishes)"),
     )
     option.count("--steps", STEPS, help=_("positions over the cycle for the comparison (default 360)"))
@@ -62,62 +66,21 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.machine.balancing import balance
 
     refuse_output(options.output, ENDINGS, force=options.force)
-    share = _share(options.share)
     mechanism, _unused = read_model(options.file, session)
-    radius = _radius(options.radius, mechanism)
-    found = balance(mechanism, radius=radius, share=share, steps=options.steps)
+    _require_links(options.radius, mechanism)
+    found = balance(mechanism, radius=options.radius, share=options.share, steps=options.steps)
     if options.output is not None:
         write_whole(Path(options.output), _model_text(found), force=options.force)
     session.show_result(found, options.output)
     return 0
 
 
-def _share(text: str) -> float:
-    share = number_of(text)
-    if not 0.0 <= share <= 1.0:
-        raise UsageError(
-            _(
-                '--share: "{text}" is no share; give a number from 0 (nothing) to 1 (everything)',
-                code="balance.bad_share",
-                text=text,
-            )
-        )
-    return share
-
-
-def _radius(text: str, mechanism: Mechanism) -> float | dict[str, float]:
-    """One radius, or radii by link from ``crank=80 mm, rod=40 mm``; raises UsageError."""
-    if "=" not in text:
-        return _length(text)
-    radii: dict[str, float] = {}
-    for part in text.split(","):
-        link, _unused, given = (piece.strip() for piece in part.partition("="))
+def _require_links(radius: float | dict[str, float], mechanism: Mechanism) -> None:
+    """Raises UsageError where a radius is of a link that there is not."""
+    for link in radius if isinstance(radius, dict) else ():
         if link not in mechanism.links:
-            raise UsageError(
-                did_you_mean(
-                    _('--radius: there is no link "{link}"', code="balance.no_link", link=link),
-                    link,
-                    mechanism.links,
-                )
-            )
-        radii[link] = _length(given)
-    return radii
-
-
-def _length(text: str) -> float:
-    from linkwright.core.expressions import amount
-
-    with about("--radius", UsageError):
-        value = amount(text, "length")
-    if not value > 0:
-        raise UsageError(
-            _(
-                '--radius: "{text}" is no radius; give a length above zero, such as 80mm',
-                code="balance.bad_radius",
-                text=text,
-            )
-        )
-    return value
+            told = _('--radius: there is no link "{link}"', code="balance.no_link", link=link)
+            raise UsageError(did_you_mean(told, link, mechanism.links))
 
 
 def _model_text(found: Balancing) -> str:

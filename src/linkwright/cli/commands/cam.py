@@ -7,11 +7,11 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.part import part_arguments, read, refuse_outputs, show
 from linkwright.cli.session import Session
 from linkwright.core.given import PROFILE_POINTS
+from linkwright.fields.base import Number
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def arguments(option: Options) -> None:
     option(
         "--at",
         "DEG",
-        type=float,
+        of=Number(),
         default=0.0,
         help=_("angle of the cam in the drawing, degrees (default: 0)"),
     )
@@ -59,10 +59,6 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_outputs(options, session)
     refuse_output(options.profile, PROFILES, force=options.force)
     refuse_output(options.draw, DRAWINGS, force=options.force)
-    if not math.isfinite(options.at):
-        raise UsageError(
-            _("--at is {angle}; give an angle in degrees", code="cam.bad_angle", angle=options.at)
-        )
     from linkwright.cams.cam import Cam
 
     problem = read(options.file, "cam", session)

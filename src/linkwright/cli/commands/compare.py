@@ -6,9 +6,12 @@ import argparse
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options, number_of
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.given import STEPS
+from linkwright.fields.base import Number
+from linkwright.fields.tables import ByAddress
+from linkwright.machine.flywheel import COEFFICIENT, FLUCTUATION
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -47,7 +50,9 @@ def arguments(option: Options) -> None:
     option(
         "--weights",
         "NAME=NUMBER",
+        of=ByAddress(Number()),
         nargs="+",
+        default={},
         help=_("weights in the ranking, NAME=NUMBER each (1 where none is given)"),
     )
     option(
@@ -56,7 +61,13 @@ def arguments(option: Options) -> None:
         nargs="+",
         help=_("the link or guide that does the work: one name for all, or one per file"),
     )
-    option("--fluctuation", "δ", help=_("coefficient of speed fluctuation for the flywheels (default 0.02)"))
+    option(
+        "--fluctuation",
+        "δ",
+        of=COEFFICIENT,
+        default=FLUCTUATION,
+        help=_("coefficient of speed fluctuation for the flywheels (default 0.02)"),
+    )
     option.count("--steps", STEPS, help=_("positions over the cycle (default 360)"))
     option("--output", "FILE", help=_("write the numbers to a .csv, .json, .xlsx, .md or .html file"))
     option("--curves", "FILE", help=_("write the curves to overlay to a .csv or .json file"))
@@ -75,7 +86,6 @@ def run(options: argparse.Namespace, session: Session) -> int:
                 cause=_("one file cannot be compared; name two or more", code="compare.too_few"),
             )
         )
-    weights, fluctuation = _weights(options.weights or []), _fluctuation(options.fluctuation)
     from linkwright.cli.files import PICTURES, RESULTS, refuse_output
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
@@ -89,9 +99,9 @@ def run(options: argparse.Namespace, session: Session) -> int:
         found = compare(
             machines,
             metrics=options.metrics,
-            weights=weights,
+            weights=options.weights,
             output=_outputs(options),
-            fluctuation=fluctuation,
+            fluctuation=options.fluctuation,
             steps=options.steps,
         )
     _show(found, options, session)
@@ -111,42 +121,6 @@ def _outputs(options: argparse.Namespace) -> str | list[str] | None:
             )
         )
     return list(options.of)
-
-
-def _weights(texts: list[str]) -> dict[str, float]:
-    found = {}
-    for text in texts:
-        name, _unused, value = text.rpartition("=")
-        try:
-            found[name] = float(value)
-        except ValueError:
-            name = ""
-        if not name:
-            raise UsageError(
-                _(
-                    '--weights: "{text}" is no weight; write NAME=NUMBER, such as flywheel=2',
-                    code="compare.bad_weight",
-                    text=text,
-                )
-            )
-    return found
-
-
-def _fluctuation(text: str | None) -> float:
-    from linkwright.machine.flywheel import FLUCTUATION
-
-    if text is None:
-        return FLUCTUATION
-    value = number_of(text)
-    if not 0.0 < value < float("inf"):
-        raise UsageError(
-            _(
-                '--fluctuation: "{text}" is no coefficient; give a number above zero, such as 0.02',
-                code="compare.bad_fluctuation",
-                text=text,
-            )
-        )
-    return value
 
 
 def _show(found: Comparison, options: argparse.Namespace, session: Session) -> None:

@@ -11,6 +11,8 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.given import STEPS
+from linkwright.fields.base import Number
+from linkwright.fields.tables import Whole
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -66,7 +68,7 @@ def arguments(option: Options) -> None:
     option(
         "--position",
         "N",
-        type=int,
+        of=Whole(),
         help=_("dxf and pictures: number of the position that is drawn (default: 0)"),
     )
     option(
@@ -83,11 +85,11 @@ def arguments(option: Options) -> None:
     option.either("--accelerations", None, help=_("acceleration equations in Modelica"))
     option("--form", choices=("rates", "positions"), help=_("Modelica equations of rates or of positions"))
     option("--name", "NAME", help=_("name of the Modelica model"))
-    option("--timestep", "S", type=float, help=_("time step in MuJoCo, s"))
-    option("--indent", "N", type=int, help=_("spaces of indentation in JSON"))
+    option("--timestep", "S", of=Number(), help=_("time step in MuJoCo, s"))
+    option("--indent", "N", of=Whole(), help=_("spaces of indentation in JSON"))
     option("--compression", "NAME", help=_("compression in Parquet"))
     option.count("--width", help=_("width of PNG, pixels"))
-    option("--size", "N", type=float, help=_("size of SVG, pixels"))
+    option("--size", "N", of=Number(), help=_("size of SVG, pixels"))
     option("--beside", "FILE", nargs="+", help=_("html: further models on the same page, for comparison"))
     option.fonts()
     option.force()

@@ -53,17 +53,16 @@ def arguments(option: Options) -> None:
         nargs="?",
         help=_("model file, or gallery:NAME; leave it out with --areas or --torque"),
     )
-    from linkwright.cli.declared import declare
     from linkwright.cli.machine_options import Wanted
     from linkwright.fields.base import given_by_file
 
     fields = given_by_file(Wanted)
     what = option.group(_("motor and flywheel"))
-    declare(what, fields, {"fluctuation": "δ", "ratio": "i", "efficiency": "η", "margin": "NUMBER"})
-    declare(what.exclusive(), fields, {"disk": "KEY=VALUE,…", "rim": "KEY=VALUE,…"})
+    what.fields(fields, {"fluctuation": "δ", "ratio": "i", "efficiency": "η", "margin": "NUMBER"})
+    what.exclusive().fields(fields, {"disk": "KEY=VALUE,…", "rim": "KEY=VALUE,…"})
     curves = option.group(_("a torque diagram instead of a machine"))
-    declare(curves.exclusive(), fields, {"areas": "MM²,…", "torque": "EXPRESSION"})
-    declare(curves, fields, {name: name.upper() for name in CURVE_OPTIONS})
+    curves.exclusive().fields(fields, {"areas": "MM²,…", "torque": "EXPRESSION"})
+    curves.fields(fields, {name: name.upper() for name in CURVE_OPTIONS})
     form = option.group(_("form"))
     form.count(
         "--steps",
@@ -76,11 +75,12 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Lays out motor and flywheel and prints them."""
-    from linkwright.cli.declared import values_of
     from linkwright.cli.machine_options import Wanted
+    from linkwright.fields.base import given_by_file
 
     _refuse_contradictions(options)
-    asked = values_of(Wanted, options)
+    texts = {name: getattr(options, name) for name in given_by_file(Wanted)}
+    asked = Wanted(**{name: each for name, each in texts.items() if each is not None})
     if options.file is not None:
         return _mechanism(options, asked, session)
     if asked.speed is None and (asked.fluctuation is not None or asked.present):
@@ -135,6 +135,13 @@ def _refuse_contradictions(options: argparse.Namespace) -> None:
                     other=f"--{other}",
                 )
             )
+    if options.areas is not None and options.areas[1] is None:
+        raise UsageError(
+            _(
+                '--areas needs the scales of the diagram: --scale "5 N·m/mm, 1 deg/mm"',
+                code="machine.no_scale",
+            )
+        )
     if (options.mass is None) != (options.gyration is None):
         raise UsageError(
             _(
@@ -176,14 +183,16 @@ def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> Lay
 
     say = session.say
     if asked.areas is not None:
-        given, (torque, angle) = asked.areas
+        given, scales = asked.areas
+        torque, angle = scales or (1.0, 1.0)
         energy = fluctuation_from_areas(given, torque_scale=torque, angle_scale=angle)
         title = say(_("Torque diagram of {count} areas", count=len(given)))
         return Layout(title, partial(of_areas, energy, asked))
     assert asked.torque is not None
-    against = say(_("its mean")) if options.load is None else options.load
-    title = say(_("T = {torque}, against {load}", torque=options.torque, load=against))
-    return Layout(title, partial(of_curves, asked.torque, asked.load, asked))
+    text, driver = asked.torque
+    against, load = asked.load or (say(_("its mean")), None)
+    title = say(_("T = {torque}, against {load}", torque=text, load=against))
+    return Layout(title, partial(of_curves, driver, load, asked))
 
 
 def _cycle(running: SteadyRunning) -> dict[str, Any]:

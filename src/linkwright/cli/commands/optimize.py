@@ -6,9 +6,10 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkwright.cli.errors import UsageError
+from linkwright.cli.declared import PAIRS
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.fields.tables import Whole
 from linkwright.words import Say, _
 
 if TYPE_CHECKING:
@@ -30,6 +31,9 @@ linkwright optimize gallery:jaw_crusher_sixbar --vary pitman.length=1.1..1.4m to
 linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot front.svg --state front.state"""
 
 ENDINGS = (".yaml", ".yml", ".json")
+SETTINGS = (
+    "vary", "keep", "define", "tolerance", "robust", "minimize", "maximize", "evaluations", "seed",
+)  # fmt: skip
 
 
 def arguments(option: Options) -> None:
@@ -37,6 +41,7 @@ def arguments(option: Options) -> None:
     option(
         "--vary",
         "RANGE",
+        of=PAIRS,
         nargs="+",
         help=_("what varies, in place of the file's: ADDRESS=RANGE, such as crank.length=80..120mm"),
     )
@@ -50,6 +55,7 @@ def arguments(option: Options) -> None:
     option(
         "--keep",
         "DEMAND",
+        of=PAIRS,
         nargs="+",
         help=_(
             "demands: 'NUMBER=at least 40 deg', 'at most', '1..2 m', 'same within 1 %%' of the start",
@@ -58,12 +64,14 @@ def arguments(option: Options) -> None:
     option(
         "--define",
         "NAME",
+        of=PAIRS,
         nargs="+",
         help=_("names for expressions of numbers: NAME=NUMBER, such as T=peak_input_torque"),
     )
     option(
         "--tolerance",
         "DEVIATION",
+        of=PAIRS,
         nargs="+",
         help=_("± of dimensions: ADDRESS=VALUE, such as crank.length=0.1mm"),
     )
@@ -79,7 +87,7 @@ def arguments(option: Options) -> None:
     option.count(
         "--evaluations", help=_("most designs of the search; the last steps along gradients come on top")
     )
-    option("--seed", "N", type=int, help=_("seed of the search; the same seed gives the same result"))
+    option("--seed", "N", of=Whole(), help=_("seed of the search; the same seed gives the same result"))
     option(
         "--state", "FILE", help=_("keep the search's state in this file, and go on from it where it exists")
     )
@@ -107,24 +115,10 @@ def _searched(options: argparse.Namespace, session: Session) -> int:
     from linkwright.designs.cluster import on_cluster
     from linkwright.designs.optimise.optimize import optimize
     from linkwright.designs.optimise.optimum import OptimizeError
-    from linkwright.designs.sampling import BAD_SEED
 
     refuse_output(options.output, ENDINGS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
-    if options.seed is not None and options.seed < 0:
-        raise UsageError(BAD_SEED.format(seed=options.seed))
-    settings = {
-        "vary": _pairs(options.vary),
-        "keep": _pairs(options.keep),
-        "define": _pairs(options.define),
-        "tolerance": _pairs(options.tolerance),
-        "robust": options.robust,
-        "yield": options.least_yield,
-        "minimize": options.minimize,
-        "maximize": options.maximize,
-        "evaluations": options.evaluations,
-        "seed": options.seed,
-    }
+    settings = {key: getattr(options, key) for key in SETTINGS} | {"yield": options.least_yield}
     try:
         with on_cluster(options.cluster), progress(session.say, _("searching")) as report:
             found = optimize(options.file, state=options.state, progress=report, **settings)
@@ -132,33 +126,6 @@ def _searched(options: argparse.Namespace, session: Session) -> int:
         return _unmet(error, session)
     _show(found, options, session)
     return 0
-
-
-def _pairs(texts: list[str] | None) -> dict[str, str] | None:
-    """``NAME=TEXT`` by name; None where nothing is given."""
-    if texts is None:
-        return None
-    found: dict[str, str] = {}
-    for text in texts:
-        name, sign, value = text.partition("=")
-        if not sign or not name.strip() or not value.strip():
-            raise UsageError(
-                _(
-                    '"{text}" is no setting; write NAME=VALUE, such as crank.length=80..120mm',
-                    code="optimize.bad_pair",
-                    text=text,
-                )
-            )
-        if name.strip() in found:
-            raise UsageError(
-                _(
-                    "{name} is given twice; write one setting for it, such as {name}=90..100mm",
-                    code="optimize.given_twice",
-                    name=name.strip(),
-                )
-            )
-        found[name.strip()] = value.strip()
-    return found
 
 
 def _stopped(stopped: KeyboardInterrupt, say: Say) -> str:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +11,9 @@ from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.given import CURVE_STEPS
 from linkwright.errors import LinkwrightError, about
-from linkwright.words import Message, _
+from linkwright.fields.base import Number
+from linkwright.machine.flywheel import COEFFICIENT
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -83,13 +83,20 @@ def arguments(option: Options) -> None:
     what(
         "--fluctuation",
         "δ",
+        of=COEFFICIENT,
         help=_("speed fluctuation that the flywheel of --kind speed allows (default: 0.02)"),
     )
     what.flag("--static", help=_("leave the inertia forces out"))
     form = option.group(_("form"))
     form.flag("--no-marks", help=_("leave out limit positions, peaks, phases and inputs along curves"))
     form("--title", "TEXT", help=_('a title of your own; "" for none'))
-    form("--dpi", "N", default="200", help=_("dots per inch of a PNG (default: 200)"))
+    form(
+        "--dpi",
+        "N",
+        of=Number(minimum=10.0, maximum=2400.0),
+        default=200.0,
+        help=_("dots per inch of a PNG (default: 200)"),
+    )
     form("--output", "FILE", help=_("file to write: .svg, .pdf or .png (default: MODEL-KIND.svg here)"))
     form.fonts()
     form.force()
@@ -98,19 +105,10 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Draws a diagram and writes it; 1 where a position is not reached."""
     _require_kind(options)
-    fluctuation = options.fluctuation and _number(
-        options.fluctuation,
-        _('--fluctuation is "{text}"; give a number above zero, such as 0.02', code="plot.bad_fluctuation"),
-        0.0,
-        math.inf,
-    )
-    dpi = _number(
-        options.dpi, _('--dpi is "{text}"; give a number from 10 to 2400', code="plot.bad_dpi"), 9.999, 2400.0
-    )
     path = _path(options)
     motions = _solved(options, session)
-    diagram = _drawn(options, session, motions, fluctuation)
-    _write(diagram, path, dpi, options, session)
+    diagram = _drawn(options, session, motions)
+    _write(diagram, path, options, session)
     return int(not all(motion.whole for motion in motions.values()))
 
 
@@ -171,9 +169,7 @@ def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
     return found
 
 
-def _drawn(
-    options: argparse.Namespace, session: Session, motions: dict[str, Motion], fluctuation: float | None
-) -> Diagram:
+def _drawn(options: argparse.Namespace, session: Session, motions: dict[str, Motion]) -> Diagram:
     from linkwright.plot.diagrams.diagram_by_name import plot
 
     return plot(
@@ -184,7 +180,7 @@ def _drawn(
         on=options.on,
         axes=options.axes,
         at=_place(options.at, motions, session),
-        fluctuation=fluctuation,
+        fluctuation=options.fluctuation,
         static=options.static,
         marks=not options.no_marks,
         title=options.title,
@@ -207,19 +203,12 @@ def _place(text: str | None, motions: dict[str, Motion], session: Session) -> fl
     return values[0]
 
 
-def _write(diagram: Diagram, path: Path, dpi: float, options: argparse.Namespace, session: Session) -> None:
+def _write(diagram: Diagram, path: Path, options: argparse.Namespace, session: Session) -> None:
     from linkwright.cli.files import write_whole
 
-    content = diagram.content(path.suffix.lower(), dpi=dpi)
+    content = diagram.content(path.suffix.lower(), dpi=options.dpi)
     write_whole(path, content, force=options.force)
     if session.json:
         session.show_data({"ok": True, "kind": options.kind, "file": str(path)})
     else:
         session.show_written(path)
-
-
-def _number(text: str, refusal: Message, above: float, most: float) -> float:
-    good = re.fullmatch(r"\d*\.?\d+(e[+-]?\d+)?", text.strip(), re.IGNORECASE)
-    if good is None or not above < float(text) <= most:
-        raise UsageError(refusal.format(text=text))
-    return float(text)

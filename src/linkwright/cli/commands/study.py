@@ -5,10 +5,12 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from linkwright.cli.errors import UsageError
+from linkwright.cli.declared import PAIRS
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.given import STEPS
+from linkwright.fields.tables import Whole
+from linkwright.machine.flywheel import COEFFICIENT
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -45,7 +47,7 @@ def arguments(option: Options) -> None:
     option(
         "--fluctuation",
         "δ",
-        type=float,
+        of=COEFFICIENT,
         help=_("coefficient of speed fluctuation for flywheels (default 0.02)"),
     )
     option.count("--steps", STEPS, help=_("positions over the cycle (default 360)"))
@@ -63,6 +65,7 @@ def vary_argument(option: Options) -> None:
     option(
         "--vary",
         "RANGE",
+        of=PAIRS,
         nargs="+",
         required=True,
         help=_(
@@ -80,7 +83,7 @@ def sampling_arguments(option: Options, *, samples: int) -> None:
         help=_("grid: every combination (default); sobol: evenly spread designs between the ends"),
     )
     option.count("--samples", samples, help=_("designs of a Sobol sequence (default 64)"))
-    option("--seed", "N", type=int, default=0, help=_("seed of the Sobol sequence (default 0)"))
+    option("--seed", "N", of=Whole(), default=0, help=_("seed of the Sobol sequence (default 0)"))
 
 
 def run(options: argparse.Namespace, session: Session) -> int:
@@ -95,43 +98,16 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
     refuse_output(options.output, RESULTS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
-    vary = ranges_of(options.vary)
     mechanism, _unused = read_model(options.file, session)
     settings = {
         "metrics": options.metrics, "sampling": options.sampling, "samples": options.samples, "seed": options.seed,
         "output": options.of, "steps": options.steps,
         "fluctuation": FLUCTUATION if options.fluctuation is None else options.fluctuation,
     }  # fmt: skip
-    asked = dump(mechanism), vary, settings
+    asked = dump(mechanism), options.vary, settings
     with kept(options.state, mechanism.name, asked, session) as report, on_cluster(options.cluster):
-        _show(study(mechanism, vary, progress=report, **settings), options, session)
+        _show(study(mechanism, options.vary, progress=report, **settings), options, session)
     return 0
-
-
-def ranges_of(texts: list[str]) -> dict[str, str]:
-    """Ranges by address from texts ``ADDRESS=RANGE``."""
-    found: dict[str, str] = {}
-    for text in texts:
-        address, sign, given = text.partition("=")
-        if not sign or not address.strip() or not given.strip():
-            raise UsageError(
-                _(
-                    '--vary: "{text}" says no range; write ADDRESS=FROM..TO UNIT:NUMBER, such as '
-                    '"crank.length=20..30 mm:11"',
-                    code="study.bad_vary",
-                    text=text,
-                )
-            )
-        if address.strip() in found:
-            raise UsageError(
-                _(
-                    "--vary: {name} is given twice; give one range for it",
-                    code="study.twice",
-                    name=address.strip(),
-                )
-            )
-        found[address.strip()] = given.strip()
-    return found
 
 
 def _show(found: Study, options: argparse.Namespace, session: Session) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from linkwright.cli.commands.study import ranges_of, sampling_arguments, vary_argument
+from linkwright.cli.commands.study import sampling_arguments, vary_argument
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.words import _
@@ -72,11 +72,10 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.source import read_model
     from linkwright.export.sweep_parts import sweep_parts
 
-    vary = ranges_of(options.vary)
     mechanism, _unused = read_model(options.file, session)
     with progress(session.say, _("designs")) as report:
         found = sweep_parts(
-            mechanism, vary, options.folder, outputs=options.numbers, sampling=options.sampling,
+            mechanism, options.vary, options.folder, outputs=options.numbers, sampling=options.sampling,
             samples=options.samples, seed=options.seed, steps=options.steps, part=options.part,
             client=options.cluster, progress=report,
         )  # fmt: skip

@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options, number_of
+from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.table import Amount, Cell, Table
+from linkwright.fields.base import Number
 from linkwright.words import _, pgettext
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ def arguments(option: Options) -> None:
     option(
         "--mass",
         "KG/M",
+        of=Number(above=0.0),
         help=_("also peak input torque and reaction, for links of this mass per length (kg/m)"),
     )
     option(
@@ -80,7 +82,6 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.synthesis.result import SynthesisError
 
     refuse_output(options.plot, PICTURES, force=options.force)
-    mass = _mass(options.mass)
     input_speed(options.speed)
     task, demands = _asked(options, session)
     if options.output is not None:
@@ -88,8 +89,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
     try:
         found = _solve(task, demands, options, session)
     except SynthesisError as error:
-        return _unmet(error, options, mass, session)
-    _show(found, options, mass, session)
+        return _unmet(error, options, session)
+    _show(found, options, session)
     return 0
 
 
@@ -141,7 +142,7 @@ def _asked(options: argparse.Namespace, session: Session) -> tuple[str, dict[str
     return asked_in("\n".join(["synthesis:", f"  task: {options.task}", *lines]), "synthesize")
 
 
-def _unmet(error: SynthesisError, options: argparse.Namespace, mass: float | None, session: Session) -> int:
+def _unmet(error: SynthesisError, options: argparse.Namespace, session: Session) -> int:
     """Says which demand fails, and shows the nearest solution."""
     sentence = error.say(session.language)
     session.tell_error(sentence)
@@ -149,15 +150,16 @@ def _unmet(error: SynthesisError, options: argparse.Namespace, mass: float | Non
         nearest = None if error.nearest is None else error.nearest.data()
         session.show_data({"ok": False, "error": sentence, "nearest": nearest})
     elif error.nearest is not None:
-        _show(error.nearest, options, mass, session)
+        _show(error.nearest, options, session)
     return 1
 
 
-def _show(found: Synthesis, options: argparse.Namespace, mass: float | None, session: Session) -> None:
+def _show(found: Synthesis, options: argparse.Namespace, session: Session) -> None:
     from linkwright.cli.files import write_diagram, write_whole
     from linkwright.whole_files import make_folder
 
-    efforts = [each.loads(mass, speed=options.speed) for each in found] if mass is not None else []
+    mass, speed = options.mass, options.speed
+    efforts = [] if mass is None else [each.loads(mass, speed=speed) for each in found]
     written = []
     if options.output is not None:
         folder = make_folder(options.output)
@@ -189,18 +191,3 @@ def _effort_table(efforts: list[dict[str, float]]) -> Table:
         for number, each in enumerate(efforts, 1)
     ]
     return Table(head, rows, ">>>")
-
-
-def _mass(text: str | None) -> float | None:
-    if text is None:
-        return None
-    value = number_of(text)
-    if not 0 < value < float("inf"):
-        raise UsageError(
-            _(
-                '--mass: "{text}" is no mass per length in kg/m; give a positive number',
-                code="synthesize.bad_mass",
-                text=text,
-            )
-        )
-    return value

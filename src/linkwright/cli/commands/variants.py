@@ -10,6 +10,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.quantity import number
+from linkwright.fields.tables import Whole
 from linkwright.words import _
 
 SUMMARY = _("variants of a task for a course: sheets, answer key, PrairieLearn, Moodle, QTI")
@@ -34,7 +35,7 @@ def arguments(option: Options) -> None:
     option(
         "--seed",
         "N",
-        type=int,
+        of=Whole(),
         default=0,
         help=_("seed of the random numbers (default 0): the same seed gives the same variants"),
     )
