@@ -16,6 +16,7 @@ from linkwright.export.results import Results
 from linkwright.export.tables import QUANTITIES
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.pictures.diagram import COLOURS
+from linkwright.pictures.picture import round_up
 from linkwright.plot.diagrams.base import title_of
 from linkwright.plot.diagrams.outputs import joint_and_link, loaded, main_outputs
 from linkwright.words import Message, _
@@ -25,8 +26,6 @@ from linkwright.words.characters import printable
 WIDE, TALL, SQUARE, GAP = 560, 320, 460, 16
 #: Curves of one chart, at most.
 MOST = 12
-#: Steps between labels of an axis, by what shows few of them.
-_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 #: Angles between labels over a turn, degrees.
 _TURN_STEPS = (15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0)
 #: Titles of vectors with two components.
@@ -225,12 +224,12 @@ def _scales(chart: Chart) -> tuple[dict[str, Any], dict[str, Any]]:
     y = _known([curve.y.column.values for curve in chart.curves])
     if chart.square:
         span = max(float(np.ptp(np.append(x, 0.0))), float(np.ptp(np.append(y, 0.0))), 1e-9)
-        step = _step(span / 4.0)
+        step = round_up(span / 4.0)
         return tuple(_square(each, step, span) for each in (x, y))  # type: ignore[return-value]
     low, high = float(x.min()), float(x.max())
     if not high > low:
         return {}, {}
-    step = _step((high - low) / 8.0)
+    step = round_up((high - low) / 8.0)
     if chart.curves[0].x.column.unit == "°":
         step = next((each for each in _TURN_STEPS if (high - low) / each <= 12.0), step)
     ends = {"min": math.floor(low / step + 1e-9) * step, "max": math.ceil(high / step - 1e-9) * step}
@@ -246,12 +245,6 @@ def _square(values: Floats, step: float, span: float) -> dict[str, Any]:
     count = math.ceil(span / step) + 1
     low = math.floor(min(float(values.min()), 0.0) / step) * step
     return {"min": low, "max": low + count * step, "major_unit": step, "crossing": 0.0}
-
-
-def _step(size: float) -> float:
-    """The next round number above a size: 1, 2, 2.5 or 5 times a power of ten."""
-    power = 10.0 ** math.floor(math.log10(size))
-    return next(each for each in _STEPS if each * power >= size * (1.0 - 1e-12)) * power
 
 
 def _known(rows: Sequence[Floats]) -> Floats:

@@ -11,9 +11,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
 from linkwright.errors import RequestError
-from linkwright.pictures.picture import SvgNode, Text, name_runs
+from linkwright.pictures.picture import SvgNode
 from linkwright.pictures.svg.element import FAMILY_LIST, Element, element, number
-from linkwright.pictures.svg.element import width as text_width
 from linkwright.pictures.svg.render import png, save_picture
 from linkwright.pictures.symbols.base import LINE
 from linkwright.whole_files import refuse_target
@@ -75,7 +74,7 @@ CSS = "".join((
 ))  # fmt: skip
 
 
-MARGIN, SIZE = 12.0, 13.0
+MARGIN = 12.0
 #: Smallest and largest longer side of a drawing, pixels.
 SIZES = (8, 32_000)
 #: Pixels of SVG in a millimetre.
@@ -179,14 +178,3 @@ def document(
         *content,
     )
     return str(root)
-
-
-def captioned(content: Sequence[SvgNode], box: Box, lines: Sequence[str], title: str) -> str:
-    """A whole SVG document with lines of text below its box."""
-    texts = [
-        Text((box[0], box[3] + 24.0 + 20.0 * number), name_runs(line), "lw-legend", SIZE)
-        for number, line in enumerate(lines)
-    ]
-    wide = max(text_width(line, SIZE) for line in lines)
-    whole: Box = (box[0], box[1], max(box[2], box[0] + wide), box[3] + 14.0 + 20.0 * len(lines))
-    return document([*content, *texts], whole, title, None)

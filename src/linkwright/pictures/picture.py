@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import field, replace
 from typing import Literal, TypeAlias
 
@@ -246,13 +246,10 @@ class Picture:
     def line(self, points: ArrayLike, pen: Pen = "thin", *, closed: bool = False, fill: Fill = "") -> None:
         """A polyline through points (k, 2), mm; a row of NaN breaks it."""
         rows = np.asarray(points, dtype=float).reshape(-1, 2)
-        good = np.isfinite(rows).all(axis=1)
-        if good.all():
+        if np.isfinite(rows).all():
             self.items.append(Line(rows, pen, closed, fill))
-            return
-        for piece in np.split(np.arange(len(rows)), np.flatnonzero(np.diff(good.astype(int))) + 1):
-            if len(piece) > 1 and good[piece[0]]:
-                self.items.append(Line(rows[piece], pen))
+        else:
+            self.items += [Line(piece, pen) for piece in unbroken(rows)]
 
     def box(self, box: Box, pen: Pen = "thin") -> None:
         """A rectangle."""
@@ -328,6 +325,25 @@ def bounds_of(items: Iterable[Item]) -> Box:
     every = np.concatenate(clouds)
     (left, bottom), (right, top) = every.min(axis=0), every.max(axis=0)
     return Box(float(left), float(bottom), float(right), float(top))
+
+
+def unbroken(points: Floats) -> Iterator[Floats]:
+    """The pieces of a polyline (k, 2) between rows of NaN."""
+    good = np.asarray(np.isfinite(points).all(axis=1))
+    for piece in np.split(np.arange(len(points)), np.flatnonzero(np.diff(good.astype(int))) + 1):
+        if len(piece) > 1 and good[piece[0]]:
+            yield points[piece]
+
+
+#: Steps of graphical scales within a power of ten.
+GRAPHICAL = (1.0, 2.0, 2.5, 4.0, 5.0)
+
+
+def round_up(value: float, steps: Sequence[float] = (1.0, 2.0, 2.5, 5.0)) -> float:
+    """The smallest round number, one of some steps times a power of ten, that is not below a value."""
+    power = 10.0 ** math.floor(math.log10(value) + 1e-12)
+    round_numbers = (k * each for each in (power, 10.0 * power) for k in steps)
+    return min(each for each in round_numbers if each >= value * (1 - 1e-9))
 
 
 def as_runs(words: Words) -> Runs:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.pictures.drawing import Box, Drawing, bounds, document
 from linkwright.pictures.labels import Label, Obstacles, place, written
-from linkwright.pictures.picture import Anchor, Circle, Line, SvgNode, Text, Vec, Words, as_runs
+from linkwright.pictures.picture import Anchor, Circle, Line, SvgNode, Text, Vec, Words, as_runs, name_runs
 from linkwright.pictures.svg.element import group, number
 from linkwright.pictures.symbols.base import SYMBOLS, Shape, placed, points, vec
 
@@ -71,6 +71,12 @@ class Sketch:
         self.content.append(text)
         self.extent.append(text.placed(np.zeros(2), scale=(1.0, -1.0)).cloud * (1.0, -1.0))
         return text.width
+
+    def write_below(self, lines: Iterable[str]) -> None:
+        """Lines of text below all that is drawn."""
+        left, _top, _right, bottom = self.box
+        for row, line in enumerate(lines, 1):
+            self.text((left, bottom + 4.0 + 20.0 * row), name_runs(line), size=13.0)
 
     def arrow(
         self, start: Vec | Floats, end: Vec | Floats, style: str = "lw-force", *, dashed: bool = False

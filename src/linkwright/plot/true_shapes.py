@@ -15,10 +15,11 @@ from linkwright.errors import require_language
 from linkwright.gears.gear import Gear
 from linkwright.gears.pair import GearPair
 from linkwright.gears.rack import Rack
-from linkwright.pictures.drawing import Box, Drawing, bounds, captioned
-from linkwright.pictures.picture import Circle, Line, SvgNode
+from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.picture import Vec
+from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import element, path_data
-from linkwright.pictures.symbols.base import SYMBOLS, Shape, joined, points, ring, vec, way
+from linkwright.pictures.symbols.base import ring, vec, way
 from linkwright.words import Message, _
 
 GEARS_ACROSS = 760.0
@@ -37,18 +38,17 @@ def draw_pair(pair: GearPair, pinion_angle: float = 0.0, language: str = "en") -
     def paper(places: Floats) -> Floats:
         return np.asarray(places) * (scale, -scale)
 
-    content: list[SvgNode] = []
+    sketch = Sketch()
     gears = ((pair.wheel, outlines[1], centres[1]), (pair.pinion, outlines[0], centres[0]))
     for gear, outline, at in gears:
-        content.append(_body(gear, paper(outline), paper(at), scale))
+        _body(sketch, gear, paper(outline), vec(paper(at)), scale)
     for gear, _unused, at in gears:
-        content += _circles(pair, gear, vec(paper(at)), scale)
-    content.append(Line(paper(contact_line(pair)), "lw-input-line"))
-    box = bounds([paper(each) for each in extent])
-    title = _("Gear pair {first} : {second}", first=pair.pinion.teeth, second=pair.wheel.teeth).translate(
-        language
-    )
-    return Drawing(captioned(content, box, _lines(pair, language), title), tuple(map(str, pair.findings)))
+        _circles(sketch, pair, gear, vec(paper(at)), scale)
+    sketch.line(paper(contact_line(pair)), "lw-input-line")
+    sketch.write_below(_lines(pair, language))
+    sketch.notes += map(str, pair.findings)
+    title = _("Gear pair {first} : {second}", first=pair.pinion.teeth, second=pair.wheel.teeth)
+    return sketch.drawing(title.translate(language))
 
 
 def draw_rack(rack: Rack, language: str = "en") -> Drawing:
@@ -56,21 +56,18 @@ def draw_rack(rack: Rack, language: str = "en") -> Drawing:
     require_language(language)
     outline = rack.outline()
     scale = GEARS_ACROSS / float(np.hypot(*np.ptp(outline, axis=0)))
-    paper = outline * (scale, -scale)
-    box = bounds([paper])
-    datum = points([(box[0] - 12.0, 0.0), (box[2] + 12.0, 0.0)])
+    paper, sketch = outline * (scale, -scale), Sketch()
+    sketch.line(paper, "lw-gear", closed=True)
+    sketch.line([(paper[:, 0].min() - 12.0, 0.0), (paper[:, 0].max() + 12.0, 0.0)], "lw-pitch")
     line = _(
         "z = {teeth}, m = {module} mm, p = {pitch} mm, α = {angle}°",
         teeth=rack.teeth,
         module=number(rack.module, "length"),
         pitch=number(rack.pitch, "length", 7),
         angle=number(rack.pressure_angle, "angle"),
-    ).translate(language)
-    content = [Line(paper, "lw-gear", closed=True), Line(datum, "lw-pitch")]
-    wider: Box = (box[0] - 12.0, box[1], box[2] + 12.0, box[3])
-    return Drawing(
-        captioned(content, wider, [line], _("Rack of {teeth} teeth", teeth=rack.teeth).translate(language))
     )
+    sketch.write_below([line.translate(language)])
+    return sketch.drawing(_("Rack of {teeth} teeth", teeth=rack.teeth).translate(language))
 
 
 def contact_line(pair: GearPair) -> Floats:
@@ -81,23 +78,21 @@ def contact_line(pair: GearPair) -> Floats:
     return np.array([foot + length * along for length in pair.path_of_contact])
 
 
-def _body(gear: Gear, outline: Floats, at: Floats, scale: float) -> SvgNode:
+def _body(sketch: Sketch, gear: Gear, outline: Floats, at: Vec, scale: float) -> None:
     if not gear.internal:
-        return Line(outline, "lw-gear", closed=True)
-    rim = ring(vec(at), scale * _outer_radius(gear), 180)
+        sketch.line(outline, "lw-gear", closed=True)
+        return
+    rim = ring(at, scale * _outer_radius(gear), 180)
     data = path_data(outline, closed=True) + path_data(rim, closed=True)
-    return element("path", {"class": "lw-gear", "fill-rule": "evenodd", "d": data})
+    sketch.draw([element("path", {"class": "lw-gear", "fill-rule": "evenodd", "d": data})], [rim])
 
 
-def _circles(pair: GearPair, gear: Gear, at: tuple[float, float], scale: float) -> list[SvgNode]:
+def _circles(sketch: Sketch, pair: GearPair, gear: Gear, at: Vec, scale: float) -> None:
     rolling = 0.5 * gear.base_diameter / math.cos(pair.working_pressure_angle)
-    arm = 6.0
-    return [
-        Circle(at, scale * rolling, "lw-pitch"),
-        Circle(at, 0.5 * scale * gear.base_diameter, "lw-hatch"),
-        Line(points([(at[0] - arm, at[1]), (at[0] + arm, at[1])]), "lw-hatch"),
-        Line(points([(at[0], at[1] - arm), (at[0], at[1] + arm)]), "lw-hatch"),
-    ]
+    sketch.circle(at, scale * rolling, "lw-pitch")
+    sketch.circle(at, 0.5 * scale * gear.base_diameter, "lw-hatch")
+    for arm in ((6.0, 0.0), (0.0, 6.0)):
+        sketch.line([np.subtract(at, arm), np.add(at, arm)], "lw-hatch")
 
 
 def _lines(pair: GearPair, language: str) -> list[str]:
@@ -149,25 +144,26 @@ def draw_cam(design: CamDesign, angle: float = 0.0, language: str = "en") -> Dra
     def paper(places: Floats) -> Floats:
         return np.asarray(places) * (scale, -scale)
 
-    content: list[SvgNode] = []
+    sketch = Sketch()
     for k, wall in enumerate(walls):
         filled = not barrel and k == 0 and cam.closure != "groove"
-        content.append(Line(paper(wall), "lw-gear" if filled else "lw-ground", closed=not barrel))
+        sketch.line(paper(wall), "lw-gear" if filled else "lw-ground", closed=not barrel)
     if len(pitch):
-        content.append(Line(paper(pitch), "lw-pitch", closed=not barrel))
+        sketch.line(paper(pitch), "lw-pitch", closed=not barrel)
     if not barrel:
-        content.append(Circle((0.0, 0.0), scale * (cam.base_radius or 0.0), "lw-hatch"))
-    frame = _frame(follower, paper, turns=not barrel)
-    content += frame.elements
-    content += _drawn(follower, paper, scale * cam.follower.roller_radius, cam.follower.kind)
+        sketch.circle((0.0, 0.0), scale * (cam.base_radius or 0.0), "lw-hatch")
+    _frame(sketch, follower, paper, turns=not barrel)
+    for part in ("stem", "face"):
+        if part in follower:
+            sketch.line(paper(follower[part]), "lw-bar")
+    if "roller" in follower and cam.follower.kind == "roller":
+        _roller(sketch, paper(follower["roller"][1]), scale * cam.follower.roller_radius)
     if cam.conjugate is not None:
-        content += _second(design, angle, paper, scale)
-    pins = [(0.0, 0.0)] if not barrel else []
-    pins += [vec(paper(place)) for place in follower.get("pivot", ())]
-    content += [element for at in pins for element in SYMBOLS["pin"](at=at).elements]
-    box = bounds([paper(cloud), *frame.ink])
-    title = _("{name}", name=design.title).translate(language)
-    return Drawing(captioned(content, box, [_line(design, angle, language)], title))
+        _second(sketch, design, angle, paper, scale)
+    for at in ([np.zeros(2)] if not barrel else []) + [paper(place) for place in follower.get("pivot", ())]:
+        sketch.put("pin", at=vec(at))
+    sketch.write_below([_line(design, angle, language)])
+    return sketch.drawing(_("{name}", name=design.title).translate(language))
 
 
 def _turned(places: Floats, angle: float) -> Floats:
@@ -175,17 +171,19 @@ def _turned(places: Floats, angle: float) -> Floats:
     return np.asarray(places @ np.array([[c, s], [-s, c]]))
 
 
-def _frame(follower: dict[str, Floats], paper: Callable[[Floats], Floats], *, turns: bool) -> Shape:
+def _frame(
+    sketch: Sketch, follower: dict[str, Floats], paper: Callable[[Floats], Floats], *, turns: bool
+) -> None:
     """Supports of the cam and of an oscillating follower, and the guide of a translating one."""
-    shapes = [SYMBOLS["fixed_pivot"]()] if turns else []
+    if turns:
+        sketch.put("fixed_pivot")
     for place in follower.get("pivot", ()):
-        shapes.append(SYMBOLS["fixed_pivot"](at=vec(paper(place))))
+        sketch.put("fixed_pivot", at=vec(paper(place)))
     if "pivot" not in follower and "stem" in follower:
         first, last = paper(follower["stem"])
         guide = {"at": vec(0.35 * first + 0.65 * last), "along": way(first, last)[1]}
-        ends = {"start": -_GUIDE, "end": _GUIDE, "height": _ROOM}
-        shapes += [SYMBOLS["ground_guide"](**guide, **ends, side=side) for side in (-1, 1)]
-    return joined(shapes)
+        for side in (-1, 1):
+            sketch.put("ground_guide", **guide, start=-_GUIDE, end=_GUIDE, height=_ROOM, side=side)
 
 
 def _follower(design: CamDesign, angle: float) -> dict[str, Floats]:
@@ -227,24 +225,14 @@ def _round(at: Floats, radius: float) -> Floats:
     return np.asarray(at + radius * corners)
 
 
-def _drawn(
-    parts: dict[str, Floats], paper: Callable[[Floats], Floats], roller: float, kind: str
-) -> list[SvgNode]:
-    """Stem, face and roller."""
-    found: list[SvgNode] = []
-    if "stem" in parts:
-        found.append(Line(paper(parts["stem"]), "lw-bar"))
-    if "face" in parts:
-        found.append(Line(paper(parts["face"]), "lw-bar"))
-    if "roller" in parts and kind == "roller":
-        x, y = paper(parts["roller"][1]).tolist()
-        found += [Circle((x, y), roller, "lw-pin"), Circle((x, y), 2.0, "lw-point")]
-    return found
+def _roller(sketch: Sketch, at: Floats, radius: float) -> None:
+    sketch.circle(vec(at), radius, "lw-pin")
+    sketch.circle(vec(at), 2.0, "lw-point")
 
 
 def _second(
-    design: CamDesign, angle: float, paper: Callable[[Floats], Floats], scale: float
-) -> list[SvgNode]:
+    sketch: Sketch, design: CamDesign, angle: float, paper: Callable[[Floats], Floats], scale: float
+) -> None:
     """The second roller of a pair, rigid with the first."""
     wall = design.cam.walls[1]
     assert isinstance(wall, RollerCurve)
@@ -252,13 +240,10 @@ def _second(
     if not design.cam.follower.oscillating:
         at = -at
     place = np.array([at[0].real, at[0].imag])
-    x, y = paper(place).tolist()
-    at_pin, roller = (x, y), scale * wall.follower.roller_radius
-    parts: list[SvgNode] = [Circle(at_pin, roller, "lw-pin"), Circle(at_pin, 2.0, "lw-point")]
     pivot = design.cam.follower.pivot_distance
     if design.cam.follower.oscillating and pivot is not None:
-        parts.insert(0, Line(paper(np.array([(pivot, 0.0), place])), "lw-bar"))
-    return parts
+        sketch.line(paper(np.array([(pivot, 0.0), place])), "lw-bar")
+    _roller(sketch, paper(place), scale * wall.follower.roller_radius)
 
 
 def _line(design: CamDesign, angle: float, language: str) -> str:

@@ -9,8 +9,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import per_mm, significant
 from linkwright.pictures.labels import Name, put
-from linkwright.pictures.picture import LEAST, Pen, Picture, Runs, Words, as_runs, indexed, joined
-from linkwright.plot.diagrams.axes import InputAxis, Unit
+from linkwright.pictures.picture import LEAST, Pen, Picture, Runs, Words, as_runs, indexed, joined, round_up
+from linkwright.plot.diagrams.axes import ANGLE_STEPS, InputAxis, Unit
 from linkwright.plot.diagrams.panels import Panel as Plotted
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.units import si_unit
@@ -23,7 +23,6 @@ APART, MARK = 13.0, 1.2
 FAR = 1.5
 #: Share of a diagram's height below which a level is zero.
 NOTHING = 1e-6
-_ANGLES = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, 720.0)
 _PENS: tuple[Pen, ...] = ("thick", "thin", "dashed", "chain")
 
 
@@ -144,9 +143,5 @@ class CurvePanel(Panel):
 
 def _step(least: float, *, angle: bool) -> float:
     """A round distance of marks that is not below a value."""
-    if angle:
-        for each in _ANGLES:
-            if each >= least * (1 - 1e-9):
-                return each
-    power = math.pow(10.0, math.floor(math.log10(least) + 1e-12))
-    return min(k * power for k in (1.0, 2.0, 5.0, 10.0) if k * power >= least * (1 - 1e-9))
+    found = round_up(least, (1.0, 2.0, 5.0))
+    return next((each for each in ANGLE_STEPS if each >= least * (1 - 1e-9)), found) if angle else found

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from functools import cached_property
 
 import numpy as np
 
@@ -17,7 +16,7 @@ from linkwright.pictures.labels import TO_UNITS, UNIT, Label, Name, put
 from linkwright.pictures.picture import LEAST, Circle, Fill, Line, Pen, Picture, Vec, as_runs, indexed, joined
 from linkwright.pictures.symbols.base import SYMBOLS, vec
 from linkwright.plot.drawing.loads import load_labels, load_marks
-from linkwright.plot.drawing.machine import View
+from linkwright.plot.drawing.machine import View, extent_of
 from linkwright.plot.drawing.scene import Scene, laid_out, link_labels, point_labels
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.sheets.positions import Positions
@@ -103,17 +102,8 @@ class MachinePanel(Panel):
         self.mechanism = positions.mechanism
         self._pictures: dict[float, Picture] = {}
         paper = positions.subject.settings.paper
+        self._extent = extent_of(positions.motion)
         self.smallest, self.largest = (share * (paper.width + paper.height) for share in SIZES)
-
-    @cached_property
-    def _extent(self) -> float:
-        """The longer side of all that the machine reaches, m."""
-        motion = self.positions.motion
-        clouds = [motion.point_of(key).position for key in motion.point_names()]
-        clouds += [np.array([at]) for at in self.mechanism.frame.points.values()]
-        every = np.concatenate(clouds)
-        every = every[np.isfinite(every).all(axis=1)]
-        return float(np.ptp(every, axis=0).max()) or 1.0
 
     def drawn(self, size: float, scale: float | None) -> Drawn:
         if scale is not None:

@@ -16,12 +16,23 @@ preferred scale with which its picture is at most ``size`` mm long; one of fixed
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 from linkwright.core.dataclass import dataclass
-from linkwright.pictures.picture import CAPTION, LEAST, TEXT, Box, Picture, Runs, Words, as_runs, runs_width
+from linkwright.pictures.picture import (
+    CAPTION,
+    GRAPHICAL,
+    LEAST,
+    TEXT,
+    Box,
+    Picture,
+    Runs,
+    Words,
+    as_runs,
+    round_up,
+    runs_width,
+)
 
 #: Between a picture and its caption, and from one line of text to the next in heights of letters.
 UNDER, LEADING = 3.0, 1.75
@@ -94,21 +105,13 @@ def block_of(name: str, drawn: Drawn, caption: float = CAPTION) -> Block:
 
 def preferred(least: float) -> float:
     """The smallest of 1, 2, 2.5, 4, 5 times a power of ten that is not below a value: graphical scales per mm."""
-    power = math.pow(10.0, math.floor(math.log10(least) + 1e-12))
-    return min(k * power for k in (1.0, 2.0, 2.5, 4.0, 5.0, 10.0) if k * power >= least * (1 - 1e-9))
-
-
-#: Reductions of ISO 5455 and those that GB/T 14690 prefers, then two of those that it allows.
-_PREFERRED, _ALLOWED = (1.0, 2.0, 5.0), (2.5, 4.0)
+    return round_up(least, GRAPHICAL)
 
 
 def drawing_scale(least: float, *, allowed: bool = False) -> float:
-    """The smallest reduction (2.0 for 1:2, 0.5 for 2:1) that is not below a value; ``allowed``: also 1:2.5, 1:4,
-    2.5:1 and 4:1, which GB/T 14690 allows."""
-    power = math.pow(10.0, math.floor(math.log10(least) + 1e-12))
-    steps = (*_PREFERRED, *(_ALLOWED if allowed else ()))
-    found: list[float] = [k * each for k in steps for each in (power, 10 * power)]
-    return min(each for each in found if each >= least * (1 - 1e-9))
+    """The smallest reduction (2.0 for 1:2, 0.5 for 2:1) of ISO 5455, or that GB/T 14690 prefers, that is not below a
+    value; ``allowed``: also 1:2.5, 1:4, 2.5:1 and 4:1, which GB/T 14690 allows."""
+    return round_up(least, GRAPHICAL if allowed else (1.0, 2.0, 5.0))
 
 
 def scale_text(reduction: float) -> str:

@@ -12,8 +12,9 @@ from tests.refusals import refused
 
 from linkwright.kinematics.names import output_meant
 from linkwright.pictures import diagram as picture
+from linkwright.pictures.picture import round_up
 from linkwright.plot import plot
-from linkwright.plot.diagrams.axes import round_up, significant, unit_of
+from linkwright.plot.diagrams.axes import significant, unit_of
 from linkwright.plot.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, title_of
 from linkwright.plot.diagrams.outputs import main_output
 

@@ -8,9 +8,9 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
+from linkwright.pictures.picture import GRAPHICAL, round_up
 from linkwright.pictures.svg.element import fold, width
 from linkwright.plot.free_bodies.actions import free_bodies, idle_loads
-from linkwright.plot.free_bodies.picture import round_scale
 
 LOADED = [name for name in store.names() if store.machine(name).has_loads]
 
@@ -43,7 +43,7 @@ def test_loads_outside_their_phase_are_named() -> None:
 
 @pytest.mark.parametrize("largest", [1e-6, 0.9, 1.0, 1.01, 2.1, 2.6, 4.2, 5.3, 99.0, 3.3e7])
 def test_scales_are_the_smallest_round_ones(largest: float) -> None:
-    scale = round_scale(largest, 30.0)
+    scale = round_up(largest / 30.0, GRAPHICAL)
     assert largest / scale <= 30.0 * (1 + 1e-9)
     smaller = [
         k * 10.0**e for e in range(-10, 9) for k in (1.0, 2.0, 2.5, 4.0, 5.0) if k * 10.0**e < 0.999 * scale

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -14,7 +14,7 @@ from linkwright.errors import RequestError
 from linkwright.export.dxf.entities import STYLE, add
 from linkwright.export.results import Results
 from linkwright.pictures.labels import Candidate, Label, Obstacles, place, text_of
-from linkwright.pictures.picture import CAPITAL, Circle, Line, Text, Vec
+from linkwright.pictures.picture import CAPITAL, Circle, Line, Text, Vec, unbroken
 from linkwright.pictures.symbols.base import PIN, points
 from linkwright.plot.drawing.dimensions import Dimensioned, dimension_lines
 from linkwright.plot.drawing.scene import laid_out, link_labels, point_labels
@@ -197,11 +197,3 @@ def set_dimension_style(document: Any, height: float, decimals: int) -> None:
 def decimals_for(factor: float) -> int:
     """Decimals of dimensions: to a thousandth of a millimetre."""
     return max(0, 6 - round(math.log10(factor)))
-
-
-def unbroken(track: Floats) -> Iterator[Floats]:
-    """The pieces of a path between positions that were not reached."""
-    good = np.asarray(np.isfinite(track).all(axis=1))
-    for piece in np.split(np.arange(len(track)), np.flatnonzero(np.diff(good.astype(int))) + 1):
-        if len(piece) > 1 and good[piece[0]]:
-            yield track[piece]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -54,13 +53,7 @@ def unit_of(dimension: str, arrays: Iterable[Floats] = ()) -> Unit:
     return Unit(prefix + _PREFIXED[dimension], factor)
 
 
-def round_up(value: float) -> float:
-    """The smallest of 1, 2, 2.5, 5 times a power of ten that is not below a value."""
-    power = 10.0 ** math.floor(math.log10(value) + 1e-12)
-    return min(k * power for k in (1.0, 2.0, 2.5, 5.0, 10.0) if k * power >= value * (1 - 1e-9))
-
-
-_ANGLE_STEPS = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, 720.0)
+ANGLE_STEPS = (1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, 720.0)
 
 
 #: Letters of the input by its dimension, and of the time.
@@ -113,7 +106,7 @@ def _angle_ticks(axes: Axes, span: float) -> None:
     """Ticks below at whole shares of a turn, for an axis that shows ``span`` degrees."""
     from matplotlib.ticker import MultipleLocator
 
-    step = next((each for each in _ANGLE_STEPS if span / each <= 12.5), None)
+    step = next((each for each in ANGLE_STEPS if span / each <= 12.5), None)
     if step is not None:
         axes.xaxis.set_major_locator(MultipleLocator(step))
 

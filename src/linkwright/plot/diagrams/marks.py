@@ -19,7 +19,8 @@ from linkwright.loads.over_cycle import activity
 from linkwright.loads.phases import Always
 from linkwright.metrics.analysis import Kind
 from linkwright.pictures.diagram import INK, Axes
-from linkwright.plot.diagrams.axes import InputAxis, Unit, round_up
+from linkwright.pictures.picture import round_up
+from linkwright.plot.diagrams.axes import InputAxis, Unit
 from linkwright.plot.diagrams.names import Name, Names
 from linkwright.plot.diagrams.source import Extremes, Source
 

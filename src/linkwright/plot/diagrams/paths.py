@@ -8,7 +8,6 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
-from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_or_point
 from linkwright.pictures.diagram import COLOURS, Figure, new_figure
 from linkwright.plot.diagrams.axes import Legend, make_plane
@@ -18,6 +17,7 @@ from linkwright.plot.diagrams.names import LINK, Names, draw_machine, write_name
 from linkwright.plot.diagrams.outputs import traced_points
 from linkwright.plot.diagrams.panels import DASHES
 from linkwright.plot.diagrams.source import Source
+from linkwright.plot.drawing.machine import extent_of
 from linkwright.words import _
 
 
@@ -99,7 +99,7 @@ def _draw(
 def _worth_marks(source: Source, curve: Floats) -> bool:
     """Whether a path is long enough, beside the whole machine, for marks along it."""
     good = curve[np.isfinite(curve).all(axis=1)]
-    return len(good) > 2 and float(np.ptp(good, axis=0).max()) > 0.12e3 * _reach(source.motion)
+    return len(good) > 2 and float(np.ptp(good, axis=0).max()) > 0.12e3 * extent_of(source.motion)
 
 
 def _point(source: Source, name: str) -> str:
@@ -113,12 +113,3 @@ def _point(source: Source, name: str) -> str:
             )
         )
     return found.owner
-
-
-def _reach(motion: Motion) -> float:
-    """Size of the mechanism over the motion, m."""
-    clouds = [np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2)]
-    clouds += [motion.point_of(key).position for key in motion.point_names()]
-    every = np.concatenate(clouds)
-    every = every[np.isfinite(every).all(axis=1)]
-    return float(np.ptp(every, axis=0).max()) if len(every) else 1.0

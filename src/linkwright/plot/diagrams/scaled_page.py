@@ -14,11 +14,10 @@ from linkwright.core.quantity import significant
 from linkwright.kinematics.motion import Motion
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.labels import Label
-from linkwright.pictures.picture import Runs, Words, indexed, joined, name_runs
+from linkwright.pictures.picture import Runs, Words, indexed, joined, name_runs, round_up
 from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import element, fold
 from linkwright.pictures.symbols.base import vec
-from linkwright.plot.diagrams.axes import round_up
 from linkwright.plot.drawing.machine import View
 from linkwright.plot.drawing.scene import laid_out, point_labels
 from linkwright.words import Say, _

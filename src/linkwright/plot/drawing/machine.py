@@ -81,6 +81,15 @@ def fitted(motion: Motion, placed: Mapping[str, Placement], diagonal: float = DI
     return View(scale)
 
 
+def extent_of(motion: Motion) -> float:
+    """The longer side of all that a machine reaches, m; 1 of one that is a point."""
+    clouds = [np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2)]
+    clouds += [motion.point_of(key).position for key in motion.point_names()]
+    every = np.concatenate(clouds)
+    every = every[np.isfinite(every).all(axis=1)]
+    return float(np.ptp(every, axis=0).max(initial=0.0)) or 1.0 if len(every) else 1.0
+
+
 def _bars(points: Mapping[str, Vec]) -> list[float]:
     rows = list(points.values())
     lengths = [float(np.hypot(a[0] - b[0], a[1] - b[1])) for i, a in enumerate(rows) for b in rows[:i]]

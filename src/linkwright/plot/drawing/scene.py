@@ -140,16 +140,16 @@ def mass_centres(machine: Machine) -> Iterator[Part]:
 LINK_SIZE = 12.0
 
 
-def point_labels(machine: Machine, index: int) -> Iterator[Label]:
-    """Names of all pins and points at one position."""
+def point_labels(machine: Machine, index: int, links: Iterable[str] | None = None) -> Iterator[Label]:
+    """Names of all pins and points of moving links at one position; of some links where these are named."""
     seen: set[tuple[str, float, float]] = set()
-    for link in machine.motion.mechanism.links.values():
-        for point in link.points:
-            x, y = machine.paper(link.name, point, index)
+    for link in machine.motion.mechanism.links if links is None else links:
+        for point in machine.motion.mechanism.links[link].points:
+            x, y = machine.paper(link, point, index)
             key = (point, round(x), round(y))
             if key not in seen:
                 seen.add(key)
-                yield Label(point, ((x, y),), clearance=8.0, point=f"{link.name}.{point}")
+                yield Label(point, ((x, y),), clearance=8.0, point=f"{link}.{point}")
 
 
 def link_labels(scene: Scene, index: int) -> Iterator[Label]:

@@ -12,7 +12,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import fixed
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
-from linkwright.pictures.picture import indexed, name_runs, sentence_runs
+from linkwright.pictures.picture import GRAPHICAL, indexed, name_runs, round_up, sentence_runs
 from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import fold
 from linkwright.plot.diagrams.scaled_page import page
@@ -25,7 +25,6 @@ from linkwright.plot.free_bodies.picture import (
     BodySketch,
     LinkShapes,
     body_sketch,
-    round_scale,
 )
 from linkwright.words import Say, _, pgettext
 from linkwright.words.sentence import link_said
@@ -93,7 +92,7 @@ def free_body_pages(
         )
     shapes = LinkShapes(forces.motion, index)
     reach = max(shapes.reach(body.link) for body in bodies) or 1.0
-    usual = round_scale(reach, 46.0)
+    usual = round_up(reach / 46.0, GRAPHICAL)
     cells = [_cell(body_sketch(shapes, body, usual, ROOM), say, language) for body in bodies]
     sheets = _sheets(cells, min(columns, len(cells)), tallest if first is None else first, tallest)
     return [_page(sheet, say, heading) for sheet in sheets]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import cache, cached_property
 from itertools import pairwise
 
@@ -15,12 +16,12 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
 from linkwright.pictures.drawing import bounds
 from linkwright.pictures.labels import Label
-from linkwright.pictures.picture import Line, SvgNode
+from linkwright.pictures.picture import GRAPHICAL, Line, SvgNode, round_up
 from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import group
 from linkwright.pictures.symbols.base import SYMBOLS, points, vec
 from linkwright.plot.drawing.machine import Machine, Part, View
-from linkwright.plot.drawing.scene import Scene, parts_of
+from linkwright.plot.drawing.scene import Scene, parts_of, point_labels
 from linkwright.plot.drawing.vectors import NAME_SIZE
 from linkwright.plot.free_bodies.actions import STYLES, Action, FreeBody
 
@@ -152,16 +153,6 @@ SIZES = (
 )  # fmt: skip
 #: Millimetres of the whole machine where sizes are read off a drawing of it.
 FINE = 400.0
-#: Round numbers of scales.
-ROUND = (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)
-
-
-def round_scale(largest: float, millimetres: float) -> float:
-    """The smallest round scale (1, 2, 2.5, 4, 5 times powers of ten) with which a quantity is at most so many
-    millimetres long."""
-    raw = largest / millimetres
-    power = 10.0 ** math.floor(math.log10(raw))
-    return next(k * power for k in ROUND if k * power >= raw * (1.0 - 1e-9))
 
 
 class LinkShapes:
@@ -220,8 +211,9 @@ def body_sketch(shapes: LinkShapes, body: FreeBody, usual: float, room: tuple[fl
     reach = shapes.reach(body.link)
     force = max((each.size for each in body.forces), default=0.0)
     for length, longest in SIZES:
-        metres = round_scale(reach, length) if reach else usual
-        drawn = BodySketch(shapes, body, metres, round_scale(force, longest) if force else None)
+        metres = round_up(reach / length, GRAPHICAL) if reach else usual
+        newtons = round_up(force / longest, GRAPHICAL) if force else None
+        drawn = BodySketch(shapes, body, metres, newtons)
         last = (length, longest) == SIZES[-1]
         if last or drawn.fits(room):
             drawn.write_names()
@@ -247,21 +239,11 @@ class BodySketch(Sketch):
             self.labels.append(arrow.label)
         turns, turned, names = arcs(body.couples, view)
         self.draw(turns, turned)
-        self.labels += [*names, *_names(scene, body.link, shapes.index)]
+        points_named = point_labels(scene.machine, shapes.index, [body.link])
+        self.labels += [*names, *(replace(label, size=13.0) for label in points_named)]
         self.shortened = any(not arrow.to_scale for arrow in arrows)
 
     def fits(self, room: tuple[float, float]) -> bool:
         """Whether what is drawn so far is no larger than a room."""
         left, top, right, bottom = self.box
         return right - left <= room[0] and bottom - top <= room[1]
-
-
-def _names(scene: Scene, link: str, index: int) -> list[Label]:
-    """Names of the link's points, each place once."""
-    machine, found, seen = scene.machine, [], set[tuple[int, int]]()
-    for name in machine.motion.mechanism.links[link].points:
-        x, y = machine.paper(link, name, index)
-        if (round(x), round(y)) not in seen:
-            seen.add((round(x), round(y)))
-            found.append(Label(name, ((x, y),), size=13.0, clearance=8.0))
-    return found

@@ -19,7 +19,6 @@ from linkwright.parts.statics.structure import StructureForces
 from linkwright.parts.statics.wedge import WedgeForces
 from linkwright.pictures.diagram import Figure
 from linkwright.pictures.drawing import Drawing
-from linkwright.pictures.sketch import Sketch
 from linkwright.plot.diagrams.axes import InputAxis
 from linkwright.plot.diagrams.base import Request, result_diagram
 from linkwright.plot.diagrams.force_polygon import force_text
@@ -27,8 +26,7 @@ from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.panels import Panel, stacked
 from linkwright.plot.diagrams.scaled_page import Cell, Vector, page, vector_cell
 from linkwright.plot.drawing.draw import draw
-from linkwright.plot.sketches.base import scale_of
-from linkwright.plot.sketches.bodies import draw_support, hull
+from linkwright.plot.sketches.bodies import on_supports
 from linkwright.plot.sketches.forces import FLAT
 from linkwright.words import _
 
@@ -75,17 +73,13 @@ def draw_closed_polygon(result: PointEquilibrium, request: Request) -> Drawing:
 @result_diagram("body_reactions", _("forces and reactions"), Reactions)
 def draw_body_reactions(result: Reactions, request: Request) -> Drawing:
     """A body's forces and reactions at their places, in the plane x, y."""
-    body, sketch = result.body, Sketch()
-    held = {name: spatial(support.at)[:2] for name, support in body.supports.items()}
-    places = np.array([*held.values(), *(each.place[:2] for each in body.forces.values())]) * (1.0, -1.0)
-    scale = scale_of([places], BODY, BODY)
-    hull(sketch, scale * places)
-    middle = scale * places.mean(axis=0)
-    for name, support in body.supports.items():
-        at = scale * held[name] * (1.0, -1.0)
-        draw_support(sketch, name, support, at, FLAT, body.planar, middle)
+    body = result.body
+    sketch, places, scale = on_supports(body, FLAT, BODY)
     arrows = [(f.place[:2], f.vector[:2], "lw-load", name) for name, f in body.forces.items()]
-    arrows += [(at, _reaction(result, name), "lw-force", name) for name, at in held.items()]
+    arrows += [
+        (at[:2], _reaction(result, name), "lw-force", name)
+        for name, at in zip(body.supports, places, strict=False)
+    ]
     largest = max(float(np.hypot(*vector)) for _, vector, *_ in arrows) or 1.0
     for place, vector, style, name in arrows:
         start = scale * place * (1.0, -1.0)

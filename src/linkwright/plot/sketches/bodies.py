@@ -14,7 +14,7 @@ from linkwright.pictures.picture import Vec
 from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.symbols.base import vec
 from linkwright.plot.sketches.base import roller_support, scale_of, sketched
-from linkwright.plot.sketches.forces import AXIS, ISOMETRIC, LONGEST, SHORTEST, axes
+from linkwright.plot.sketches.forces import AXIS, FLAT, ISOMETRIC, LONGEST, SHORTEST, axes
 
 #: Length of a rod or rope to the ground; room for the body.
 ROD, ROOM = 62.0, 340.0
@@ -23,20 +23,12 @@ ROD, ROOM = 62.0, 340.0
 @sketched("rigid_body")
 def draw_body(body: RigidBody, language: str) -> Drawing:
     """The body as the hull of its points, supports, loads to one scale, in the plane with dimensions."""
-    view = np.array([(1.0, 0.0), (0.0, -1.0), (0.0, 0.0)]) if body.planar else ISOMETRIC
-    held = {name: spatial(each.at) for name, each in body.supports.items()}
-    loaded = {name: each.place for name, each in body.forces.items()}
-    places = np.array([*held.values(), *loaded.values()]) @ view
-    scale = scale_of([places], ROOM, ROOM)
-    paper, corners = Sketch(), scale * places
-    hull(paper, corners)
-    for name, support in body.supports.items():
-        draw_support(
-            paper, name, support, scale * (held[name] @ view), view, body.planar, corners.mean(axis=0)
-        )
+    view = FLAT if body.planar else ISOMETRIC
+    paper, places, scale = on_supports(body, view, ROOM)
+    corners = scale * places @ view
     largest = max((float(np.linalg.norm(each.vector)) for each in body.forces.values()), default=1.0) or 1.0
     for name, force in body.forces.items():
-        at, size = scale * (loaded[name] @ view), float(np.linalg.norm(force.vector))
+        at, size = scale * (force.place @ view), float(np.linalg.norm(force.vector))
         length = max(0.6 * LONGEST * size / largest, SHORTEST)
         start = at - length * (force.unit @ view)
         paper.arrow(start, at, "lw-load")
@@ -48,13 +40,26 @@ def draw_body(body: RigidBody, language: str) -> Drawing:
         text = f"{name} = {shown(float(np.linalg.norm(couple)), 'torque')}"
         paper.name(text, at + np.array([0.0, -26.0]), style="lw-load-name")
     if body.planar:
-        _dimensions(paper, np.array([*held.values(), *loaded.values()])[:, :2], scale)
+        _dimensions(paper, places[:, :2], scale)
     else:
         axes(paper, view, corners.min(axis=0) - np.array([AXIS, -AXIS]))
     return paper.drawing(body.name)
 
 
-def hull(paper: Sketch, corners: Floats) -> None:
+def on_supports(body: RigidBody, view: Floats, room: float) -> tuple[Sketch, Floats, float]:
+    """The body as the hull of its points on its supports, in a room; its points (n, 3), and pixels per metre."""
+    held = {name: spatial(each.at) for name, each in body.supports.items()}
+    places = np.array([*held.values(), *(each.place for each in body.forces.values())])
+    scale, paper = scale_of([places @ view], room, room), Sketch()
+    corners = scale * places @ view
+    _hull(paper, corners)
+    for name, support in body.supports.items():
+        at = scale * (held[name] @ view)
+        _draw_support(paper, name, support, at, view, body.planar, corners.mean(axis=0))
+    return paper, places, scale
+
+
+def _hull(paper: Sketch, corners: Floats) -> None:
     """The body: a bar along points on one line, a plate over others."""
     centred = corners - corners.mean(axis=0)
     flat = np.linalg.svd(centred)[1]
@@ -66,7 +71,7 @@ def hull(paper: Sketch, corners: Floats) -> None:
         paper.put("plate", corners=corners)
 
 
-def draw_support(
+def _draw_support(
     paper: Sketch, name: str, support: Support, at: Floats, view: Floats, planar: bool, middle: Floats
 ) -> None:
     place, holds = vec(at), set(support.holds)

@@ -10,7 +10,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.picture import as_runs, indexed
-from linkwright.plot.diagrams.axes import InputAxis
+from linkwright.plot.diagrams.axes import SYMBOLS, InputAxis
 from linkwright.plot.diagrams.base import Request
 from linkwright.plot.diagrams.force_polygon import link_forces, worth_drawing
 from linkwright.plot.diagrams.outputs import main_output
@@ -33,7 +33,6 @@ _MOTION = (
     ("velocity", 3.5, _("Velocity of {output}")),
     ("acceleration", 4.0, _("Acceleration of {output}")),
 )
-_SYMBOLS = {"angle": "φ", "length": "s", "time": "t"}
 
 
 @SHEETS.register("mechanism")
@@ -120,4 +119,4 @@ def _curve(name: str, rank: float, caption: str, axis: InputAxis, plotted: Plott
     """The curves of a diagram's panel on the sheet."""
     symbols = {"torque": indexed("M", "b"), "force": indexed("F", "b")}
     symbol = symbols.get(plotted.dimension, as_runs(plotted.title.rpartition(" ")[2]))
-    return CurvePanel(name, rank, caption, (as_runs(_SYMBOLS[axis.dimension]), symbol), axis, plotted)
+    return CurvePanel(name, rank, caption, (as_runs(SYMBOLS[axis.dimension]), symbol), axis, plotted)
