@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial as partial_of
+from functools import partial
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
+from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS
 from linkwright.core.progress import Progress, paced, part_of
 from linkwright.designs.finished_parts import identity, once, surrounding
@@ -57,69 +58,112 @@ def side_by_side(
     return [each for each in found if each is not None and each.kinds]
 
 
+@dataclass(frozen=True)
+class Numbers:
+    """Metrics (designs,) by name, NaN of designs that were not chosen, with their dimensions; sentences of designs
+    for which one cannot be found, and notes."""
+
+    values: dict[str, Floats]
+    dimensions: dict[str, str]
+    troubled: dict[int, str]
+    notes: dict[str, None]
+
+
+#: Values with their dimensions of the named metrics of one changed design, why it lacks others, and notes.
+Alone = Callable[[dict[str, float], Sequence[str]], tuple[dict[str, tuple[float, str]], str, list[str]]]
+
+
 def numbers_of(
     mechanism: Mechanism,
     columns: Mapping[str, Floats],
     names: Sequence[str],
     designs: Indices,
+    alone: Alone,
+    known: tuple[object, ...],
     *,
-    partial: bool = False,
+    asked: Asked | None = None,
+    together: bool = True,
     threads: int | None = None,
     backend: Backend = "auto",
     progress: Progress | None = None,
-) -> tuple[dict[str, Floats], dict[str, str], dict[int, str]]:
-    """Metrics of the chosen ones of all designs, NaN for the others: values and dimensions by name, and sentences of
-    designs for which they cannot be found. ``partial``: also of designs that reach a part of their cycle alone.
+) -> Numbers:
+    """Metrics of the chosen ones of all designs; ``known``: on what else they depend.
 
-    Formulas of summaries are found together as far as that is certain, the others, and what is no such formula, one
-    by one. Raises RequestError for a metric that applies to none.
+    Formulas of summaries are found ``together`` as far as that is certain, the others, and what is no such formula,
+    one by one; all of them are kept where parts are kept.
     """
-    count = len(next(iter(columns.values())))
-    values = {name: np.full(count, np.nan) for name in names}
-    dimensions: dict[str, str] = {}
-    try:
-        cycles = side_by_side(mechanism, columns, names)
-    except RequestError:
-        raise
-    except LinkwrightError:  # of the machine as it is; designs tell for themselves
-        cycles = []
-    certain = np.full(len(designs), bool(cycles))
-    kept = surrounding() is not None
-    own = identity(dump(replace(mechanism, optimize={})), *names, partial) if kept else ""
-    compiled = backend == "auto" and available()
-    whole = progress is None or (compiled and len(designs) <= FEW)
+    found = Numbers({name: np.full(len(next(iter(columns.values()))), np.nan) for name in names}, {}, {}, {})
+    cycles, total = _cycles(mechanism, columns, names, asked) if together else [], len(designs)
+    kept, compiled = surrounding() is not None, backend == "auto" and available()
+    own = identity(dump(replace(mechanism, optimize={})), *known) if kept else ""
+    whole = total <= PIECE if kept else progress is None or (compiled and total <= FEW)
     serving: Backend = "llvm" if compiled and not whole else backend  # as it serves all together
+    unsure = np.ones((len(names), total), dtype=np.bool_)
     for k, cycle in enumerate(cycles):
         tell = part_of(progress, k, len(cycles) + 1)
-        pieces = [(0, len(designs))] if whole else paced(len(designs))
-        for low, high in chunks(len(designs), PIECE) if kept else pieces:
+        rows = [names.index(name) for name in cycle.kinds]
+        found.dimensions.update(cycle.kinds)
+        for low, high in chunks(total, PIECE) if kept else [(0, total)] if whole else paced(total):
             some = designs[low:high]
             part = {address: column[some] for address, column in columns.items()}
-            evaluate = partial_of(cycle.evaluate, part, threads=threads, backend=serving)
-            known, sure_here = once(evaluate, partial_of(tuple, (own, k, serving, part)))
-            certain[low:high] &= sure_here
-            for name, column in known.items():
-                values[name][some[sure_here]] = column[sure_here]
-            dimensions |= cycle.kinds
+            evaluate = partial(cycle.evaluate, part, threads=threads, backend=serving)
+            values, sure = once(evaluate, partial(tuple, (own, [*cycle.kinds], serving, part)))
+            for name, column in values.items():
+                found.values[name][some[sure]] = column[sure]
+            unsure[rows, low:high] = ~sure
             if tell is not None:
-                tell(high, len(designs))
-    sure = np.zeros(count, dtype=np.bool_)
-    sure[designs] = certain
-    rest = [name for name in names if name not in dimensions]
-    failed: dict[int, str] = {}
-    left = designs.tolist() if rest else designs[~sure[designs]].tolist()
-    tell = part_of(progress, len(cycles), len(cycles) + 1)
-    for done, index in enumerate(left, 1):
-        changes, asked = changes_of(columns, index), rest if sure[index] else names
-        alone = partial_of(_alone, mechanism, changes, asked, partial)
-        found_alone, why = once(alone, partial_of(tuple, (own, changes, *asked)))
-        failed |= {index: why} if why else {}
-        for name, (value, dimension) in found_alone.items():
-            values[name][index], dimensions[name] = value, dimension
+                tell(high, total)
+    left, tell = np.flatnonzero(unsure.any(axis=0)), part_of(progress, len(cycles), len(cycles) + 1)
+    for done, place in enumerate(left.tolist(), total - len(left) + 1):
+        index = int(designs[place])
+        rest = [name for name, row in zip(names, unsure, strict=True) if row[place]]
+        changes = changes_of(columns, index)
+        numbers, why, notes = once(partial(alone, changes, rest), partial(tuple, (own, changes, *rest)))
+        found.troubled.update({index: why} if why else {})
+        found.notes.update(dict.fromkeys(notes))
+        for name, (value, dimension) in numbers.items():
+            found.values[name][index], found.dimensions[name] = value, dimension
         if tell is not None:
-            tell(len(designs) * done // len(left), len(designs))
-    idle = [name for name in names if name not in dimensions] if len(designs) > len(failed) else []
-    if idle:
+            tell(done, total)
+    if tell is not None:
+        tell(total, total)
+    return found
+
+
+def _cycles(
+    mechanism: Mechanism, columns: Mapping[str, Floats], names: Sequence[str], asked: Asked | None
+) -> list[MetricsOfDesigns]:
+    """What finds them together; nothing where the machine as it is has no numbers: designs tell for themselves."""
+    try:
+        return side_by_side(mechanism, columns, names, asked)
+    except RequestError:
+        raise
+    except LinkwrightError:
+        return []
+
+
+def swept_numbers(
+    mechanism: Mechanism,
+    columns: Mapping[str, Floats],
+    names: Sequence[str],
+    designs: Indices,
+    *,
+    in_part: bool,
+    threads: int | None,
+    backend: Backend,
+    progress: Progress | None,
+) -> Numbers:
+    """Those of a sweep; ``in_part``: also of designs that reach a part of their cycle.
+
+    Raises RequestError for a metric that applies to none.
+    """
+    alone = partial(_alone, mechanism, in_part)
+    found = numbers_of(
+        mechanism, columns, names, designs, alone, (in_part,),
+        threads=threads, backend=backend, progress=progress,
+    )  # fmt: skip
+    idle = [name for name in names if name not in found.dimensions]
+    if idle and len(designs) > len(found.troubled):
         if (missing := unloaded(mechanism, idle)) is not None:
             raise RequestError(missing)
         raise RequestError(
@@ -130,23 +174,22 @@ def numbers_of(
                 name=mechanism.name,
             )
         )
-    return values, dimensions, failed
+    return found
 
 
 def _alone(
-    mechanism: Mechanism, changes: Mapping[str, float], names: Sequence[str], partial: bool
-) -> tuple[dict[str, tuple[float, str]], str]:
-    """Values and dimensions of the metrics that one design has, and why it lacks others."""
+    mechanism: Mechanism, in_part: bool, changes: dict[str, float], names: Sequence[str]
+) -> tuple[dict[str, tuple[float, str]], str, list[str]]:
     found: dict[str, tuple[float, str]] = {}
     why, design = "", mechanism.with_dimensions(changes)
     try:
-        motion = solve_motion(design, failures="mark" if partial else "raise")
+        motion = solve_motion(design, failures="mark" if in_part else "raise")
         forces = any(needs_forces(name, design) for name in names)
         analysis = Analysis.of(solve_forces(motion) if forces else motion)
     except RequestError:
         raise
     except LinkwrightError as error:
-        return found, error.sentence
+        return found, error.sentence, []
     ask(names, analysis)
     for name in names:
         try:
@@ -156,4 +199,4 @@ def _alone(
             raise
         except LinkwrightError as error:
             why = error.sentence
-    return found, why
+    return found, why, []

@@ -19,7 +19,7 @@ from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, columns_table, unused
 from linkwright.cycle.summary import Summary
 from linkwright.designs.cluster import current, in_order, in_turn
-from linkwright.designs.design_numbers import numbers_of
+from linkwright.designs.design_numbers import swept_numbers
 from linkwright.designs.failures import Failure, explained
 from linkwright.designs.of_positions import note_of_positions
 from linkwright.designs.sweep_run import Manner, SweepRun
@@ -202,15 +202,14 @@ def sweep(
     dimensions: dict[str, str] = {}
     if numbers:
         chosen = np.flatnonzero(assembled > 0 if partial else passed)
-        found, dimensions, failed = numbers_of(
-            mechanism, columns, numbers, chosen, partial=partial, threads=threads, backend=backend,
+        found = swept_numbers(
+            mechanism, columns, numbers, chosen, in_part=partial, threads=threads, backend=backend,
             progress=part_of(progress, 1, stages),
         )  # fmt: skip
-        values |= {each: found[each.name] for each in asked if each.name in found}
-        run.unloaded |= failed
-        passed[list(failed)] = False
-        if progress is not None:
-            progress(run.designs, run.designs)
+        dimensions = found.dimensions
+        values |= {each: found.values[each.name] for each in asked if each.name in found.values}
+        run.unloaded |= found.troubled
+        passed[list(found.troubled)] = False
     return Sweep(
         mechanism,
         columns,

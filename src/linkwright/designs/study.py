@@ -21,17 +21,16 @@ from linkwright.core.table import Table, Tabular, csv_text, unused
 from linkwright.designs.alternatives import Alternative
 from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import Criterion, criteria
-from linkwright.designs.design_numbers import side_by_side
+from linkwright.designs.design_numbers import numbers_of
 from linkwright.designs.designs import sweep
 from linkwright.designs.failures import Failure
-from linkwright.designs.finished_parts import identity, once
+from linkwright.designs.finished_parts import identity
 from linkwright.designs.ranges import Range
 from linkwright.designs.sampling import grid, sobol
 from linkwright.designs.varied_dimensions import varied_ranges
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.files.write import dump
 from linkwright.formula.machine_code import available
-from linkwright.formula.threads import chunks
 from linkwright.kinematics.names import place_meant
 from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
@@ -45,7 +44,6 @@ from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.formula.summaries import Backend
-    from linkwright.metrics.of_designs import MetricsOfDesigns
 
 Sampling = Literal["grid", "sobol"]
 _Piece = tuple[dict[str, Floats], dict[str, str], dict[str, None], dict[int, str]]
@@ -277,17 +275,18 @@ class _Work:
         self, asked: list[Criterion], designs: Indices, together: bool, backend: Backend = "auto"
     ) -> None:
         """Numbers of the designs, at once as far as they are certain so (``together``), the others one by one."""
-        parts = 1 + together
-        certain = (
-            self._together(asked, designs, backend, part_of(self.progress, 0, parts)) if together else {}
-        )
-        tell = part_of(self.progress, parts - 1, parts)
-        for done, index in enumerate(designs.tolist(), 1):
-            single = [each for each in asked if index not in certain.get(each.name, ())]
-            if single:
-                self._measure(index, single)
-            if tell is not None:
-                tell(done, len(designs))
+        names = {each.name: each for each in asked}
+        found = numbers_of(
+            self.mechanism, self.columns, [*names], designs,
+            lambda changes, some: self._measured(changes, [names[each] for each in some]),
+            (str(self.output), self.fluctuation, self.steps),
+            asked=Asked(self.output, self.fluctuation), together=together, backend=backend, progress=self.progress,
+        )  # fmt: skip
+        for name, values in found.values.items():
+            self.values[name][designs] = values[designs]
+        self.dimensions |= found.dimensions
+        self.troubled |= found.troubled
+        self.notes |= found.notes
 
     def _shared(self, client: Any, asked: list[Criterion], designs: Indices) -> None:
         """The same in pieces on a cluster."""
@@ -308,39 +307,6 @@ class _Work:
             self.notes |= notes
             self.troubled |= {int(part[index]): why for index, why in troubled.items()}
 
-    def _together(
-        self, asked: list[Criterion], designs: Indices, backend: Backend, progress: Progress | None
-    ) -> dict[str, set[int]]:
-        """Numbers of many designs at once; which designs' they are certain of, by name."""
-        wanted = Asked(self.output, self.fluctuation)
-        sure: dict[str, set[int]] = {}
-        if len(designs) > AT_ONCE and backend == "auto" and available():
-            backend = "llvm"  # for the last of them as well, however few
-        cycles = side_by_side(self.mechanism, self.columns, [each.name for each in asked], wanted)
-        for k, cycle in enumerate(cycles):
-            tell = part_of(progress, k, len(cycles))
-            for first, end in chunks(len(designs), AT_ONCE):
-                some = designs[first:end]
-                values, certain = self._at_once(cycle, some, backend)
-                for name, kind in cycle.kinds.items():
-                    self.values[name][some[certain]] = values[name][certain]
-                    self.dimensions[name] = kind
-                    sure.setdefault(name, set()).update(some[certain].tolist())
-                if tell is not None:
-                    tell(end, len(designs))
-        return sure
-
-    def _at_once(
-        self, cycle: MetricsOfDesigns, designs: Indices, backend: Backend
-    ) -> tuple[dict[str, Floats], Flags]:
-        """Values of a cycle's numbers and which are certain, which are kept where parts are kept."""
-        part = {address: column[designs] for address, column in self.columns.items()}
-
-        return once(
-            lambda: cycle.evaluate(part, backend=backend),
-            lambda: (self._own, [*cycle.kinds], backend, part),
-        )
-
     @cached_property
     def _own(self) -> str:
         """What the numbers of all designs depend on."""
@@ -357,19 +323,6 @@ class _Work:
 
     def _any_output(self) -> str:
         return f"{list(self.mechanism.links)[-1]}.angular_velocity max"
-
-    def _measure(self, index: int, asked: list[Criterion]) -> None:
-        """Numbers of one design, which are kept where parts are kept."""
-        changes = {address: float(column[index]) for address, column in self.columns.items()}
-        names = [each.name for each in asked]
-        numbers, troubled, notes = once(
-            lambda: self._measured(changes, asked), lambda: (self._own, names, changes)
-        )
-        for name, (value, dimension) in numbers.items():
-            self.values[name][index], self.dimensions[name] = value, dimension
-        if troubled:
-            self.troubled[index] = troubled
-        self.notes |= dict.fromkeys(notes)
 
     def _measured(
         self, changes: dict[str, float], asked: list[Criterion]
