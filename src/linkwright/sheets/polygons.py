@@ -10,7 +10,6 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import per_mm
-from linkwright.errors import LinkwrightError
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import LEAST, Picture, as_runs, indexed, joined
@@ -74,15 +73,7 @@ class MotionPolygonPanel(ScaledPanel):
     def __init__(self, name: str, rank: float, positions: Positions, shown: Shown) -> None:
         super().__init__(name, rank, positions, shown)
         self.polygon = self.made()
-        images = np.array([np.zeros(2), *self.polygon.images.values(), *(s.end for s in self.polygon.steps)])
-        self.longest = float(np.ptp(images, axis=0).max())
-        if not self.longest > 0.0:
-            raise LinkwrightError(
-                _(
-                    "nothing moves at this position, so there is no polygon; choose another input: at=…",
-                    code="picture.nothing_moves",
-                )
-            )
+        self.longest = float(np.ptp(self.polygon.places, axis=0).max())
 
     @abstractmethod
     def made(self) -> MotionPolygon:

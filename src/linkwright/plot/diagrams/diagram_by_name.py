@@ -104,6 +104,8 @@ def plot(
         size=size,
         language=language,
     )
+    if len(sources) > 1 and (said := DIAGRAMS[name].single) is not None:
+        raise RequestError(said)
     with drawing_in(language):
         drawn = (
             RESULT_DIAGRAMS[name].draw(result, request) if own else DIAGRAMS[name]().draw(sources, request)

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from linkwright.errors import RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.drawing import Drawing
@@ -73,16 +72,13 @@ class ForcePolygon(Kind):
     """
 
     title = _("force polygons")
+    single = _(
+        "force polygons show one mechanism at one position; give one result",
+        code="picture.one_mechanism_forces",
+    )
     options = ("of", "at", "static")
 
     def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
-        if len(sources) > 1:
-            raise RequestError(
-                _(
-                    "force polygons show one mechanism at one position; give one result",
-                    code="picture.one_mechanism_forces",
-                )
-            )
         source, say = sources[0], request.say
         forces = source.forces_at(request.at)
         require_forces(forces)

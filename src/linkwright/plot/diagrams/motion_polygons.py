@@ -11,7 +11,6 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import per_mm, significant
-from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.pictures.drawing import BLUE, GREEN, ORANGE, PURPLE, TEAL, Drawing, arrow_rules
 from linkwright.pictures.labels import Label
@@ -73,30 +72,20 @@ class MotionPolygons(Kind):
     unit: ClassVar[str]
     letter: ClassVar[str]
     prime: ClassVar[str] = ""
+    single = _(
+        "a polygon shows one mechanism at one position; give one result",
+        code="picture.one_mechanism",
+    )
 
     @abstractmethod
     def polygon(self, motion: Motion) -> MotionPolygon:
         """The polygon of a motion's first position."""
 
     def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
-        if len(sources) > 1:
-            raise RequestError(
-                _(
-                    "a polygon shows one mechanism at one position; give one result",
-                    code="picture.one_mechanism",
-                )
-            )
         motion = sources[0].at(request.at)
         polygon = self.polygon(motion)
-        images = np.array([np.zeros(2), *polygon.images.values(), *(step.end for step in polygon.steps)])
-        if float(np.ptp(images, axis=0).max()) <= 0:
-            raise LinkwrightError(
-                _(
-                    "nothing moves at this position, so there is no polygon; choose another input: at=…",
-                    code="picture.nothing_moves",
-                )
-            )
-        return self._page(sources[0], motion, polygon, scale_of_picture(images, POLYGON), request)
+        scale = scale_of_picture(polygon.places, POLYGON)
+        return self._page(sources[0], motion, polygon, scale, request)
 
     def _page(
         self, source: Source, motion: Motion, polygon: MotionPolygon, scale: float, request: Request

@@ -14,9 +14,11 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.errors import LinkwrightError
 from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
+from linkwright.words import _
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,19 @@ class MotionPolygon:
     images: dict[str, Floats] = field(default_factory=dict)
     steps: list[Step] = field(default_factory=list)
     group: str = ""
+
+    @property
+    def places(self) -> Floats:
+        """The pole, images and ends of all vectors, (n, 2); raises LinkwrightError where nothing moves."""
+        found = np.array([np.zeros(2), *self.images.values(), *(step.end for step in self.steps)])
+        if not float(np.ptp(found, axis=0).max()) > 0.0:
+            raise LinkwrightError(
+                _(
+                    "nothing moves at this position, so there is no polygon; choose another input: at=…",
+                    code="picture.nothing_moves",
+                )
+            )
+        return found
 
     def put(self, letter: str, name: str, role: str, start: Floats, end: Floats) -> None:
         """A vector from start to end."""

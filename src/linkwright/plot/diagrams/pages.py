@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from linkwright.errors import RequestError, speaker
+from linkwright.errors import speaker
 from linkwright.pictures.drawing import Drawing
 from linkwright.plot.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plot.diagrams.outputs import known_link
@@ -23,15 +23,12 @@ class FlowChart(Kind):
     subprograms, forces in reverse order, output, over all positions of the motion."""
 
     title = _("flow chart of the solution")
+    single = _(
+        "a flow chart shows how one mechanism is solved; give one result",
+        code="picture.one_flow_chart",
+    )
 
     def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
-        if len(sources) > 1:
-            raise RequestError(
-                _(
-                    "a flow chart shows how one mechanism is solved; give one result",
-                    code="picture.one_flow_chart",
-                )
-            )
         (source,) = sources
         nodes = flow_chart_steps(source.motion, range(source.motion.steps), request.language)
         title = request.titled(source.label)
@@ -45,16 +42,13 @@ class FreeBodies(Kind):
     links where ``of`` says which."""
 
     title = _("free-body diagrams of the links")
+    single = _(
+        "free-body diagrams show one mechanism at one position; give one result",
+        code="picture.one_free_bodies",
+    )
     options = ("of", "at", "static")
 
     def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
-        if len(sources) > 1:
-            raise RequestError(
-                _(
-                    "free-body diagrams show one mechanism at one position; give one result",
-                    code="picture.one_free_bodies",
-                )
-            )
         (source,) = sources
         forces = source.forces_at(request.at)
         require_forces(forces)
