@@ -48,7 +48,7 @@ def test_tolerances_are_asked_for_in_the_command() -> None:
     assert best["worst"]["r"] == pytest.approx([best["values"]["crank.length"] + 5e-4])
     assert len(best["worst"]["jaw.angle range"]) == 2
     assert 0.5 <= data(*SEARCH, *words, "yield", "--yield", "0.5")["designs"][0]["made"] <= 1
-    is_refused([*SEARCH, *words, "often"], "unknown-word", ends=1, text="often")
+    is_refused([*SEARCH, *words, "often"], "unknown-word", text="often")
 
 
 def test_data_of_a_front() -> None:

@@ -8,15 +8,12 @@ from dataclasses import replace
 
 from linkwright.cli.errors import OptionError
 from linkwright.fields.base import Field
-from linkwright.fields.nodes import Entry, Node, Scalar
+from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.reading import Place
-from linkwright.fields.tables import ByAddress, Either, Line, Table
+from linkwright.fields.tables import ByAddress, Either, Listed, Table
 from linkwright.files.reader import Reader
 from linkwright.words import _
-
-#: NAME=VALUE, each a word of the command.
-PAIRS = ByAddress(Line())
 
 
 def read_declared(options: argparse.Namespace, given: Iterable[argparse.Action]) -> None:
@@ -36,6 +33,8 @@ def read_declared(options: argparse.Namespace, given: Iterable[argparse.Action])
 def _node(reader: Reader, key: str, field: Field, given: str | list[str]) -> Node:
     """The node of an option's words; of KEY=VALUE, separated by commas in one word, where the field takes a table."""
     table = isinstance(field, Table | ByAddress) or (isinstance(field, Either) and "=" in given)
+    if isinstance(field, Listed):
+        return Sequence(0, 0, 0, 0, [_scalar(text) for text in given])
     if not table:
         return _scalar(str(given))
     entries: dict[str, Entry] = {}

@@ -5,12 +5,13 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, cast
 
 from linkwright.cli.reading import read
 from linkwright.errors import with_remedy
 from linkwright.fields.base import Field
-from linkwright.fields.tables import Table, Whole
+from linkwright.fields.tables import PAIRS, ByAddress, Listed, Table, Whole
 from linkwright.words import Message, Say, _
 
 #: Options that every command has, or the program without a command, and what they do.
@@ -108,11 +109,22 @@ class Options:
             vars(action).update(field=of, rank=rank)
 
     def fields(self, fields: Mapping[str, Field], metavars: Mapping[str, str]) -> None:
-        """Options of some fields of a table, each with what stands for its value; a table of its own needs none."""
+        """Options of some fields of a table, each with what stands for its value: a list takes several words, a
+        mapping NAME=VALUE, a table of its own may have none."""
         for name, metavar in metavars.items():
             each, rank = fields[name], [*fields].index(name)
-            own: dict[str, Any] = {"nargs": "?", "const": ""} if isinstance(each, Table) else {}
-            self(f"--{name}", metavar, help=cast(Message, each.doc), of=each, rank=rank, **own)
+            several = isinstance(each, ByAddress | Listed)
+            own: dict[str, Any] = {"nargs": "+"} if several else {}
+            own |= {"nargs": "?", "const": ""} if isinstance(each, Table) else {}
+            each = replace(PAIRS, doc=each.doc) if isinstance(each, ByAddress) else each
+            action = self.place.add_argument(
+                f"--{each.key or name}",
+                dest=name,
+                metavar=metavar,
+                help=self.say(cast(Message, each.doc)).replace("%", "%%"),
+                **own,
+            )
+            vars(action).update(field=each, rank=rank)
 
     def flag(self, name: str, help: Message) -> None:
         """An option that stands or does not."""

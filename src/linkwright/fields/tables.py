@@ -143,6 +143,10 @@ class Line(Field):
         return {"type": ["string", "number"]}
 
 
+#: NAME: VALUE, each a line.
+PAIRS = ByAddress(Line())
+
+
 @dataclass(frozen=True)
 class Value(Line):
     """A text or a number, kept as plain data: a bare number is one in SI."""

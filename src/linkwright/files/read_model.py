@@ -23,7 +23,7 @@ from linkwright.files.node_reader import MODES
 from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
 from linkwright.files.read_joints import read_joints, scan_joints
 from linkwright.files.read_links import legible, read_drawing, read_frame, read_links, scan_points
-from linkwright.files.read_outputs import read_outputs
+from linkwright.files.read_outputs import free_name, read_outputs
 from linkwright.files.reader import Reader
 from linkwright.loads.base import Load, read_load
 from linkwright.mechanism.drawing import Drawing
@@ -57,6 +57,7 @@ SECTIONS = (
     *HEADER, "parameters", "frame", "links", "joints", "assembly", "drawing", "driver", "drivers", "cycle", "loads",
     "outputs",
 )  # fmt: skip
+_NO_PARAMETER = _('"{name}" cannot name a parameter: it is {what}')
 #: Sections that are kept and not interpreted by what solves.
 KEPT = tuple(name for name, each in HEADER.items() if isinstance(each, Free))
 
@@ -196,32 +197,8 @@ def _parameter(
     """The value of a parameter; ``told`` are the names in this one and in those below it."""
     name = place.address
     reserved = {*expressions.OWN_NAMES, "t", "input"}
-    if not re.fullmatch(r"[^\W\d]\w*", name) or name in reserved:
-        what, remedy = _("not a word of letters, digits and _"), _('rename it, such as "l_1"')
-        if name in reserved:
-            what, remedy = (
-                _("a function or a reserved word"),
-                _('rename it, such as "{first}_1"', first=name[:1]),
-            )
-        reader.finding(
-            key,
-            place,
-            _('"{name}" cannot name a parameter: it is {what}'),
-            "name",
-            remedy,
-            name=name,
-            what=what,
-        )
-        return None
-    if name in {*reader.names.links, *reader.names.joints} - set(reader.names.pins):
-        reader.finding(
-            key,
-            place,
-            _('a link or joint has the name "{name}" already'),
-            "duplicate",
-            _("rename one of them"),
-            name=name,
-        )
+    taken = {*reader.names.links, *reader.names.joints} - set(reader.names.pins)
+    if not free_name(reader, key, place, name, _NO_PARAMETER, reserved, taken):
         return None
     text = reader.quantity_text(node, place, "1.25 m")
     if text is None:

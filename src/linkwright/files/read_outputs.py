@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 
 from linkwright import units
 from linkwright.core import expressions
@@ -15,11 +15,12 @@ from linkwright.fields.reading import Place
 from linkwright.fields.references import resolve_output
 from linkwright.files.reader import Reader
 from linkwright.mechanism.named_output import NamedOutput
-from linkwright.words import _
+from linkwright.words import Message, _
 
 #: First dimensions that a formula is taken for, where several have the same powers.
 _FIRST = ("dimensionless", "length", "angle", "angular_velocity", "torque")
 _NAME = re.compile(r"[^\W\d]\w*")
+_NO_OUTPUT = _('"{name}" cannot name an output: it is {what}')
 
 
 def read_outputs(reader: Reader, node: Node | None, *, driven: bool) -> dict[str, NamedOutput]:
@@ -27,9 +28,12 @@ def read_outputs(reader: Reader, node: Node | None, *, driven: bool) -> dict[str
     mapping = None if node is None else reader.mapping(node, "outputs")
     found: dict[str, NamedOutput] = {}
     known = _variables(reader, driven) if mapping is not None else {}
+    reserved = {*expressions.OWN_NAMES, *units.UNITS, "t", "input"}
+    points = {point for link in reader.names.links.values() for point in link}
+    taken = {*reader.names.links, *reader.names.joints, *reader.kinds, *points}
     for entry in mapping.entries if mapping else []:
         name, place = entry.key.text, Place(f"outputs.{entry.key.text}", f"outputs.{entry.key.text}")
-        if not _free(reader, entry.key, place, name):
+        if not free_name(reader, entry.key, place, name, _NO_OUTPUT, reserved, taken):
             continue
         named = _named(reader, entry.value, place, name, known)
         if named is None:
@@ -40,32 +44,21 @@ def read_outputs(reader: Reader, node: Node | None, *, driven: bool) -> dict[str
     return found
 
 
-def _free(reader: Reader, key: Node, place: Place, name: str) -> bool:
-    """Whether a name is one, and nothing else has it."""
-    reserved = {*expressions.OWN_NAMES, *units.UNITS, "t", "input"}
+def free_name(
+    reader: Reader, key: Node, place: Place, name: str, told: Message, reserved: Set[str], taken: Set[str]
+) -> bool:
+    """Whether a name is one, and nothing else has it; ``told``: the sentence where it is none."""
     if not _NAME.fullmatch(name) or name in reserved:
-        what = (
-            _("a function or a reserved word")
+        what, right = (
+            (_("a function or a reserved word"), f"{name[:1]}_1")
             if name in reserved
-            else _("not a word of letters, digits and _")
-        )
-        remedy = (
-            _('rename it, such as "{first}_1"', first=name[:1])
-            if name in reserved
-            else _('rename it, such as "l_1"')
+            else (_("not a word of letters, digits and _"), "l_1")
         )
         reader.finding(
-            key,
-            place,
-            _('"{name}" cannot name an output: it is {what}'),
-            "name",
-            remedy,
-            name=name,
-            what=what,
+            key, place, told, "name", _('rename it, such as "{right}"', right=right), name=name, what=what
         )
         return False
-    points = {point for link in reader.names.links.values() for point in link}
-    if name in {*reader.names.links, *reader.names.joints, *reader.kinds, *points}:
+    if name in taken:
         reader.finding(
             key,
             place,

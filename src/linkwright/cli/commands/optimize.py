@@ -6,10 +6,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkwright.cli.declared import PAIRS
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.fields.tables import Whole
 from linkwright.words import Say, _
 
 if TYPE_CHECKING:
@@ -31,63 +29,18 @@ linkwright optimize gallery:jaw_crusher_sixbar --vary pitman.length=1.1..1.4m to
 linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot front.svg --state front.state"""
 
 ENDINGS = (".yaml", ".yml", ".json")
-SETTINGS = (
-    "vary", "keep", "define", "tolerance", "robust", "minimize", "maximize", "evaluations", "seed",
-)  # fmt: skip
+SETTINGS = {
+    "vary": "ADDRESS=RANGE", "minimize": "NUMBER", "maximize": "NUMBER", "keep": "NUMBER=DEMAND",
+    "define": "NAME=NUMBER", "tolerance": "ADDRESS=VALUE", "robust": "worst|yield", "least_yield": "SHARE",
+    "evaluations": "N", "seed": "N",
+}  # fmt: skip
 
 
 def arguments(option: Options) -> None:
+    from linkwright.designs.optimise.problem import SECTION
+
     option("file", "FILE", help=_("a model file, or gallery:NAME"))
-    option(
-        "--vary",
-        "RANGE",
-        of=PAIRS,
-        nargs="+",
-        help=_("what varies, in place of the file's: ADDRESS=RANGE, such as crank.length=80..120mm"),
-    )
-    option(
-        "--minimize",
-        "NUMBER",
-        nargs="+",
-        help=_("numbers to make least: design numbers, flywheel, summaries such as 'jaw.angle range'"),
-    )
-    option("--maximize", "NUMBER", nargs="+", help=_("numbers to make greatest"))
-    option(
-        "--keep",
-        "DEMAND",
-        of=PAIRS,
-        nargs="+",
-        help=_(
-            "demands: 'NUMBER=at least 40 deg', 'at most', '1..2 m', 'same within 1 %%' of the start",
-        ),
-    )
-    option(
-        "--define",
-        "NAME",
-        of=PAIRS,
-        nargs="+",
-        help=_("names for expressions of numbers: NAME=NUMBER, such as T=peak_input_torque"),
-    )
-    option(
-        "--tolerance",
-        "DEVIATION",
-        of=PAIRS,
-        nargs="+",
-        help=_("± of dimensions: ADDRESS=VALUE, such as crank.length=0.1mm"),
-    )
-    option(
-        "--robust",
-        "worst|yield",
-        help=_(
-            "worst: objectives and demands hold for the worst machine within the tolerances; "
-            "yield: a share of the machines made (--yield) meets the demands",
-        ),
-    )
-    option("--yield", "SHARE", dest="least_yield", help=_("that share, such as 0.99"))
-    option.count(
-        "--evaluations", help=_("most designs of the search; the last steps along gradients come on top")
-    )
-    option("--seed", "N", of=Whole(), help=_("seed of the search; the same seed gives the same result"))
+    option.fields(SECTION.fields, SETTINGS)
     option(
         "--state", "FILE", help=_("keep the search's state in this file, and go on from it where it exists")
     )
@@ -118,7 +71,7 @@ def _searched(options: argparse.Namespace, session: Session) -> int:
 
     refuse_output(options.output, ENDINGS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
-    settings = {key: getattr(options, key) for key in SETTINGS} | {"yield": options.least_yield}
+    settings = {"yield" if key == "least_yield" else key: getattr(options, key) for key in SETTINGS}
     try:
         with on_cluster(options.cluster), progress(session.say, _("searching")) as report:
             found = optimize(options.file, state=options.state, progress=report, **settings)

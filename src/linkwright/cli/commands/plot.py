@@ -87,7 +87,11 @@ def arguments(option: Options) -> None:
         help=_("speed fluctuation that the flywheel of --kind speed allows (default: 0.02)"),
     )
     what.flag("--static", help=_("leave the inertia forces out"))
-    form = option.group(_("form"))
+    _form(option.group(_("form")))
+
+
+def _form(form: Options) -> None:
+    """The options that say how a diagram looks and where it goes."""
     form.flag("--no-marks", help=_("leave out limit positions, peaks, phases and inputs along curves"))
     form("--title", "TEXT", help=_('a title of your own; "" for none'))
     form(

@@ -5,11 +5,10 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from linkwright.cli.declared import PAIRS
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.given import STEPS
-from linkwright.fields.tables import Whole
+from linkwright.fields.tables import PAIRS, Whole
 from linkwright.machine.flywheel import COEFFICIENT
 from linkwright.words import _
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
@@ -12,6 +13,9 @@ from linkwright.cli.session import Session
 from linkwright.core.quantity import number
 from linkwright.fields.tables import Whole
 from linkwright.words import _
+
+if TYPE_CHECKING:
+    from linkwright.course.variants import Variants
 
 SUMMARY = _("variants of a task for a course: sheets, answer key, PrairieLearn, Moodle, QTI")
 DESCRIPTION = _(
@@ -89,31 +93,26 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if session.json:
         session.show_data({"ok": True, "files": [str(path) for path in files], "key": found.key()})
     else:
-        questions = len(found.task.questions)
-        session.show(
-            say(
-                _(
-                    "{count} variants with {questions} questions written: {path}",
-                    count=options.count,
-                    questions=questions,
-                    path=folder,
-                )
-            )
-        )
-        found_angles, ratio = found.difficulty.transmission_angle, f"{found.difficulty.ratio:.3g}"
-        if found_angles is None:
-            session.show(say(_("difficulty: an answer's sizes differ by {ratio} times at most", ratio=ratio)))
-        else:
-            low, high = (number(each, "angle", 3) for each in found_angles)
-            session.show(
-                say(
-                    _(
-                        "difficulty: smallest transmission angle {low}° to {high}°; an answer's sizes differ "
-                        "by {ratio} times at most",
-                        low=low,
-                        high=high,
-                        ratio=ratio,
-                    )
-                )
-            )
+        _show(found, folder, session)
     return 0
+
+
+def _show(found: Variants, folder: Path, session: Session) -> None:
+    written = _(
+        "{count} variants with {questions} questions written: {path}",
+        count=len(found.variants),
+        questions=len(found.task.questions),
+        path=folder,
+    )
+    angles, ratio = found.difficulty.transmission_angle, f"{found.difficulty.ratio:.3g}"
+    hard = _("difficulty: an answer's sizes differ by {ratio} times at most", ratio=ratio)
+    if angles is not None:
+        low, high = (number(each, "angle", 3) for each in angles)
+        hard = _(
+            "difficulty: smallest transmission angle {low}° to {high}°; an answer's sizes differ "
+            "by {ratio} times at most",
+            low=low,
+            high=high,
+            ratio=ratio,
+        )
+    session.show("\n".join(map(session.say, (written, hard))))

@@ -126,7 +126,16 @@ class Problem:
     define: Mapping[str, str] = field(default_factory=dict)
     paths: Mapping[str, PathError] = field(default_factory=dict)
     tolerances: Mapping[str, float] = field(default_factory=dict)
-    robust: Robust = given(Word(("worst", "yield"), doc=_("how the tolerances count")), "")
+    robust: Robust = given(
+        Word(
+            ("worst", "yield"),
+            doc=_(
+                "worst: objectives and demands hold for the worst machine within the tolerances; "
+                "yield: a share of the machines made meets the demands"
+            ),
+        ),
+        "",
+    )
     least_yield: float = given(
         Number(
             above=0.0,
@@ -139,10 +148,17 @@ class Problem:
     fluctuation: float = given(COEFFICIENT, FLUCTUATION)
     steps: int = given(Whole(1, 1_000_000, doc=_("positions of the cycle; default 360")), STEPS)
     evaluations: int = given(
-        Whole(1, 1_000_000_000, doc=_("designs that are judged at most; default 4000")), 4000
+        Whole(
+            1,
+            1_000_000_000,
+            doc=_("most designs of the search (4000); the last steps along gradients come on top"),
+        ),
+        4000,
     )
     population: int = given(Whole(0, 1_000_000, doc=_("designs of a generation; chosen unless given")), 0)
-    seed: int = given(Whole(0, 1_000_000_000, doc=_("of the random numbers; default 0")), 0)
+    seed: int = given(
+        Whole(0, 1_000_000_000, doc=_("seed of the search (0); the same seed gives the same result")), 0
+    )
 
     @property
     def addresses(self) -> tuple[str, ...]:
@@ -162,11 +178,13 @@ SECTION = Keys({
         Either(_VALUES, Table({"values": _VALUES, "whole": _VALUES})),
         doc=_("bounds of dimensions and parameters, such as 80..120 mm"),
     ),
-    "minimize": Listed(Text(), _NUMBERS, alone=True, doc=_("numbers that are made least")),
-    "maximize": Listed(Text(), _NUMBERS, alone=True, doc=_("numbers that are made greatest")),
+    "minimize": Listed(Text(), _NUMBERS, alone=True, doc=_(
+        "numbers to make least: design numbers, flywheel, summaries such as 'jaw.angle range'"
+    )),
+    "maximize": Listed(Text(), _NUMBERS, alone=True, doc=_("numbers to make greatest")),
     "keep": ByAddress(
         DemandText(Value(), Table({key: Value() for key in ("at_least", "at_most", "same")})),
-        doc=_("demands on numbers, such as at least 40 deg"),
+        doc=_("demands on numbers: at least 40 deg, at most 60 kN, 1..2 m, same within 1 % of the start"),
     ),
     "define": ByAddress(
         Either(Line(), Table({
@@ -176,7 +194,7 @@ SECTION = Keys({
                 doc=_("places of the point, one for each position"),
             ),
         }, PathError)),
-        doc=_("names for numbers, and errors of paths"),
+        doc=_("names for expressions of numbers, and for errors of paths"),
     ),
     "tolerance": ByAddress(Line(), doc=_("± of dimensions, such as 0.1 mm")),
     **given_by_file(Problem),
@@ -284,24 +302,7 @@ class _Reading(SectionReading):
 
     def _variable(self, address: str, value: Any) -> Variable:
         if isinstance(value, Mapping) and len(value) == 1:
-            ((key, inner),) = value.items()
-            text = ", ".join(map(str, inner)) if isinstance(inner, tuple) else str(inner)
-            found = parse_range(self.mechanism, address, text)
-            if key == "whole":
-                _rising(found)
-            choices = np.unique(found.values)
-            if key == "whole":
-                choices = np.arange(np.ceil(found.low), np.floor(found.high) + 1)
-            if len(choices) < 1:
-                raise RequestError(
-                    _(
-                        "{address} has no value to choose from; give values: or a whole: range that holds a "
-                        "whole number",
-                        code="optimize.no_choice",
-                        address=address,
-                    )
-                )
-            return Variable(address, float(choices[0]), float(choices[-1]), choices, found.unit)
+            return self._chosen(address, *next(iter(value.items())))
         if isinstance(value, tuple) and len(value) == 2 and any(isinstance(each, str) for each in value):
             value = f"{value[0]}..{value[1]}"
         if isinstance(value, (int, float)):
@@ -344,6 +345,25 @@ class _Reading(SectionReading):
                 )
             )
         return Variable(address, found.low, found.high, None, found.unit)
+
+    def _chosen(self, address: str, key: str, given: Any) -> Variable:
+        """One of some values, or of the whole numbers of a range."""
+        text = ", ".join(map(str, given)) if isinstance(given, tuple) else str(given)
+        found = parse_range(self.mechanism, address, text)
+        choices = np.unique(found.values)
+        if key == "whole":
+            _rising(found)
+            choices = np.arange(np.ceil(found.low), np.floor(found.high) + 1)
+        if len(choices) < 1:
+            raise RequestError(
+                _(
+                    "{address} has no value to choose from; give values: or a whole: range that holds a "
+                    "whole number",
+                    code="optimize.no_choice",
+                    address=address,
+                )
+            )
+        return Variable(address, float(choices[0]), float(choices[-1]), choices, found.unit)
 
     def _tolerances(self) -> dict[str, float]:
         found = {}
