@@ -277,7 +277,7 @@ export class Desk {
 
   private async once(): Promise<void> {
     const text = this.text.value;
-    const solved = await this.ask<Solved>("solve", { text });
+    const solved = await this.ask<Solved>("solve", { text, name: this.file.name });
     if (text !== this.text.value) return;
     if (!solved) {
       const sentence = this.page.note.value;
@@ -349,7 +349,7 @@ export class Desk {
   /** Puts another machine beside the open one; none takes it away. */
   async compare(asked: { name?: string; gallery?: string } | null): Promise<void> {
     const found = asked && (await this.ask<{ text: string }>("read", asked));
-    const solved = found && (await this.ask<Solved>("solve", { text: found.text }));
+    const solved = found && (await this.ask<Solved>("solve", { text: found.text, name: asked.name ?? "" }));
     if (solved && !solved.model?.module) this.page.note.value = solved.sentence || this.errors(solved);
     this.beside.value = solved?.model?.module ? new Session(solved.model, await code(solved.model, 1), 1) : null;
     this.side();
@@ -368,7 +368,7 @@ export class Desk {
   /** A report or an export of the machine, as a download. */
   async take(ending: string): Promise<void> {
     this.page.note.value = this.say("making");
-    const found = await this.ask<{ content: string }>("take", { text: this.text.value, ending });
+    const found = await this.ask<{ content: string }>("take", { text: this.text.value, name: this.file.name, ending });
     if (!found) return;
     this.page.note.value = "";
     const stem = this.name.value.replace(/\.\w+$/, "") || "machine";

@@ -37,7 +37,7 @@ class Work:
         self.files = files
         self.background = Background()
         self._solving = threading.Lock()
-        self._foreseen: tuple[str, str, Plain] | None = None
+        self._foreseen: tuple[str, str, str, Plain] | None = None
         self.answers: Mapping[str, Callable[[Plain], Plain]] = {
             "files": lambda asked: {
                 "files": files.names(), "drafts": files.unsaved(), "gallery": gallery_names()
@@ -52,7 +52,7 @@ class Work:
                 text(a, "name"), text(a, "text"), text(a, "version"), text(a, "draft")
             ),
             "disk": lambda a: files.disk(text(a, "name")),
-            "solve": lambda a: self._solve(text(a, "text"), language_of(a)),
+            "solve": lambda a: self._solve(text(a, "text"), language_of(a), self._folder(text(a, "name", ""))),
             "edit": self._edit,
             "curve": lambda a: self.background.begin(
                 "curve", linkages(a.get("points"), bool(a.get("closed"))), language_of(a)
@@ -96,21 +96,26 @@ class Work:
         with suppress(LinkwrightError, OSError):
             found = str(self.files.open(name)["text"])
             self._solving.acquire()
-            threading.Thread(target=self._prepare, args=(found, language), daemon=True).start()
+            asked = found, language, self._folder(name)
+            threading.Thread(target=self._prepare, args=asked, daemon=True).start()
 
-    def _prepare(self, text: str, language: str) -> None:
+    def _folder(self, name: str) -> str:
+        """Where files lie that a file of this name names."""
+        return str(self.files.path(name).parent if name else self.files.folder)
+
+    def _prepare(self, text: str, language: str, folder: str) -> None:
         try:
-            self._foreseen = (text, language, solved(text, language, str(self.files.folder)))
+            self._foreseen = (text, language, folder, solved(text, language, folder))
         finally:
             self._solving.release()
 
-    def _solve(self, text: str, language: str) -> Plain:
+    def _solve(self, text: str, language: str, folder: str) -> Plain:
         """The model of a text; what is being solved already is waited for, and used once."""
         with self._solving:
             foreseen, self._foreseen = self._foreseen, None
-            if foreseen is not None and foreseen[:2] == (text, language):
-                return foreseen[2]
-            return solved(text, language, str(self.files.folder))
+            if foreseen is not None and foreseen[:3] == (text, language, folder):
+                return foreseen[3]
+            return solved(text, language, folder)
 
     def _optimize(self, asked: Plain) -> Plain:
         """Begins the optimisation that the text's section asks."""
@@ -137,7 +142,8 @@ class Work:
             if ending.startswith(".report"):
                 from linkwright.report.report import report
 
-                report(document.mechanism, language=language, folder=self.files.folder).save(path)
+                folder_of_file = self._folder(text(asked, "name", ""))
+                report(document.mechanism, language=language, folder=folder_of_file).save(path)
             else:
                 from linkwright.export.export import export
 

@@ -12,7 +12,8 @@ from tests.course_sheets import FOUR_BAR
 import linkwright as lw
 from linkwright import gallery
 from linkwright.cli import main
-from linkwright.server.work import solved
+from linkwright.server.files import Files
+from linkwright.server.work import Work, solved
 from linkwright.words import LANGUAGES
 
 BAR = FOUR_BAR.partition("course:")[0]
@@ -107,3 +108,18 @@ def test_nobody_is_told_more_than_300_findings(section: str, tmp_path: Path) -> 
 def test_the_same_is_found_in_the_gallery(name: str) -> None:
     found = solved(store.text(name), "en")["findings"]
     assert [each["code"] for each in found] == [each.code for each in lw.check(f"gallery:{name}")]
+
+
+def test_files_that_a_model_names_lie_beside_it(tmp_path: Path) -> None:
+    """The studio looked for them in its own folder, where a model lies in one below."""
+    folder = tmp_path / "presses"
+    folder.mkdir()
+    (folder / "logo.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>', "utf-8"
+    )
+    text = f"{BAR}\nreport: {{cover: {{logo: logo.svg}}}}\n"
+    (folder / "bar.yaml").write_text(text, encoding="utf-8")
+    assert lw.check(folder / "bar.yaml") == []
+    solve = Work(Files(tmp_path)).answers["solve"]
+    assert solve({"text": text, "name": "presses/bar.yaml"})["findings"] == []
+    assert [each["code"] for each in solve({"text": text})["findings"]] == ["wrong-picture"]
