@@ -170,3 +170,21 @@ def test_the_note_stands_at_the_place(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main([*arguments, "--json"]) == 0
     (note,) = json.loads(capsys.readouterr().out)["notes"]
     assert f"{torque(50.0):.6g} N·m" in note
+
+
+def test_a_size_that_comes_to_zero_does_not_pass_it() -> None:
+    """The rocker's centre rests at both limits, in the gap behind the last node of a piece."""
+    mechanism = stored("fourbar_lecture")
+    lengths = mechanism.dimension("crank.length") * np.array([1.0, 1.0007, 1.002])
+    outputs = [f"rocker.centre.velocity {kind}" for kind in ("min", "mean", "max")]
+    found = lw.sweep(mechanism, {"crank.length": lengths}, outputs=outputs)
+    assert (found[outputs[0]] >= 0.0).all() and (found[outputs[0]] < 1e-9 * found[outputs[2]]).all()
+
+
+def test_an_output_that_is_rounding_leaves_the_others_exact() -> None:
+    """A block goes to and fro as a cosine, whose mean size is 2/π of the largest; no effort is needed."""
+    mechanism = stored("elliptic_trammel")
+    outputs = ["block_y.centre.velocity mean", "block_y.centre.velocity max", "driver.effort mean"]
+    found = lw.sweep(mechanism, {"bar.length": [mechanism.dimension("bar.length")]}, outputs=outputs)
+    mean, largest, effort = (found[each][0] for each in outputs)
+    assert abs(effort) < 1e-9 and mean == pytest.approx(2.0 / np.pi * largest, rel=1e-12)

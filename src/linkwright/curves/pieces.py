@@ -132,6 +132,7 @@ class Pieces:
         self._below = np.array([sign < 0.0 for _, sign in wanted.sides], dtype=np.intp)
         self._best = np.full((len(wanted.sides), self.designs), -np.inf)
         self._owner, self._length = layout.design, np.ones(self.designs)
+        self._noise = np.zeros((len(wanted.even) + len(wanted.sides), self.designs), dtype=np.bool_)
         self.size: Floats = np.empty(0)
         done, most = list[_Batch](), np.zeros(self.designs, dtype=np.intp)
         crowd = wanted.crowd + 4 * np.bincount(layout.design[stretch], minlength=self.designs)
@@ -144,8 +145,10 @@ class Pieces:
             count = np.bincount(design[batch.unmet], minlength=self.designs)
             if turn < EARLY:
                 most = np.maximum(most, count)
-            few = count <= (crowd if turn < EARLY else np.minimum(crowd, 2 * most + MANY))
-            halved = batch.unmet & few[design]
+            bearable = crowd if turn < EARLY else np.minimum(crowd, 2 * most + MANY)
+            if (count > bearable).any():
+                batch.unmet, count = self._without_noise(design, bearable)
+            halved = batch.unmet & (count <= bearable)[design]
             if not halved.any():
                 break
             done[-1] = batch.taken(~halved)
@@ -167,7 +170,8 @@ class Pieces:
         self.starts = np.searchsorted(self.design, np.arange(self.designs))
         self.width = self.columns[HIGH] - self.columns[LOW]
         self.period = self.total(self.width)
-        self.unmet = np.bincount(self.design[batch.unmet], minlength=self.designs) > 0
+        self.unmet = self._noise.any(axis=0)
+        self.unmet |= np.bincount(self.design[batch.unmet], minlength=self.designs) > 0
 
     def _evaluated(
         self, signals: Signals, columns: dict[str, Floats], stretch: Indices, first: Floats, last: Floats
@@ -207,6 +211,7 @@ class Pieces:
         limit, share = self.wanted.met * self._sizes(), width / self._length[design]
         found, coarse = np.zeros(len(design), dtype=np.bool_), (stats[2] > limit[:, design]).any(axis=0)
         at = np.flatnonzero(coarse & (share > NARROW) & self.passed[design])
+        self._last = at, np.empty((len(self._noise), 0), dtype=np.bool_)
         if not len(at):
             return found
         limit, even, own = limit[:, design[at]], [*self.wanted.even], self._signals
@@ -214,8 +219,20 @@ class Pieces:
         matters = rough[even] * np.minimum(1.0, share[at] / self.wanted.wide) > limit[even]
         reach = highest[:, at] + SLACK * (top - bottom)[own] + HIDDEN * rough[own]
         near = (reach >= self._best[:, design[at]]) | (rough[own] * self.wanted.met > BLIND * limit[own])
-        found[at] = matters.any(axis=0) | (near & (rough > limit)[own]).any(axis=0)
+        unmet = np.concatenate([matters, near & (rough > limit)[own]]) & ~self._noise[:, design[at]]
+        self._last = at, unmet
+        found[at] = unmet.any(axis=0)
         return found
+
+    def _without_noise(self, design: Indices, bearable: Indices) -> tuple[Flags, Indices]:
+        """The last pieces that are unmet for other signals than those that more pieces than bearable do not meet, and
+        how many these are, (designs,): noise of one signal is no reason to leave another one unmet."""
+        at, unmet = self._last
+        counts = [np.bincount(design[at[row]], minlength=self.designs) for row in unmet]
+        self._noise |= np.stack(counts) > bearable
+        found = np.zeros(len(design), dtype=np.bool_)
+        found[at] = (unmet & ~self._noise[:, design[at]]).any(axis=0)
+        return found, np.bincount(design[found], minlength=self.designs)
 
     @property
     def passed(self) -> Flags:

@@ -29,7 +29,8 @@ class Cycle(Asked):
     """What is wanted of a machine: ``parts``, its summaries.
 
     ``limited``: outputs whose places and extremes are those of their limit positions; ``never``: outputs by whose
-    reversals designs are told apart; ``even``: signals that pieces meet everywhere.
+    reversals designs are told apart; ``even``: signals that pieces meet everywhere; ``bent``: one may
+    bend where it is zero, between two nodes of neighbours.
     """
 
     def __init__(
@@ -60,6 +61,7 @@ class Cycle(Asked):
         kinds: dict[tuple[str, bool], list[int]] = {}
         for k, each in enumerate(signals):
             kinds.setdefault((traces.quantity(each.words).dimension, each.squared), []).append(k)
+        self.bent = any(not each.squared and traces.square(each.words) is not None for each in signals)
         self.alike: list[Indices] = [np.array(rows) for rows in kinds.values() if len(rows) > 1]
         self.formula = machine.formula(("signals", signals), lambda: self._outputs(signals))
         self.never = tuple(dict.fromkeys(never))

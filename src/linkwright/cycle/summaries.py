@@ -69,9 +69,10 @@ class Asked:
             self.sides_of[text] = tuple(numbers.setdefault(side, len(numbers)) for side in sides)
         self.sides = tuple(numbers)
 
-    def wanted(self, alike: Sequence[Indices] = ()) -> Wanted:
+    def wanted(self, alike: Sequence[Indices] = (), *, joined: bool = False) -> Wanted:
         """What pieces must be met for."""
-        return Wanted(self.even, tuple((k, sign) for k, sign, _ in self.sides), alike=alike)
+        sides = tuple((k, sign) for k, sign, _ in self.sides)
+        return Wanted(self.even, sides, alike=alike, joined=joined)
 
 
 @dataclass(frozen=True)
