@@ -21,31 +21,18 @@ from linkwright.plot.diagrams.base import Request, framed, result_diagram
 from linkwright.plot.diagrams.marks import Curve
 from linkwright.plot.diagrams.panels import Panel, look, stacked
 from linkwright.plot.diagrams.source import Source
+from linkwright.plot.diagrams.sva import ANGULAR, STRAIGHT
 from linkwright.plot.result_diagrams.design_space import DesignTable, chosen, draw_designs, measure, varied
 from linkwright.registry import offered
 from linkwright.words import Say, _
 
 HODOGRAPH = "hodograph"
 #: What a motion is called and measured in, for an output that turns and for one that slides.
-_MOTION = {
-    "travel": {"angle": (_("angle"), "θ", "angle"), "displacement": (_("displacement"), "s", "length")},
-    "velocity": {
-        "angle": (_("angular velocity"), "ω", "angular_velocity"),
-        "displacement": (_("velocity"), "v", "velocity"),
-    },
-    "acceleration": {
-        "angle": (_("angular acceleration"), "α", "angular_acceleration"),
-        "displacement": (_("acceleration"), "a", "acceleration"),
-    },
-}
-#: What the curves are.
+_MOTION = dict(zip(("travel", "velocity", "acceleration"), zip(ANGULAR, STRAIGHT, strict=True), strict=True))
+#: What the other curves are.
 CURVES = {
     "input": _("input passed"),
-    "travel": _("output"),
-    "velocity": _("speed of the output"),
-    "acceleration": _("acceleration of the output"),
     "pivot_reaction": _("reaction at the output's pivot"),
-    "hodograph": _("hodograph of the pivot reaction"),
     "input_torque": _("balancing torque"),
 }
 
@@ -140,10 +127,8 @@ def _panels(
         curves = [_curve(overlay, label, sources[label], looks) for label in result.labels]
         return [Panel(title, overlay.dimension, tuple(curves))]
     found = []
-    for kind, (word, symbol, dimension) in kinds.items():
-        labels = [
-            each.label for each in result.alternatives if (each.output.kind == "angle") == (kind == "angle")
-        ]
+    for turning, (word, symbol, dimension) in zip((True, False), kinds, strict=True):
+        labels = [each.label for each in result.alternatives if (each.output.kind == "angle") == turning]
         if labels:
             turns = dimension == "angle"
             curves = [_curve(overlay, label, sources[label], looks, turns=turns) for label in labels]

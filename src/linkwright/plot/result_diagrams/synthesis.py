@@ -17,19 +17,18 @@ from linkwright.synthesis.result import Candidate, Synthesis, title_said
 from linkwright.words import _, pgettext, say
 
 SHOWN = 4
-#: What the output of a task's curve is, where it is not that of a function; factors to the unit of its axis.
+#: What the output of a task's curve is, where it is not that of a function.
 OUTPUTS = {"slider_crank": "place", "toggle": "ratio", "dwell": "angle"}
-FACTORS = {"place": 1e3, "angle": float(np.degrees(1.0)), "ratio": 1.0}
 #: Curves of the plane, by their names.
 CURVES = {
     "circle_points": _("circle points"),
     "centre_points": pgettext("synthesize", "centre points"),
 }
-#: What a function gives, by its kind.
+#: What a function gives, by its kind: the factor to the unit of its axis, and the label of that.
 AXES = {
-    "angle": _("output (°)"),
-    "place": _("place of the slider (mm)"),
-    "ratio": _("force ratio P/F"),
+    "angle": (float(np.degrees(1.0)), _("output (°)")),
+    "place": (1e3, _("place of the slider (mm)")),
+    "ratio": (1.0, _("force ratio P/F")),
 }
 
 
@@ -80,14 +79,15 @@ def _places(numbers: Complexes) -> tuple[Floats, Floats]:
 def _function(axes: Axes, result: Synthesis, language: str) -> None:
     """Functions of the candidates over the input, and the pairs; angles in degrees, places in mm."""
     kind = OUTPUTS.get(result.task, "place" if result.error_name == "length" else "angle")
-    factors = np.array([[np.degrees(1.0)], [FACTORS[kind]]])
+    factor, label = AXES[kind]
+    factors = np.array([[np.degrees(1.0)], [factor]])
     for number, each in enumerate(result.candidates[:SHOWN]):
         if each.curve is not None and each.curve.ndim == 2:
             axes.plot(*(factors * each.curve), color=COLOURS[number % len(COLOURS)])
     target = result.target
     if target is not None and not np.iscomplexobj(target):
         axes.plot(*(factors * target), "o", ms=4, mfc="none", color=INK)
-    axes.set(xlabel=_("input (°)").translate(language), ylabel=say(AXES[kind], language))
+    axes.set(xlabel=_("input (°)").translate(language), ylabel=label.translate(language))
 
 
 def _links(axes: Axes, each: Candidate, colour: str) -> Any:
