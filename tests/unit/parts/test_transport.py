@@ -5,6 +5,8 @@ import math
 import numpy as np
 import pytest
 
+import linkwright as lw
+from linkwright.parts.trajectories.conveyor import Conveyor
 from linkwright.parts.trajectories.transport import Trough, transport
 
 G = 9.81
@@ -82,3 +84,30 @@ def test_uneven_swing_carries_the_load_as_plain_integration_says() -> None:
     found = transport(trough)
     assert found.repeats and abs(found.displacement) > 0.01
     assert found.displacement == pytest.approx(tiny_steps(trough, 4, 60), rel=3e-3)
+
+
+SLIDER = """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links: {crank: {points: [O, A], length: 40 mm}, rod: {points: [A, B], length: 100 mm}, trough: {points: [B]}}
+joints: {bed: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: trough, at: B}}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 10 rad/s}
+gravity: [0, -9.81 m/s²]
+"""
+
+
+def test_throw_number_and_friction_are_those_between_positions() -> None:
+    """Of a slider-crank, whose largest accelerations lie beside the inner dead point, in closed form."""
+    found = Conveyor(lw.loads(SLIDER), "trough", friction=0.3, incline=math.radians(20.0), steps=37).solve()
+    phi, r, rod = np.linspace(0.0, 2.0 * math.pi, 1_000_001), 0.04, 0.1
+    root = np.sqrt(rod**2 - (r * np.sin(phi)) ** 2)
+    second = -r * np.cos(phi) - r**2 * np.cos(2 * phi) / root - (r**2 * np.sin(2 * phi) / 2) ** 2 / root**3
+    along, across = (
+        100.0 * second * math.cos(math.radians(20.0)),
+        -100.0 * second * math.sin(math.radians(20.0)),
+    )
+    fall = G * math.cos(math.radians(20.0))
+    assert found.throw_number == pytest.approx((-across).max() / fall, rel=1e-9)
+    friction = np.abs(along + G * math.sin(math.radians(20.0))) / (across + fall)
+    assert found.needed_friction == pytest.approx(friction.max(), rel=1e-9)

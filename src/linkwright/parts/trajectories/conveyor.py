@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import ClassVar
 
@@ -22,6 +22,7 @@ from linkwright.fields.tables import Whole
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.metrics import Analysis
 from linkwright.parts.base import Result
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
@@ -145,15 +146,19 @@ class Conveyor(OfMechanism):
         along, across = self.axes
         return float(along @ self.mechanism.gravity), float(across @ self.mechanism.gravity)
 
+    def accelerations(self, motion: Motion) -> tuple[Floats, Floats]:
+        """Those of the trough along and across the surface, (n,) m/s²."""
+        along, across = self.axes
+        point = next(iter(self.mechanism.links[self.link].points))
+        a = motion.point(f"{self.link}.{point}").acceleration
+        return a @ along, a @ across
+
     @property
     def trough(self) -> Trough:
         """The trough's motion in numbers."""
-        along, across = self.axes
-        point = next(iter(self.mechanism.links[self.link].points))
-        a = self.motion.point(f"{self.link}.{point}").acceleration
         period = float(self.motion.time[1] - self.motion.time[0]) * len(self.motion.time)
         sliding = self.friction if self.sliding_friction is None else self.sliding_friction
-        return Trough(a @ along, a @ across, period, self.gravity, self.friction, sliding)
+        return Trough(*self.accelerations(self.motion), period, self.gravity, self.friction, sliding)
 
     def solve(self) -> Transport:
         """The load's steady motion. Raises ModelError with all findings."""
@@ -187,20 +192,27 @@ class Transport(Result):
             for mode in MODES
         }
 
-    @property
+    @cached_property
     def needed_friction(self) -> float:
         """Least coefficient with which the load would stay at rest; infinite where it is thrown."""
-        trough = self.conveyor.trough
-        normal = trough.across - trough.gravity[1]
-        if normal.min() <= 0:
+        along, across = self.conveyor.gravity
+        if self.throw_number >= 1.0:
             return math.inf
-        return float((np.abs(trough.along - trough.gravity[0]) / normal).max())
+        return self._largest(lambda a, n: np.abs(a - along) / (n - across))
 
-    @property
+    @cached_property
     def throw_number(self) -> float:
         """max(−a_n)/|g_n|: the load is thrown above 1."""
-        trough = self.conveyor.trough
-        return float((-trough.across).max()) / abs(trough.gravity[1])
+        return self._largest(lambda _along, across: -across) / abs(self.conveyor.gravity[1])
+
+    def _largest(self, of: Callable[[Floats, Floats], Floats]) -> float:
+        """The largest value over the cycle of what both accelerations give."""
+        conveyor = self.conveyor
+        found = Analysis.of(conveyor.motion).extreme(
+            lambda motion: of(*conveyor.accelerations(motion)), "max"
+        )
+        assert found is not None
+        return found.value
 
     def columns(self) -> dict[str, Floats]:
         m = self.motion
