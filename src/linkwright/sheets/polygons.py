@@ -66,7 +66,6 @@ class MotionPolygonPanel(ScaledPanel):
     """A velocity or acceleration polygon: absolute vectors thick, relative ones thin, parts dashed."""
 
     prime: ClassVar[str] = ""
-    word: ClassVar[str]
     title: ClassVar[Message]
     title_at: ClassVar[Message]
 
@@ -135,7 +134,7 @@ class MotionPolygonPanel(ScaledPanel):
 class VelocityPanel(MotionPolygonPanel):
     """The velocity polygon of a position."""
 
-    symbol, unit, word = "v", "(m/s)", "velocity"
+    symbol, unit = "v", "m/s"
     title = _("Velocity polygon")
     title_at = _("Velocity polygon, position {number}")
 
@@ -146,7 +145,7 @@ class VelocityPanel(MotionPolygonPanel):
 class AccelerationPanel(MotionPolygonPanel):
     """The acceleration polygon of a position."""
 
-    symbol, unit, word, prime = "a", "(m/s²)", "acceleration", "′"
+    symbol, unit, prime = "a", "m/s²", "′"
     title = _("Acceleration polygon")
     title_at = _("Acceleration polygon, position {number}")
 
