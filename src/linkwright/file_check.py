@@ -130,7 +130,7 @@ def _placed(
     """Findings that are not told yet, with line and column where their key stands in the text."""
     known = {(each.key, each.message) for each in told}
     new = (each for each in more if (each.key, each.message) not in known)
-    return [located(replace(each, where=source), root, place) for each in new]
+    return [located(replace(each, where=each.where or source), root, place) for each in new]
 
 
 def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list[Finding], dict[str, object]]:

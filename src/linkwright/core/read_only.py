@@ -52,7 +52,7 @@ def frozen(value: Any) -> Any:
     array = getattr(sys.modules.get("numpy"), "ndarray", None)
     if array is not None and isinstance(value, array):
         return locked(value)
-    if isinstance(value, Mapping):
+    if isinstance(value, Mapping) and not isinstance(value, FrozenDict):
         return FrozenDict({key: frozen(each) for key, each in value.items()})
     return value
 

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import field, fields, replace
 from functools import cached_property
-from typing import Any, cast
+from typing import Any, ClassVar, cast
 
 from linkwright import units
 from linkwright.core.attached import SECTIONS
@@ -21,7 +21,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.entry_points import loaded
 from linkwright.core.expressions import Expression
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar
+from linkwright.fields.nodes import Node, Scalar, Section
 from linkwright.fields.reading import Place, Reader
 from linkwright.words import LANGUAGES, Message, _, pgettext
 from linkwright.words.sentence import Worded
@@ -41,6 +41,9 @@ class Field(ABC):
     key: str = ""
     old: str = ""
     replaced: str = ""
+
+    #: Whether it has a value where nothing is written behind its key, in sections that only some commands read.
+    bare: ClassVar[bool] = False
 
     @abstractmethod
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
@@ -354,7 +357,8 @@ class Free(Field):
     section: str = ""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        return None if reader.mapping(node, place) is None else reader.free(node)
+        mapping = reader.mapping(node, place)
+        return None if mapping is None else Section(reader.free(mapping), mapping, reader.source)
 
     def shape(self) -> Schema:
         return cast(Field, loaded(SECTIONS[self.section])).shape() if self.section else {"type": "object"}

@@ -6,6 +6,7 @@ Problems (duplicate keys, tags, a second document, too deep nesting) become rema
 
 from __future__ import annotations
 
+import re
 from collections import abc
 from collections.abc import Iterator
 from dataclasses import field, replace
@@ -13,10 +14,12 @@ from typing import Any
 
 from linkwright import units
 from linkwright.core.dataclass import dataclass
+from linkwright.core.read_only import FrozenDict, frozen
 from linkwright.errors import Finding
 from linkwright.words import _
 
 MAX_DEPTH, MAX_NODES = 40, 30_000
+_PLACED = re.compile(r":\d+:\d+$")
 _NULLS = frozenset(("", "~", "null", "Null", "NULL"))
 
 
@@ -78,6 +81,14 @@ class Mapping(Node):
         return iter([(entry.key.text, entry.value) for entry in self.entries])
 
 
+class Section(FrozenDict[str, Any]):
+    """A section that is kept as plain data, with its ``node`` and the reader's ``source``; a copy is data alone."""
+
+    def __init__(self, values: abc.Mapping[str, Any], node: Mapping, source: str) -> None:
+        super().__init__(frozen(values))
+        self.node, self.source = node, source
+
+
 @dataclass(frozen=True)
 class Remark:
     """A problem of the text itself at a place of it."""
@@ -110,8 +121,8 @@ def towards(node: Node | None, path: str) -> Node | None:
 
 
 def located(finding: Finding, root: Node | None, name: str) -> Finding:
-    """A finding with line and column where its key stands in the text of a root."""
-    node = towards(root, finding.key) if finding.key else None
+    """A finding with line and column where its key stands in the text of a root, unless it has them."""
+    node = towards(root, finding.key) if finding.key and not _PLACED.search(finding.where) else None
     return finding if node is None else replace(finding, where=f"{name}:{node.line + 1}:{node.column + 1}")
 
 

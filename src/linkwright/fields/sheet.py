@@ -71,7 +71,7 @@ class SheetSection(Free):
     """The section ``sheet``: kept as it stands, checked by its keys."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        return None if reader.table(node, place, SHEET) is None else reader.free(node)
+        return None if reader.table(node, place, SHEET) is None else super().read(reader, node, place, given)
 
     def shape(self) -> Schema:
         return table_schema(SHEET)

@@ -9,8 +9,8 @@ from typing import Any
 
 from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Schema, given_by_file, table_schema
+from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.fields.reading import Place, Reader, Sayings
 from linkwright.words import Message, _
 
@@ -46,14 +46,21 @@ class Table(Field):
 
 @dataclass(frozen=True)
 class Keys(Table):
-    """A table whose values are taken as far as they can be read, whatever is wrong with the others; ``own``: its own
-    sentences."""
+    """A table whose values are taken as far as they can be read, whatever is wrong with the others, and whose keys
+    may have nothing behind them; ``own``: its own sentences."""
 
     own: Sayings = dataclasses.field(default_factory=dict, kw_only=True)
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+        if isinstance(node, MappingNode):
+            node = dataclasses.replace(node, entries=[each for each in node.entries if self._written(each)])
         with reader.saying(self.own):
             return reader.table(node, place, self.fields)
+
+    def _written(self, entry: Entry) -> bool:
+        field = self.fields.get(entry.key.text)
+        bare = isinstance(entry.value, Scalar) and entry.value.empty
+        return field is None or field.bare or not bare
 
 
 @dataclass(frozen=True)

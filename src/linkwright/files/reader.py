@@ -16,7 +16,7 @@ from linkwright.core.outputs import Output
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar, Sequence, node_of, noun
+from linkwright.fields.nodes import Node, Scalar, Section, Sequence, node_of, noun, towards
 from linkwright.fields.reading import Names, Place
 from linkwright.fields.references import LinkPoint, resolve_output
 from linkwright.files.node_reader import NUMBER, PlainReader
@@ -390,13 +390,17 @@ class Reader(PlainReader):
 class SectionReading:
     """A section that is kept as plain data, read by its field; what is wrong with it is noted once.
 
-    ``values``: what the field gives; ``where``: stands for the file.
+    ``values``: what the field gives; ``where``: stands for the file where the section is not one of a file.
     """
 
     def __init__(self, field: Field, key: str, given: Any, where: str = "") -> None:
-        self.key, self.where, reader = key, where, Reader("")
-        self.values = field.read(reader, node_of(given), Place(key, key), {})
-        self.findings = dict.fromkeys(replace(each, where=where) for each in reader.findings)
+        self.key, own = key, given if isinstance(given, Section) else None
+        self.node, self.reader = (own.node, Reader(own.source)) if own else (node_of(given), Reader(""))
+        self.where = "" if own else where
+        self.values = field.read(self.reader, self.node, Place(key, key), {})
+        self.findings = dict.fromkeys(
+            replace(each, where=each.where or self.where) for each in self.reader.findings
+        )
 
     def note(self, key: str, told: str | LinkwrightError, code: str = "") -> None:
         """Notes what is wrong at a key of the section: a sentence, or an error that it makes."""
@@ -404,7 +408,8 @@ class SectionReading:
         if isinstance(told, LinkwrightError):
             code = code or told.code
             told = told.message if isinstance(told, QuantityError) else told.sentence
-        self.findings[Finding("error", self.where, f"{self.key}.{key}", told, remedy, code)] = None
+        where = self.where or self.reader.where(towards(self.node, key))
+        self.findings[Finding("error", where, f"{self.key}.{key}", told, remedy, code)] = None
 
     def settle(self) -> None:
         """Raises ModelError with all findings, where there are any."""

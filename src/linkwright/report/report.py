@@ -215,13 +215,11 @@ def _cases(
         mechanism = each if isinstance(each, Mechanism) else load(str(each))
         mechanism = mechanism.said_in(language)
         source = next(files, "" if isinstance(each, Mechanism) else str(each))
-        own = dict(mechanism.report)
         with about("position"):
             worked_place(mechanism, position)
-        if position:
-            own["position"] = position
-        if positions is not None:
-            own["positions"] = positions
+        asked = {"position": position or None, "positions": positions}
+        more = {key: value for key, value in asked.items() if value is not None}
+        own = {**mechanism.report, **more} if more else mechanism.report
         held = settings(own, language, mechanism, _beside(folder, source))
         found.append(Case(mechanism, held, language, source))
     cases = [each for each in found if isinstance(each, Case)]

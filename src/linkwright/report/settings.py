@@ -156,6 +156,8 @@ class Position(Line):
 class CoverField(Keys):
     """Whether there is a cover (None: there is none), or what it says."""
 
+    bare = True
+
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
         if isinstance(node, Scalar) and node.plain and (node.empty or node.text in ("true", "false")):
             return None if node.text == "false" else {}
@@ -265,7 +267,7 @@ class _Reading(SectionReading):
     """The settings, of a mechanism where there is one; pictures lie in a folder."""
 
     def __init__(self, given: Mapping[str, Any], mechanism: Mechanism | None, folder: str) -> None:
-        super().__init__(SECTION, "report", _present(given))
+        super().__init__(SECTION, "report", given)
         self.mechanism, self.folder = mechanism, folder
 
     def all_of(self, language: str) -> Settings:
@@ -408,12 +410,3 @@ class _Reading(SectionReading):
         law = next((each.law for each in self.mechanism.drivers.values()), None)
         constant = law is None or law.constant_speed is not None
         return (self.mechanism.across, "time") if constant else ("time",)
-
-
-def _present(given: Mapping[str, Any]) -> dict[str, Any]:
-    """The settings without keys behind which nothing is written; a cover needs nothing."""
-    return {
-        key: _present(each) if key in LANGUAGES and isinstance(each, Mapping) else each
-        for key, each in given.items()
-        if each is not None or key == "cover"
-    }

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from tests import store
+from tests.cli.commands import data
 from tests.course_sheets import FOUR_BAR
 
 import linkwright as lw
@@ -108,6 +109,26 @@ def test_nobody_is_told_more_than_300_findings(section: str, tmp_path: Path) -> 
 def test_the_same_is_found_in_the_gallery(name: str) -> None:
     found = solved(store.text(name), "en")["findings"]
     assert [each["code"] for each in found] == [each.code for each in lw.check(f"gallery:{name}")]
+
+
+@pytest.mark.parametrize(
+    ("section", "command"),
+    [
+        ("report: {title: , titel: x, zh: {sections: [tusk]}}", ["report", "--output", "bar.html"]),
+        ("course: {ask: [nope], at: , vari: {}}", ["variants"]),
+        ("sheet: {size: A7}", ["sheet"]),
+        ("optimize: {vari: {}, minimize: travel, seed: x}", ["optimize"]),
+    ],
+)
+def test_commands_find_the_same_at_the_same_places(
+    section: str, command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("bar.yaml").write_text(f"{BAR}\n{section}\n", encoding="utf-8")
+    found = {(each.where, each.key, each.code) for each in lw.check("bar.yaml") if each.severity == "error"}
+    told = data(command[0], "bar.yaml", *command[1:], code=1)["findings"]
+    assert found == {(each["where"], each["key"], each["code"]) for each in told}
+    assert all(each["where"].count(":") == 2 for each in told)
 
 
 def test_files_that_a_model_names_lie_beside_it(tmp_path: Path) -> None:

@@ -124,14 +124,15 @@ def optimize(
 
 def _source(
     source: Mechanism | Document | str | Path, settings: Mapping[str, Any]
-) -> tuple[Mechanism, Document | None, dict[str, Any]]:
+) -> tuple[Mechanism, Document | None, Mapping[str, Any]]:
     require(source, Mechanism, Document, str, PathLike)
     if isinstance(source, Mechanism):
         document, mechanism = None, source
     else:
         document = source if isinstance(source, Document) else read_document(source)
         mechanism = document.mechanism
-    given = dict(mechanism.optimize) | {key: value for key, value in settings.items() if value is not None}
+    own = {key: value for key, value in settings.items() if value is not None}
+    given = {**mechanism.optimize, **own} if own else mechanism.optimize
     if not given:
         raise RequestError(
             _(

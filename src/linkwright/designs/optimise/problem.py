@@ -218,7 +218,8 @@ class _Reading(SectionReading):
         self.mechanism = mechanism
         known = SECTION.fields.keys() | {"yield"}
         self.given = {key: each for key, each in given.items() if key not in known or not _empty(each)}
-        super().__init__(SECTION, "optimize", self.given, source)
+        whole = len(self.given) == len(given)
+        super().__init__(SECTION, "optimize", given if whole else self.given, source)
 
     def problem(self) -> Problem:
         variables = self._variables()
