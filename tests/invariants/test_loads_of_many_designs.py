@@ -41,12 +41,12 @@ def test_an_expression_without_a_value_is_refused_alone_prepared_and_in_a_sweep(
 
 @pytest.mark.parametrize("load", LOADS)
 def test_gradients_are_those_of_differences_of_single_designs(load: str) -> None:
-    """Of the positions, and of the cycle, whose pieces are not cut where a table over an output bends."""
+    """Of the positions, and of the cycle."""
     mechanism, step = machine(load), 1e-6
     around = [lw.solve_forces(mechanism.with_dimensions({BY: 0.7 + k * step})) for k in (-2, -1, 1, 2)]
     sampled = [float(np.sqrt((each.input_torque**2).mean())) for each in around]
     refined = [metrics(each, ["rms_input_torque"]).value("rms_input_torque") for each in around]
-    for steps, values in ((360, sampled), (None, refined))[: 1 if load == "table of output" else 2]:
+    for steps, values in ((360, sampled), (None, refined)):
         term = {"driver.effort rms": 1.0}
         objective = lw.objective(mechanism, term, vary=[BY], steps=steps, backend="numpy")
         value, gradient = objective(objective.start)
@@ -55,7 +55,7 @@ def test_gradients_are_those_of_differences_of_single_designs(load: str) -> None
 
 
 @pytest.mark.rotating
-@pytest.mark.parametrize("load", [load for load in LOADS if load != "table of output"])
+@pytest.mark.parametrize("load", LOADS)
 def test_design_numbers_equal_single_designs(load: str) -> None:
     """Exact between positions, the moving edges of parts of a stroke among them."""
     mechanism = machine(load)

@@ -9,8 +9,10 @@ from math import pi
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
+from linkwright.core.outputs import Output
 from linkwright.cycle.block import Block, ByColumns
 from linkwright.cycle.loads import Acting, InPart, Never, OnStrokes, WithinInput, input_end
+from linkwright.cycle.machine import NotTogether
 from linkwright.events.events import Events, events
 from linkwright.events.formula import Formula
 from linkwright.events.inputs import AtInput
@@ -27,6 +29,10 @@ from linkwright.loads.strokes import NEAR
 REACH = "reach"
 #: Takes derivatives (k,) by values that designs reach.
 Reached = Callable[[Indices, Floats], None]
+
+
+def _unmoved(design: Indices, by_value: Floats) -> None:
+    """What places that no design moves do with derivatives by them."""
 
 
 class LoadEvents:
@@ -134,6 +140,8 @@ class LoadEvents:
         course = self.machine.course
         for name in self.machine.loads.names:
             size = self.machine.mechanism.loads[name].magnitude.size
+            if isinstance(size, Table) and isinstance(size.over, Output) and size.interpolation == "linear":
+                self.reached += [(each, _unmoved) for each in self._bends_over(size.over, size.x)]
             if not isinstance(size, Table) or not size.known_at:
                 continue
             if course.turns and size.over == "input":
@@ -146,6 +154,22 @@ class LoadEvents:
         if course.closed:
             times = course.begin + (times - course.begin) % course.duration
         return np.unique(times[(times > course.begin) & (times < course.begin + course.duration)])
+
+    def _bends_over(self, output: Output, places: tuple[float, ...]) -> list[Events]:
+        """Where an output is at places of a table; nowhere where no formula tells it."""
+        machine, block = self.machine, self.block
+
+        def beyond(_: Trace, found: Mapping[str, Scalar]) -> dict[str, Scalar]:
+            gone = {str(x): found["value"] - x for x in places}
+            return {x: sin(0.5 * each) for x, each in gone.items()} if output.kind == "angle" else gone
+
+        try:
+            formula = machine.formula(
+                ("table", output, places), lambda: {"value": machine.traces.value(output)}, beyond
+            )
+        except NotTogether:
+            return []
+        return events(formula, block.known, block.designs, block.base)
 
     def columns(self, design: Indices, time: Floats, middle: Floats) -> dict[str, Floats]:
         """What loads do in pieces that begin at some times, with these middles, s."""
