@@ -9,7 +9,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from linkwright import units
-from linkwright.cli.parser import number_of
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
 from linkwright.fields.base import Field, Number, Quantity, Text, given
@@ -67,13 +66,18 @@ class Areas(Text):
     """Areas of a torque diagram in mm² with its scales, if they are given, or works in J with scales of 1."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        text = super().read(reader, node, place, given) or ""
+        text = super().read(reader, node, place, given)
+        if text is None:
+            return None
         parts = [part.strip() for part in text.replace("−", "-").split(",")]
         works = "scale" not in given and all(part.endswith("J") for part in parts)
         found = []
         for part in parts:
             plain = part.removesuffix("J") if works else part.replace("mm²", "").replace("mm2", "")
-            found.append(number_of(plain.replace(" ", "")))
+            try:
+                found.append(float(plain.replace(" ", "")))
+            except ValueError:
+                found.append(math.nan)
             if not math.isfinite(found[-1]):
                 return _refused(reader, node, place, _BAD_AREA, part)
         return found, ((1.0, 1.0) if works else given.get("scale"))

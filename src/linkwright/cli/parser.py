@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, cast
@@ -74,14 +73,6 @@ def did_you_mean(said: Message, word: str, known: Iterable[str], otherwise: str 
 
     offer = nearest(word, list(known))
     return with_remedy(said, _('did you mean "{offer}"?', offer=offer) if offer else otherwise)
-
-
-def number_of(text: str) -> float:
-    """The number of a text; NaN where it is none."""
-    try:
-        return float(text)
-    except ValueError:
-        return math.nan
 
 
 class Options:

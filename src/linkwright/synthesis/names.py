@@ -6,6 +6,11 @@ from collections.abc import Mapping
 
 from linkwright.words import Message, Say, _, pgettext
 
+#: Tasks, for help that must not import what solves them.
+TASK_NAMES = (
+    "slider_crank", "crank_rocker", "quick_return", "drag_link", "toggle", "dwell", "straight_line",
+    "function", "motion", "path", "exact_path", "free_curve",
+)  # fmt: skip
 #: Types of linkages.
 TYPE_NAMES: Mapping[str, Message] = {
     "crank_rocker": _("crank-rocker"),

@@ -9,6 +9,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.files import ENDING_SAYS
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
+from linkwright.fields.sheet import SIZES
 from linkwright.words import _
 
 SUMMARY = _("the drawing sheet, A0 to A4: mechanism, polygons, diagrams, tables, title block")
@@ -29,12 +30,10 @@ ENDINGS = (".pdf", ".svg", ".dxf")
 
 
 def arguments(option: Options) -> None:
-    from linkwright.sheets.paper import SIZES
-
     option.model()
     option(
         "--size",
-        choices=tuple(SIZES),
+        choices=SIZES,
         help=_("paper size, A0 to A4 (default: what the file says, else A1, A2 for a cam)"),
     )
     option("--kind", choices=("mechanism", "cam"), help=_("mechanism or cam (default: what the file holds)"))

@@ -34,7 +34,7 @@ linkwright synthesize press.yaml --json"""
 
 
 def arguments(option: Options) -> None:
-    from linkwright.synthesis.task_names import TASK_NAMES
+    from linkwright.synthesis.names import TASK_NAMES
 
     option(
         "task",
@@ -120,7 +120,7 @@ def _solve(task: str, demands: dict[str, Any], options: argparse.Namespace, sess
 def _asked(options: argparse.Namespace, session: Session) -> tuple[str, dict[str, Any]]:
     """The task and its demands, from a file or the command line."""
     from linkwright.files.source import GALLERY
-    from linkwright.synthesis.task_names import TASK_NAMES
+    from linkwright.synthesis.names import TASK_NAMES
     from linkwright.synthesis.tasks import asked_in, asked_of
 
     if options.task not in TASK_NAMES and not options.demands:
