@@ -16,15 +16,15 @@ def test_says_in_which_position_and_by_how_much():
         rrr((0, 0), [(0.3, 0), (0.6, 0), (0.7, 0)], (0.25, 0.25))
     assert caught.value.failed == (1, 2)
     assert "outcome.rrr_far" in str(caught.value.values["reason"].code)
-    assert caught.value.values["missing"] == "0.1 m"
+    assert caught.value.values["missing"] == "100 mm"
 
 
 @pytest.mark.parametrize(
     ("solve", "reason", "missing"),
     [
-        (lambda: rrr((0, 0), (0.1, 0), (0.4, 0.2)), "outcome.rrr_near", "0.1 m"),
-        (lambda: rrp((0, 0.5), Line((0, 0)), 0.3, 0.1), "outcome.rrp_far", "0.1 m"),
-        (lambda: rpr((0, 0), (0.3, 0), (0.2, 0.2)), "outcome.rpr_near", "0.1 m"),
+        (lambda: rrr((0, 0), (0.1, 0), (0.4, 0.2)), "outcome.rrr_near", "100 mm"),
+        (lambda: rrp((0, 0.5), Line((0, 0)), 0.3, 0.1), "outcome.rrp_far", "100 mm"),
+        (lambda: rpr((0, 0), (0.3, 0), (0.2, 0.2)), "outcome.rpr_near", "100 mm"),
         (lambda: prp(Line((0, 0), 0.3), Line((1, 0), 0.3)), "outcome.prp_parallel", None),
         (lambda: rpp((0, 0), Line((1, 0), 0.3), np.pi), "outcome.rpp_parallel", None),
         (lambda: rrr((0, 0), (0.5, 0), (0.25, 0.25)), "dyads.singular", None),

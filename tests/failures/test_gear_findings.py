@@ -44,8 +44,8 @@ CASES = {
                     "needs {wanted}"
                 ),
                 "mesh": "external",
-                "distance": "0.06 m",
-                "wanted": "0.09 m",
+                "distance": "60 mm",
+                "wanted": "90 mm",
             },
         ),
     ),
@@ -60,7 +60,7 @@ CASES = {
                     "needs {wanted}"
                 ),
                 "mesh": "internal",
-                "wanted": "0.04 m",
+                "wanted": "40 mm",
             },
         ),
     ),
@@ -101,7 +101,7 @@ CASES = {
                     "needs {wanted}"
                 ),
                 "mesh": "external",
-                "wanted": "0.0600006 m",
+                "wanted": "60.0006 mm",
             },
         ),
     ),
@@ -168,7 +168,7 @@ CASES = {
             "range",
             {
                 "message": "the radii add up to {sum}, but the centres {centres} are {distance} apart",
-                "sum": "0.07 m",
+                "sum": "70 mm",
             },
         ),
     ),
@@ -179,8 +179,8 @@ CASES = {
             "range",
             {
                 "message": "the radii add up to {sum}, but the centres {centres} are {distance} apart",
-                "sum": "0.06 m",
-                "distance": "0.06 m",
+                "sum": "60 mm",
+                "distance": "60 mm",
             },
         ),
     ),
@@ -208,8 +208,8 @@ CASES = {
                     "the pinion's centre {centre!r} is {distance} away from the pitch line, but its "
                     "radius is {radius}"
                 ),
-                "distance": "0.02 m",
-                "radius": "0.025 m",
+                "distance": "20 mm",
+                "radius": "25 mm",
             },
         ),
     ),
@@ -446,13 +446,13 @@ joints:
             "kind: gear, links: [a, b], radii: [20 mm, 40 mm]",
             [0.06, 0.0601],
             [1, 0],
-            {"mesh": "external", "wanted": "0.06 m"},
+            {"mesh": "external", "wanted": "60 mm"},
         ),
         (
             "kind: gear, links: [a, b], teeth: [20, 40], module: 2 mm",
             [0.06, 0.059],
             [1, 0],
-            {"distance": "0.059 m"},
+            {"distance": "59 mm"},
         ),
         ("kind: gear, links: [a, b], teeth: [20, 40]", [0.06, 0.061], [1, 1], {}),
         (
@@ -460,7 +460,7 @@ joints:
             [0.06, 0.02],
             [1, 0],
             {
-                "sum": "0.03 m",
+                "sum": "30 mm",
                 "reason": "the radii add up to {sum}, but the centres {centres} are {distance} apart",
             },
         ),

@@ -290,7 +290,7 @@ def test_a_sliding_input_is_named_in_metres() -> None:
     )
     text = text.replace("loads:", "cycle: {duration: 1 s}\ndrawing: {A: [0 m, 1 m], B: [3.9 m, 0 m]}\nloads:")
     load = '{kind: force, on: piston, at: B, direction: 0 deg, magnitude: "5 N*m/(cylinder - 3.2 m)"}'
-    with refused("loads.formula_divides", text="5 N*m/(cylinder - 3.2 m)", place="3.2 m"):
+    with refused("loads.formula_divides", text="5 N*m/(cylinder - 3.2 m)", place="3200 mm"):
         forces(text, load)
 
 
@@ -353,7 +353,7 @@ def test_a_table_that_cannot_be_periodic(table: str, message: str) -> None:
 
 def test_a_table_over_an_output_that_goes_further() -> None:
     table = "table: {over: cylinder, x: [2 m, 3.5 m], y: [5 bar, 1 bar]}"
-    missing = {"over": "cylinder", "first": "2 m", "last": "3.5 m", "low": "3.5 m", "high": "4 m"}
+    missing = {"over": "cylinder", "first": "2000 mm", "last": "3500 mm", "low": "3500 mm", "high": "4000 mm"}
     with refused("loads.table_too_short", name="push", **missing):
         forces(SLIDER, f"{{kind: pressure, joint: cylinder, area: 1 cm², {table}}}")
 
@@ -482,7 +482,7 @@ def test_check_finds_more_of_a_stroke_than_there_is(tmp_path: Path) -> None:
     code, found = checked(file)
     told = said(found, "no-motion", "loads.work.phase")
     assert code == 1 and told.where.startswith("press.yaml:13:")
-    assert all(each in told.message for each in ("last: 5 m", "'slide'", "0.1 m"))
+    assert all(each in told.message for each in ("last: 5000 mm", "'slide'", "100 mm"))
     with refused("loads.part_too_long", name="work", output="slide"):
         forces(PRESS.replace("PHASE", phase), "")
 

@@ -127,7 +127,7 @@ FIVE_BAR = HEAD.replace("crank_rocker", "geared_fivebar") + "of: [crank_2.angula
     ],
 )
 def test_wheels_of_given_radii_leave_their_centre_distance_no_tolerance(text: str, key: str) -> None:
-    with faulty("wheels", key, mesh="external", wanted="0.2 m"):
+    with faulty("wheels", key, mesh="external", wanted="200 mm"):
         parts.loads(f"{FIVE_BAR}{text}\n", "t.yaml").solve()
 
 
@@ -137,5 +137,5 @@ def test_teeth_of_a_module_take_a_tolerance_within_their_clearance() -> None:
     found = parts.loads(f"{head}dimensions: {{carrier.A.x: 0.05 mm}}\n", "t.yaml").solve()
     (name,) = found.summaries
     assert found.gradients.gradient(name) == pytest.approx([0.0], abs=1e-12)
-    with faulty("wheels", "dimensions.carrier.A.x", mesh="external", wanted="0.06 m"):
+    with faulty("wheels", "dimensions.carrier.A.x", mesh="external", wanted="60 mm"):
         parts.loads(f"{head}dimensions: {{carrier.A.x: 0.6 mm}}\n", "t.yaml").solve()

@@ -41,7 +41,9 @@ def test_missing_distance_is_said() -> None:
         **LACKING,
     ) as caught:
         lw.solve_motion(fourbar(3, 2, 2.5, 4), at=radians(120))
-    assert float(str(caught.value.values["missing"]).removesuffix(" m")) == pytest.approx(missing, rel=1e-6)
+    assert float(str(caught.value.values["missing"]).removesuffix(" mm")) == pytest.approx(
+        1e3 * missing, rel=1e-6
+    )
 
 
 def test_marked_positions_hold_no_numbers() -> None:

@@ -264,7 +264,7 @@ def test_position_that_was_not_reached_is_refused() -> None:
     motion = lw.solve_motion(lw.loads(STUCK), steps=36, failures="mark")
     with refused("picture.not_drawn", position=0, links=("coupler", "rocker")):
         draw(motion, position=0)
-    with refused("picture.the_position", distance="2.9 m", missing="0.2 m"):
+    with refused("picture.the_position", distance="2900 mm", missing="200 mm"):
         draw(motion, at=math.radians(180))
     assert len(circles_on_paper(draw(motion), "lw-pin")) == 4  # the first that is reached
 

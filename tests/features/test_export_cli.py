@@ -65,7 +65,7 @@ def test_a_machine_that_does_not_assemble_leaves_no_file(tmp_path: Path) -> None
         encoding="utf-8",
     )
     is_refused(
-        ["export", str(model), "--output", str(tmp_path / "a.xml")], "motion.refused", 1, missing="4 m"
+        ["export", str(model), "--output", str(tmp_path / "a.xml")], "motion.refused", 1, missing="4000 mm"
     )
     assert [path.name for path in tmp_path.iterdir()] == ["m.yaml"]
 

@@ -115,10 +115,10 @@ def test_an_angle_takes_shares_and_angles() -> None:
 
 def test_more_than_the_stroke_is_refused_with_its_length() -> None:
     with refused(
-        "loads.part_too_long", name="press", part="last", amounts="0.12 m", stroke="0.1 m", output="guide"
+        "loads.part_too_long", name="press", part="last", amounts="120 mm", stroke="100 mm", output="guide"
     ):
         pressed(f"{FULL}, last: 120 mm}}")
-    with refused("loads.part_too_long", part="free", amounts="0.06 m + 0.05 m"):
+    with refused("loads.part_too_long", part="free", amounts="60 mm + 50 mm"):
         pressed(f"{FULL}, free: [60 mm, 0.5]}}")
 
 

@@ -336,7 +336,7 @@ def test_summaries_of_outputs_are_compared_like_numbers() -> None:
     short = PRESS.replace(MOVING, "table: {over: guide, x: [0 m, 0.4 m], y: [5 N, 1 N]}}").replace(
         "CRANK", "0.1 m"
     )
-    with refused("loads.table_too_short", ranges="0.4 m to 0.6 m", name="work"):
+    with refused("loads.table_too_short", ranges="400 mm to 600 mm", name="work"):
         compare([loads(short), loads(short)], metrics=["driver.effort rms"], steps=36)
 
 

@@ -101,7 +101,7 @@ def test_wedge_press(friction: float, angle: float) -> None:
 
 
 def test_a_wedge_too_steep_for_its_friction_locks_and_says_so() -> None:
-    with refused("forces.self_locking", name="wedge press", joint="slope", value="0.05 m"):
+    with refused("forces.self_locking", name="wedge press", joint="slope", value="50 mm"):
         lw.solve_forces(wedge(0.8, 30.0), steps=4)
 
 

@@ -212,7 +212,7 @@ def test_a_distance_as_a_file_rounds_it_has_the_given_angle_to_the_last_digit() 
 def test_teeth_further_off_are_refused(off: float) -> None:
     pair = store.machine("external_gear_pair")
     with refused(
-        "motion.refused", lw.PositionError, joint="mesh", distance=f"{0.06 + off:.4g} m", wanted="0.06 m"
+        "motion.refused", lw.PositionError, joint="mesh", distance=f"{60 + 1e3 * off:.4g} mm", wanted="60 mm"
     ):
         lw.solve_motion(pair.with_dimensions({"frame.Q.x": 0.06 + off}), steps=4)
 
@@ -249,7 +249,7 @@ def test_a_rack_of_a_module_may_be_off_its_distance_and_one_of_a_radius_may_not(
     pinion = store.machine("pinion_between_racks")
     address = next(name for name in pinion.dimensions() if name.endswith(".offset"))
     off = pinion.with_dimensions({address: pinion.dimensions()[address] + 1e-4})
-    with refused("motion.refused", lw.PositionError, joint="below", distance="0.0401 m", radius="0.04 m"):
+    with refused("motion.refused", lw.PositionError, joint="below", distance="40.1 mm", radius="40 mm"):
         lw.solve_motion(off, steps=4)
 
 

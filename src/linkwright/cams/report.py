@@ -14,7 +14,7 @@ from linkwright.core.search import first_largest
 from linkwright.equations.steps import Step
 from linkwright.laws.program import MotionProgram
 from linkwright.laws.smoothest import FoundProgram
-from linkwright.words import Say, _, language_of
+from linkwright.words import Message, Say, _, language_of
 from linkwright.words.sentence import in_language
 
 #: Places that a remark lists at most.
@@ -32,9 +32,9 @@ def blocks(design: CamDesign, say: Say) -> list[Block]:
     return [block for make in makers if (block := make(design, say)) is not None]
 
 
-def at(place: float, say: Say) -> str:
+def at(place: float) -> Message:
     """``at 45.2°``"""
-    return say(_("at {place}°", place=f"{math.degrees(place) % 360:.6g}"))
+    return _("at {place}°", place=f"{math.degrees(place) % 360:.6g}")
 
 
 def _sizes(design: CamDesign, say: Say) -> Block:
@@ -59,16 +59,14 @@ def _sizes(design: CamDesign, say: Say) -> Block:
                 "face_width",
                 design.face[1] - design.face[0],
                 "length",
-                note=say(
-                    _(
-                        "from {low} to {high}",
-                        low=shown(design.face[0], "length"),
-                        high=shown(design.face[1], "length"),
-                    )
+                note=_(
+                    "from {low} to {high}",
+                    low=shown(design.face[0], "length"),
+                    high=shown(design.face[1], "length"),
                 ),
             )
         )
-    return Block("sizes", say(_("Sizes")), rows)
+    return Block("sizes", _("Sizes"), rows)
 
 
 def _motion(design: CamDesign, say: Say) -> Block:
@@ -84,22 +82,22 @@ def _motion(design: CamDesign, say: Say) -> Block:
                         f"{word}_{key}",
                         extreme.value * speed**order,
                         kinds[order],
-                        note=at(extreme.place, say),
+                        note=at(extreme.place),
                     )
                 )
             else:
                 unit = ("rad" if kinds[0] == "angle" else "m") + ("/rad", "/rad²")[order - 1]
                 label = f"{say(LABELS[f'{word}_{key}'])} ({unit})"
-                rows.append(Row(f"{word}_{key}", extreme.value, "", label, at(extreme.place, say)))
-    return Block("motion", say(_("Motion")), rows, _remarks(design, say))
+                rows.append(Row(f"{word}_{key}", extreme.value, "", label, at(extreme.place)))
+    return Block("motion", _("Motion"), rows, _remarks(design, say))
 
 
-def _remarks(design: CamDesign, say: Say) -> list[str]:
+def _remarks(design: CamDesign, say: Say) -> list[Message]:
     """Junctions where something jumps; what binds a program that was found."""
     program = design.cam.program
     if isinstance(program, FoundProgram):
         named = ", ".join(in_language(each.what, language_of(say)) for each in program.binding) or "–"
-        return [say(_("What keeps it from being smoother: {names}.", names=named))]
+        return [_("What keeps it from being smoother: {names}.", names=named)]
     if not isinstance(program, MotionProgram):
         return []
     told = (_("The acceleration jumps at {places}."), _("The jerk jumps at {places}."))
@@ -108,7 +106,7 @@ def _remarks(design: CamDesign, say: Say) -> list[str]:
         places = [shown(each, "angle") for each in program.places_of_jumps(order)]
         if places:
             found.append(
-                say(jumps.format(places=", ".join([*places[:MANY], *(["…"] if len(places) > MANY else [])])))
+                jumps.format(places=", ".join([*places[:MANY], *(["…"] if len(places) > MANY else [])]))
             )
     return found
 
@@ -118,28 +116,26 @@ def _shape(design: CamDesign, say: Say) -> Block:
     flat = design.cam.follower.kind == "flat" and not design.cam.follower.oscillating
     if not flat:
         for key, extreme in (("rise", design.pressure_angle_rise), ("fall", design.pressure_angle_fall)):
-            rows.append(Row(f"pressure_angle_{key}", extreme.value, "angle", note=at(extreme.place, say)))
+            rows.append(Row(f"pressure_angle_{key}", extreme.value, "angle", note=at(extreme.place)))
     smallest, hollow = design.smallest_radius, design.hollow_radius
     if smallest is not None:
-        rows.append(Row("smallest_radius", smallest.value, "length", note=at(smallest.place, say)))
+        rows.append(Row("smallest_radius", smallest.value, "length", note=at(smallest.place)))
     if hollow is not None:
-        rows.append(Row("hollow_radius", hollow.value, "length", note=at(hollow.place, say)))
-    return Block("shape", say(_("Shape")), rows, _broken_limits(design, say))
+        rows.append(Row("hollow_radius", hollow.value, "length", note=at(hollow.place)))
+    return Block("shape", _("Shape"), rows, _broken_limits(design))
 
 
-def _broken_limits(design: CamDesign, say: Say) -> list[str]:
+def _broken_limits(design: CamDesign) -> list[Message]:
     limits, found = design.cam.limits, []
     pairs = zip((design.pressure_angle_rise, design.pressure_angle_fall), limits.angles, strict=True)
     for extreme, limit in pairs:
         if abs(extreme.value) > limit * (1 + 1e-6):
             found.append(
-                say(
-                    _(
-                        "The pressure angle of {angle} {at} is above its limit of {limit}.",
-                        angle=shown(abs(extreme.value), "angle"),
-                        limit=shown(limit, "angle"),
-                        at=at(extreme.place, say),
-                    )
+                _(
+                    "The pressure angle of {angle} {at} is above its limit of {limit}.",
+                    angle=shown(abs(extreme.value), "angle"),
+                    limit=shown(limit, "angle"),
+                    at=at(extreme.place),
                 )
             )
     smallest = design.smallest_radius
@@ -149,13 +145,11 @@ def _broken_limits(design: CamDesign, say: Say) -> list[str]:
         and smallest.value < limits.curvature_radius * (1 - 1e-6)
     ):
         found.append(
-            say(
-                _(
-                    "The radius of {radius} {at} is below its limit of {limit}.",
-                    radius=shown(smallest.value, "length"),
-                    limit=shown(limits.curvature_radius, "length"),
-                    at=at(smallest.place, say),
-                )
+            _(
+                "The radius of {radius} {at} is below its limit of {limit}.",
+                radius=shown(smallest.value, "length"),
+                limit=shown(limits.curvature_radius, "length"),
+                at=at(smallest.place),
             )
         )
     pressure = design.largest_pressure
@@ -165,13 +159,11 @@ def _broken_limits(design: CamDesign, say: Say) -> list[str]:
         and pressure.value > limits.contact_pressure * (1 + 1e-6)
     ):
         found.append(
-            say(
-                _(
-                    "The contact pressure of {pressure} {at} is above its limit of {limit}.",
-                    pressure=shown(pressure.value, "pressure"),
-                    limit=shown(limits.contact_pressure, "pressure"),
-                    at=at(pressure.place, say),
-                )
+            _(
+                "The contact pressure of {pressure} {at} is above its limit of {limit}.",
+                pressure=shown(pressure.value, "pressure"),
+                limit=shown(limits.contact_pressure, "pressure"),
+                at=at(pressure.place),
             )
         )
     return found
@@ -181,7 +173,7 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
     if not design.loaded or design.cam.barrel_radius is not None:
         return None
     turning = design.cam.follower.oscillating
-    rows, remarks = [], _weak_spring(design, say)
+    rows, remarks = [], _weak_spring(design)
     spring = design.loading.spring
     if spring.preload is not None or spring.stiffness is not None:
         rows.append(
@@ -194,18 +186,18 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
     ):
         for word, kind in (("largest", "max"), ("smallest", "min")):
             found = extreme(kind)
-            rows.append(Row(f"{word}_{key}", found.value, dimension, note=at(found.place, say)))
+            rows.append(Row(f"{word}_{key}", found.value, dimension, note=at(found.place)))
     if (pressure := design.largest_pressure) is not None:
-        place = at(pressure.place, say)
+        place = at(pressure.place)
         rows.append(Row("largest_contact_pressure", pressure.value, "pressure", note=place))
     if design.cam.closure != "force":
         places = ", ".join(shown(each, "angle") for each in design.wall_changes)
         if places:
-            remarks.append(say(_("The follower changes its wall at {places}.", places=places)))
-    return Block("forces", say(_("Forces")), rows, remarks)
+            remarks.append(_("The follower changes its wall at {places}.", places=places))
+    return Block("forces", _("Forces"), rows, remarks)
 
 
-def _weak_spring(design: CamDesign, say: Say) -> list[str]:
+def _weak_spring(design: CamDesign) -> list[Message]:
     """Where a given spring leaves less than the least effort that is asked for."""
     limit = design.cam.limits.contact_force
     if not limit or design.cam.closure != "force":
@@ -215,13 +207,11 @@ def _weak_spring(design: CamDesign, say: Say) -> list[str]:
         return []
     kind = "torque" if design.cam.follower.oscillating else "force"
     return [
-        say(
-            _(
-                "The spring leaves an effort of {effort} {at}, below its limit of {limit}.",
-                effort=shown(lowest.value, kind),
-                limit=shown(limit, kind),
-                at=at(lowest.place, say),
-            )
+        _(
+            "The spring leaves an effort of {effort} {at}, below its limit of {limit}.",
+            effort=shown(lowest.value, kind),
+            limit=shown(limit, kind),
+            at=at(lowest.place),
         )
     ]
 
@@ -237,7 +227,7 @@ def _vibration(design: CamDesign, say: Say) -> Block | None:
     ]
     if isinstance(cam.program, MotionProgram):
         rows.append(Row("residual", float(design.residual_vibration(np.array([speed])).max()), length))
-    return Block("vibration", say(_("Vibration")), rows)
+    return Block("vibration", _("Vibration"), rows)
 
 
 def steps(design: CamDesign, say: Say) -> list[Step]:

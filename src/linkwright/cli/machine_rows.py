@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import ClassVar
 
 from linkwright.cli.machine_options import Wanted
+from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
 from linkwright.core.rows import Block, Numbers, Row
@@ -54,6 +55,9 @@ class Layout(Numbers):
 
     def blocks(self, say: Say) -> list[Block]:
         return [each for each in self.found(say) if each.rows]
+
+    def columns(self) -> dict[str, Floats]:
+        return {} if self.machine is None else self.machine.columns()
 
     def notes(self, language: str = "en") -> list[str]:
         return [] if self.machine is None else self.machine.notes(language)

@@ -83,9 +83,8 @@ def show(result: Result, options: argparse.Namespace, session: Session, *, kind:
 
     write_result(options.output, result, session, force=options.force)
     write_diagram(options.plot, result, session, force=options.force, kind=kind)
-    language = session.language
-    text = result.worked(language) if options.worked else result.text(language, digits=options.digits)
-    session.show_result(result, options.output, options.plot, text=text)
+    text = result.worked(session.language) if options.worked else ""
+    session.show_result(result, options.output, options.plot, text=text, digits=options.digits)
 
 
 @dataclass(frozen=True)

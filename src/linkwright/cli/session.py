@@ -53,14 +53,14 @@ class Session:
         self.show_as_is(json_text(value))
 
     def show_result(
-        self, found: Tabular, *written: object, text: str | None = None, apart: bool = True
+        self, found: Tabular, *written: object, text: str = "", apart: bool = True, **options: object
     ) -> None:
-        """Prints a result (``text``: as it is asked for), its first line bold, and which files were written; with
-        ``json`` its data."""
+        """Prints a result (``options``: of its tables) or ``text`` in its place, the first line bold, and which files
+        were written; with ``json`` its data."""
         if self.json:
             self.show_data({"ok": True, **found.data()})
             return
-        title, *lines = (found.text(self.language) if text is None else text).split("\n")
+        title, *lines = (text or found.text(self.language, self.room, **options)).split("\n")
         self.show("\n".join([self.strong(title), *self.table(lines, heads=0)]))
         self.show_written(*written, apart=apart)
 

@@ -47,11 +47,10 @@ def shown(value: float, dimension: str = "", digits: int = 6) -> str:
     return with_unit(number(value, dimension, digits), shown_unit(dimension))
 
 
-def reported(value: float, dimension: str, digits: int = 6) -> str:
-    """A value in a message: an angle in degrees, all else in SI, as Python takes it."""
-    if dimension == "angle":
-        return shown(value, dimension, digits)
-    return with_unit(number(value, digits=digits), si_unit(dimension))
+def length_text(metres: float, digits: int = 6) -> str:
+    """A length by its size: ``1.25 m`` from one metre upwards, ``60.5 mm`` below."""
+    text = f"{metres:.{digits}g}"
+    return f"{text} m" if float(text) >= 1.0 else f"{1000 * metres:.{digits}g} mm"
 
 
 def with_unit(number: str, unit: str) -> str:

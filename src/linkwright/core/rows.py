@@ -35,9 +35,9 @@ class Row:
     more: Mapping[str, Any] = field(default_factory=dict)
     digits: int | None = None
 
-    def cells(self, labels: Mapping[str, Message], say: Say, digits: int = 6) -> list[Cell]:
+    def cells(self, labels: Mapping[str, Message], digits: int = 6) -> list[Cell]:
         """Label, number with so many digits, unit and note."""
-        label = self.label or say(labels[self.key])
+        label = self.label or labels[self.key]
         if self.text:
             return [label, self.text, "", self.note]
         amount = Amount(self.value, self.dimension, self.digits or digits, self.end, self.scale, bare=True)
@@ -67,9 +67,9 @@ class Block:
     rows: Sequence[Row]
     remarks: Sequence[str] = ()
 
-    def table(self, labels: Mapping[str, Message], say: Say, digits: int = 6) -> Table:
+    def table(self, labels: Mapping[str, Message], digits: int = 6) -> Table:
         """Labels, numbers with so many digits, units and notes, the remarks below."""
-        rows = [row.cells(labels, say, digits) for row in self.rows]
+        rows = [row.cells(labels, digits) for row in self.rows]
         return Table((), rows, "<><<", self.title, self.remarks)
 
     def data(self) -> dict[str, Any]:
@@ -117,9 +117,9 @@ class Numbers(Tabular):
 
     def tables(self, language: str = "en", digits: int | None = None) -> tuple[Table, ...]:
         """The blocks in words of the language, each number with so many digits, and the notes."""
-        say, notes = speaker(language), self.notes(language)
-        blocks = (each.table(self.labels, say, digits or self.digits) for each in tidy(self.blocks(say)))
-        return (Table(title=self.title), *blocks, *([Table(notes=notes)] if notes else []))
+        blocks, notes = tidy(self.blocks(speaker(language))), self.notes(language)
+        tables = (each.table(self.labels, digits or self.digits) for each in blocks)
+        return (Table(title=self.title), *tables, Table(notes=notes))
 
     def data(self) -> dict[str, Any]:
         """The numbers by key, SI, each with its unit; notes and remarks in English."""

@@ -213,7 +213,7 @@ class Tabular(ABC):
 
     def markdown(self, language: str = "en") -> str:
         """The tables in Markdown."""
-        return "\n\n".join(each.markdown(language) for each in self.tables(language)) + "\n"
+        return "\n\n".join(filter(None, (each.markdown(language) for each in self.tables(language)))) + "\n"
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The columns as a pandas table; needs pandas."""

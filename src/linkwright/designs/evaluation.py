@@ -43,7 +43,7 @@ def tables(comparison: Comparison, language: str = "en") -> tuple[Table, ...]:
         Table(head, rows, notes=[_("* best of the alternatives")]),
         Table(title=title, notes=ranking(comparison, say)),
         Table(title=_("Evaluation"), notes=sentences(comparison, language)),
-        *([Table(notes=comparison.notes)] if comparison.notes else []),
+        Table(notes=comparison.notes),
     )
 
 

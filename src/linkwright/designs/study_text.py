@@ -7,19 +7,18 @@ import numpy as np
 from linkwright.core.quantity import shown, shown_unit
 from linkwright.core.table import Amount, Cell, Table
 from linkwright.designs.criteria import criterion
-from linkwright.designs.failures import Failure
 from linkwright.designs.study import Study
-from linkwright.errors import speaker
-from linkwright.words import Say, _, pgettext
-from linkwright.words.sentence import in_language
+from linkwright.words import Message, _, pgettext
 
 
 def tables(study: Study, language: str = "en", rows: int = 40) -> tuple[Table, ...]:
     """Table, best designs, failures, notes."""
-    say = speaker(language)
-    failures = [_failure(each, say, language) for each in study.failures]
+    failures = [
+        _("{count} {place}; the first: {example}", count=each.count, place=each.place, example=each.example)
+        for each in study.failures
+    ]
     below = (
-        Table(title=_("Best designs"), notes=_best(study, language, say)),
+        Table(title=_("Best designs"), notes=_best(study, language)),
         Table(title=_("Designs that fail"), notes=failures),
         Table(notes=study.notes),
     )
@@ -65,31 +64,23 @@ def _heading(study: Study, name: str, language: str) -> str:
     return f"{label} [{unit}]" if unit else label
 
 
-def _best(study: Study, language: str, say: Say) -> list[str]:
+def _best(study: Study, language: str) -> list[Message]:
     """The best design in every metric that has a better direction."""
     lines = []
     for name, values in study.metrics.items():
-        if study.better[name] is None or not np.isfinite(values).any():
+        if not study.has_best(name):
             continue
         index = study.best(name)
         place = ", ".join(
             f"{each.address} = {each.shown(study.varied[each.address][index])}" for each in study.ranges
         )
-        value = shown(float(values[index]), study.dimensions[name], 5)
         lines.append(
-            say(
-                _(
-                    "{name}: {value} in design {number} ({place})",
-                    name=criterion(name).label(language),
-                    value=value,
-                    number=index,
-                    place=place,
-                )
+            _(
+                "{name}: {value} in design {number} ({place})",
+                name=criterion(name).label(language),
+                value=shown(float(values[index]), study.dimensions[name], 5),
+                number=index,
+                place=place,
             )
         )
     return lines
-
-
-def _failure(failure: Failure, say: Say, language: str) -> str:
-    place, example = in_language(failure.place, language), in_language(failure.example, language)
-    return say(_("{count} {place}; the first: {example}", count=failure.count, place=place, example=example))

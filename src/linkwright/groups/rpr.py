@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import sqrt as root_of
 
-from linkwright.core.quantity import reported
+from linkwright.core.quantity import shown
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.joints.pose import Rotor
@@ -55,7 +55,7 @@ class RPR:
             "the outer pins are {distance} apart, the guide holds them {offset} apart across its "
             "direction: {missing} too close",
             code="outcome.rpr_near",
-            distance=reported(distance, "length", 7),
-            offset=reported(offset, "length", 7),
-            missing=reported(offset - distance, "length", 7),
+            distance=shown(distance, "length", 7),
+            offset=shown(offset, "length", 7),
+            missing=shown(offset - distance, "length", 7),
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import sqrt as root_of
 
-from linkwright.core.quantity import reported
+from linkwright.core.quantity import shown
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.joints.pose import Rotor
@@ -53,7 +53,7 @@ class RRP:
             "the outer pin is {height} from the path of the slider's pin, the link reaches "
             "{length}: {missing} missing",
             code="outcome.rrp_far",
-            height=reported(height, "length", 7),
-            length=reported(length, "length", 7),
-            missing=reported(height - length, "length", 7),
+            height=shown(height, "length", 7),
+            length=shown(length, "length", 7),
+            missing=shown(height - length, "length", 7),
         )

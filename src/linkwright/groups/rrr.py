@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import sqrt as root_of
 
-from linkwright.core.quantity import reported
+from linkwright.core.quantity import shown
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
 from linkwright.groups.base import DYADS, Chain, Solved
 from linkwright.joints.pose import Rotor
@@ -69,9 +69,9 @@ class RRR:
                 code="outcome.rrr_near",
             )
         ).format(
-            distance=reported(distance, "length", 7),
-            first=reported(r1, "length", 7),
-            second=reported(r2, "length", 7),
-            reach=reported(reach, "length", 7),
-            missing=reported(distance - reach if far else reach - distance, "length", 7),
+            distance=shown(distance, "length", 7),
+            first=shown(r1, "length", 7),
+            second=shown(r2, "length", 7),
+            reach=shown(reach, "length", 7),
+            missing=shown(distance - reach if far else reach - distance, "length", 7),
         )

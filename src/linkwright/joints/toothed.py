@@ -17,6 +17,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import shown
 from linkwright.elements.model import Drawing, Model, Sizes
 from linkwright.fields.base import Field, Quantities, Quantity, pair_schema
 from linkwright.fields.references import LinkName, LinkNames
@@ -24,7 +25,6 @@ from linkwright.formula.trace import Scalar, reciprocal, sqrt
 from linkwright.formula.vector import Vec
 from linkwright.joints.base import Entry, HigherPair, Joint
 from linkwright.joints.ends import Ends
-from linkwright.units import number
 from linkwright.words import Message, _
 
 if TYPE_CHECKING:
@@ -345,4 +345,4 @@ class _Centres:
 
 def length(value: float) -> str:
     """A length as sentences print it."""
-    return f"{number(value, 7)} m"
+    return shown(value, "length", 7)

@@ -14,7 +14,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
 from linkwright.core.inputs import mode_groups
 from linkwright.core.outputs import row_name
-from linkwright.core.quantity import reported
+from linkwright.core.quantity import shown
 from linkwright.core.search import edge
 from linkwright.elements.topology import Group
 from linkwright.errors import LinkwrightError, RequestError
@@ -106,7 +106,7 @@ class InputRange:
             )
             return full.format(link=self.link)
         ends = {
-            side: reported(end.value, "angle" if self.rotary else "length", 7)
+            side: shown(end.value, "angle" if self.rotary else "length", 7)
             for side, end in (("low", self.low), ("high", self.high))
             if end is not None
         }
@@ -123,7 +123,7 @@ class InputRange:
         return tuple(
             _(
                 "at {place} {group} {how}",
-                place=reported(end.value, "angle" if self.rotary else "length", 7),
+                place=shown(end.value, "angle" if self.rotary else "length", 7),
                 group=end.group,
                 how=end.how,
             )
@@ -245,7 +245,7 @@ class _Search:
                 code="range.not_assembled",
                 name=self.mechanism.name,
                 driver=self.driver,
-                place=reported(nominal, "angle" if self.rotary else "length", 7),
+                place=shown(nominal, "angle" if self.rotary else "length", 7),
             )
         )
 

@@ -15,7 +15,7 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.core.inputs import driven
-from linkwright.core.quantity import reported
+from linkwright.core.quantity import shown
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.mechanism.mechanism import Mechanism
@@ -281,7 +281,7 @@ def rotary(mechanism: Mechanism) -> dict[str, bool]:
 def coordinate_text(name: str, value: float, rotary: bool) -> Message:
     """A driver's coordinate in words: ``crank = 30°``."""
     own = _("driver", code="nouns.driver") if name == "driver" else name
-    return _("{name} = {value}", name=own, value=reported(value, "angle" if rotary else "length"))
+    return _("{name} = {value}", name=own, value=shown(value, "angle" if rotary else "length"))
 
 
 def _driver(mechanism: Mechanism, name: str) -> Driver:

@@ -14,6 +14,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import length_text
 from linkwright.kinematics.constraint_equations import (
     ConstraintEquations,
     Row,
@@ -364,14 +365,12 @@ def _said(rows: Sequence[Row]) -> tuple[Message, ...]:
 def _gaping(
     mechanism: Mechanism, system: ConstraintEquations, rank: int, implied: Sequence[Row], gap: float
 ) -> RankReport:
-    from linkwright.units import number
-
     count = grubler(counts(mechanism))
     said = _(
         "Grübler gives {count}; the links do not fit together near the drawing: at best a "
         "gap of {gap} is left, so no link is redundant there",
         code="rank.gaping",
         count=count,
-        gap=f"{number(gap * system.size, 3)} m",
+        gap=length_text(gap * system.size, 3),
     )
     return RankReport(rank, system.freedoms, system.freedoms - count, count, _said(implied), (), False, said)

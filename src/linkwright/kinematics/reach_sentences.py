@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Indices
 from linkwright.core.outputs import row_name
-from linkwright.core.quantity import reported
+from linkwright.core.quantity import shown
 from linkwright.kinematics.change_points import closes
 from linkwright.kinematics.cycle import FEW, cycle_turns, not_back, together
 from linkwright.kinematics.motion import Motion
@@ -182,7 +182,7 @@ def passage_notes(passing: Sequence[Passage], positions: Positions) -> tuple[Mes
 
 def _passage_note(p: Passage, positions: Positions) -> Message:
     name = next(iter(positions.coordinates))
-    where = f"{name} = {reported(float(p.at), 'angle' if positions.rotary[name] else 'length')}"
+    where = f"{name} = {shown(float(p.at), 'angle' if positions.rotary[name] else 'length')}"
     return _PASSAGES[p.kind].format(links=tuple(p.group.split("+")), where=where)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.quantity import reported
+from linkwright.core.quantity import shown
 from linkwright.curves.curve import Curve, Extreme
 from linkwright.errors import Finding, ModelError, fault
 from linkwright.laws.base import MOTION_LAWS, Ends, MotionLaw
@@ -260,7 +260,7 @@ class MotionProgram(Program):
 
     def said(self, place: float) -> str:
         """A place in words: ``90°`` or ``0.2 s``."""
-        return reported(place, "angle" if self.period == TURN else "time")
+        return shown(place, "angle" if self.period == TURN else "time")
 
     @property
     def _size(self) -> float:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 from linkwright.core.expression_tree import Node, Number, denominators, evaluate, scalar_functions
 from linkwright.core.expressions import ON_VALUES, Expression
 from linkwright.core.outputs import Output
-from linkwright.core.quantity import reported
+from linkwright.core.quantity import shown
 from linkwright.errors import QuantityError
 from linkwright.formula.late_import import numpy as np
 from linkwright.loads.signals import Signals, column, input_dimension, named_column, place_named
@@ -42,7 +42,7 @@ def _not_finite(
 ) -> Message:
     where = _("in the only position")
     if signals.mechanism.drivers:
-        place = reported(float(signals.input[index]), input_dimension(signals))
+        place = shown(float(signals.input[index]), input_dimension(signals))
         where = _("at input = {input}", input=place)
     try:
         expression.evaluate({name: float(values[index]) for name, values in columns.items()})
@@ -79,9 +79,7 @@ def _pole_between(
         for index in np.flatnonzero(both & (values[:-1] * values[1:] < 0)):
             share = _zero(divisor, columns, int(index))
             if share is not None:
-                place = reported(
-                    float(q[index] + share * (q[index + 1] - q[index])), input_dimension(signals)
-                )
+                place = shown(float(q[index] + share * (q[index + 1] - q[index])), input_dimension(signals))
                 return _(
                     '"{text}" divides by zero near input = {place}; change the expression, or leave that '
                     "position out by a phase",
@@ -142,7 +140,7 @@ def interval_fault(start: float, end: float, signals: Signals) -> Message | None
         )
     else:
         return None
-    return problem.format(start=reported(start, "angle"), end=reported(end, "angle"))
+    return problem.format(start=shown(start, "angle"), end=shown(end, "angle"))
 
 
 _PARTS = {
@@ -159,9 +157,9 @@ def part_fault(output: Output, part: StrokePart, stroke: float) -> Message:
         "through {stroke}; give less",
         code="loads.part_too_long",
         part=_PARTS[part.word],
-        amounts=" + ".join(reported(each.way(stroke), output.dimension) for each in part.amounts),
+        amounts=" + ".join(shown(each.way(stroke), output.dimension) for each in part.amounts),
         output=output,
-        stroke=reported(stroke, output.dimension),
+        stroke=shown(stroke, output.dimension),
     )
 
 
@@ -174,10 +172,8 @@ def table_fault(
     (first, last), low, high = ends, float(short.min()), float(short.max())
     missing = [(low, first)] if low < first else []
     missing += [(last, high)] if high > last else []
-    ranges = [
-        _("{low} to {high}", low=reported(a, dimension), high=reported(b, dimension)) for a, b in missing
-    ]
-    covered = {"first": reported(first, dimension), "last": reported(last, dimension)}
+    ranges = [_("{low} to {high}", low=shown(a, dimension), high=shown(b, dimension)) for a, b in missing]
+    covered = {"first": shown(first, dimension), "last": shown(last, dimension)}
     return _(
         "its table over {over} goes from {first} to {last} and does not cover what the cycle "
         "needs: {ranges} is missing; add rows, or limit the load by a phase",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, Protocol
 
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
-from linkwright.core.quantity import reported
+from linkwright.core.quantity import shown
 from linkwright.errors import LinkwrightError
 from linkwright.formula.late_import import numpy as np
 from linkwright.formula.trace import Mask, Scalar, floor, maximum, minimum, select
@@ -100,7 +100,7 @@ def strokes(phase: BetweenLimits, signals: Signals) -> list[Stretch]:
         _(
             "{kind} at input {input}",
             kind=_LIMITS[each.kind],
-            input=reported(each.input, dimension),
+            input=shown(each.input, dimension),
         )
         for each in extreme
     )

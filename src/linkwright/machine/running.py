@@ -8,6 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real, require
@@ -62,10 +63,10 @@ def speeds(curve: SpeedCurve, at: Callable[[float], float], say: Say, before: st
     """How even a speed is, and its extremes; ``before`` their keys."""
     slow, fast = curve.slowest, curve.fastest
     reached = share(
-        f"{before}reached_fluctuation", curve.fluctuation, say(_("  coefficient really reached with it"))
+        f"{before}reached_fluctuation", curve.fluctuation, _("  coefficient really reached with it")
     )
     ends = (("slowest", slow), ("fastest", fast))
-    return [reached, *(placed(f"{before}{key}", value, "angular_velocity", at(place), say(LABELS[key]))
+    return [reached, *(placed(f"{before}{key}", value, "angular_velocity", at(place), LABELS[key])
                        for key, (place, value) in ends)]  # fmt: skip
 
 
@@ -150,6 +151,18 @@ class SteadyRunning(Plotted, Numbers):
             Block("formula", "", [Row("flywheel", self.flywheel, "inertia"), *speeds(self.speed, at, say)]),
             Block("exact", "", [*exact, *speeds(self.exact_speed, at, say, "exact_")]),
         ]
+
+    def columns(self) -> dict[str, Floats]:
+        """Curves over the cycle, SI: torque, inertia, excess energy, speed with both flywheels."""
+        reduced, energy = self.equivalent, self.energy
+        return {
+            "input [rad]": reduced.start + reduced.direction * energy.angle,
+            "equivalent_torque [N·m]": reduced.load(energy.angle),
+            "equivalent_inertia [kg·m²]": reduced.inertia_at(energy.angle),
+            "excess_energy [J]": energy.energy,
+            "speed_with_flywheel [rad/s]": self.speed.at(energy.angle),
+            "speed_with_exact_flywheel [rad/s]": self.exact_speed.at(energy.angle),
+        }
 
     def notes(self, language: str = "en") -> list[str]:
         """The remarks, that no flywheel is needed, and warnings of singular positions."""

@@ -88,10 +88,13 @@ def _results(found: Result, say: Say, language: str) -> Iterator[Block]:
     for table in found.tables(language)[1:]:
         width = 4 if any(row[3] for row in table.rows) else 3
         if table.rows:
-            title, rows = literal(table.title) or _("Results"), [row[:width] for row in table.rows]
+            title, rows = (
+                literal(in_language(table.title, language)) or _("Results"),
+                [row[:width] for row in table.rows],
+            )
             yield printed(Table(head[:width], rows, "<><<"[:width], title), language, first=_label)
         for remark in table.notes:
-            yield Paragraph(literal(remark))
+            yield Paragraph(literal(in_language(remark, language)))
 
 
 def _label(text: str) -> str:

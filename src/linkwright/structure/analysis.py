@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import field
 
 from linkwright.core.dataclass import dataclass
@@ -99,40 +99,36 @@ class Structure(Tabular):
         return f"Structure(mobility {self.mobility}; {self.chain}; class {self.mechanism_class})"
 
 
-def _class(structure: Structure, say: Say) -> list[str]:
+def _class(structure: Structure, say: Say) -> Sequence[str]:
     """The groups in one line, the mechanism's class, and what else is to be known of it."""
     level = numeral(structure.mechanism_class, say)
     lines = [
-        say(_("Mechanism = frame + {chain}", chain=structure.chain)),
-        say(_("It is a class {level} mechanism.", level=level)),
+        _("Mechanism = frame + {chain}", chain=structure.chain),
+        _("It is a class {level} mechanism.", level=level),
     ]
     if len(structure.parts) > 1:
-        parts = say(_(" and ")).join("{" + ", ".join(part) + "}" for part in structure.parts)
+        parts = _(" and ").join("{" + ", ".join(part) + "}" for part in structure.parts)
         lines.append(
-            say(
-                _(
-                    "These are {count} mechanisms that share nothing but the frame: {parts}.",
-                    count=len(structure.parts),
-                    parts=parts,
-                )
+            _(
+                "These are {count} mechanisms that share nothing but the frame: {parts}.",
+                count=len(structure.parts),
+                parts=parts,
             )
         )
     if structure.drivers:
-        lines.append(say(_("Another choice of driver leads to other groups, and may change the class.")))
+        lines.append(_("Another choice of driver leads to other groups, and may change the class."))
     return lines
 
 
 def turned_against(structure: Structure, say: Say) -> list[str]:
     """The drivers that turn a link against another one than the frame, a sentence each."""
     return [
-        say(
-            _(
-                "{driver}: turns {link} about {pin} against {other}, not against the frame.",
-                driver=name,
-                link=link,
-                pin=pin,
-                other=other,
-            )
+        _(
+            "{driver}: turns {link} about {pin} against {other}, not against the frame.",
+            driver=name,
+            link=link,
+            pin=pin,
+            other=other,
         )
         for name, (link, pin, other) in structure.turned.items()
         if other != "frame"
@@ -183,35 +179,29 @@ def _mobility(structure: Structure, say: Say) -> list[str]:
     guides = ", ".join(name for name in structure.redundant if name not in structure.passive)
     if guides:
         lines.append(
-            say(
-                _(
-                    "The guides {guides} close a loop in which rotation is already prevented: each such "
-                    "demand is redundant, so the mobility is {mobility}.",
-                    guides=guides,
-                    mobility=structure.mobility,
-                )
+            _(
+                "The guides {guides} close a loop in which rotation is already prevented: each such "
+                "demand is redundant, so the mobility is {mobility}.",
+                guides=guides,
+                mobility=structure.mobility,
             )
         )
     if structure.passive:
         pairs = ", ".join(structure.passive)
         lines.append(
-            say(
-                _(
-                    "The pairs {pairs} demand what other pairs demand already: they are passive "
-                    "constraints, so the mobility is {mobility}.",
-                    pairs=pairs,
-                    mobility=structure.mobility,
-                )
+            _(
+                "The pairs {pairs} demand what other pairs demand already: they are passive "
+                "constraints, so the mobility is {mobility}.",
+                pairs=pairs,
+                mobility=structure.mobility,
             )
         )
     drivers = len(structure.drivers)
     if structure.mobility == 0 and not drivers:
-        lines.append(say(_("Mobility 0 and no driver: a structure at rest, which carries loads.")))
+        lines.append(_("Mobility 0 and no driver: a structure at rest, which carries loads."))
     elif structure.mobility == drivers:
         lines.append(
-            say(
-                _("Mobility equals the number of drivers ({count}): the motion is determined.", count=drivers)
-            )
+            _("Mobility equals the number of drivers ({count}): the motion is determined.", count=drivers)
         )
     return lines
 

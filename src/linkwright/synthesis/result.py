@@ -16,6 +16,7 @@ from linkwright.core.arrays import Complexes, Flags, Floats, Whole
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import real
+from linkwright.core.quantity import length_text
 from linkwright.core.table import Table, Tabular
 from linkwright.equations.text import Solution
 from linkwright.errors import LinkwrightError, speaker
@@ -245,7 +246,8 @@ def _dimensions(found: Synthesis, tell: Say) -> list[str]:
     between, lines = tell(_(", ")), []
     for number, each in enumerate(found.candidates, 1):
         lengths = between.join(
-            f"{name_said(name, tell)} {_length(value)}" for name, value in each.linkage.lengths().items()
+            f"{name_said(name, tell)} {length_text(value, 7)}"
+            for name, value in each.linkage.lengths().items()
         )
         lines.append(tell(_("Candidate {number}: {lengths}", number=number, lengths=lengths)))
         if each.values:
@@ -302,7 +304,7 @@ def _row(number: int, each: Candidate, extent: float, tell: Say) -> list[str]:
 
 def _longest(longest: float, extent: float) -> str:
     """The longest distance on a link, and how many times the demand that is."""
-    length = f"{longest * 1e3:.4g} mm" if longest < 1 else f"{longest:.4g} m"
+    length = length_text(longest, 4)
     return f"{length} ({longest / extent:.3g}×)" if extent else length
 
 
@@ -311,10 +313,6 @@ def error_texts(each: Candidate) -> tuple[str, str]:
     least = ROUNDING * min(1.0, max(each.linkage.lengths().values()))
     exact = each.error <= least and each.worst <= least
     return ("0", "0") if exact else (f"{each.error:.4g}", f"{each.worst:.4g}")
-
-
-def _length(value: float) -> str:
-    return f"{value * 1e3:.7g} mm" if value < 1 else f"{value:.7g} m"
 
 
 class SynthesisError(LinkwrightError):

@@ -196,5 +196,5 @@ def test_a_table_over_an_output() -> None:
     got = interpolated(table, Turning([0, 60, 90, 180]), ALL)
     np.testing.assert_allclose(got, [1, 0.5, 0, 5], atol=1e-12)
     narrow = Table(Output("position", "slider.B", "x", written="B.x"), (-0.5, 1.0), (5.0, 0.0))
-    with refused("loads.table_too_short", over="B.x", low="-1 m", high="-0.5 m"):
+    with refused("loads.table_too_short", over="B.x", low="-1000 mm", high="-500 mm"):
         interpolated(narrow, Turning([0, 60, 90, 180]), ALL)

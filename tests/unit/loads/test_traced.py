@@ -225,7 +225,7 @@ def test_a_part_that_the_stroke_does_not_have_gives_no_number(amounts: tuple[flo
     for size in (Ramp(1.0, 2.0), Constant(5.0)):
         load = force(size, part("free", *amounts))
         assert np.isnan(magnitude(load, AtPosition(load, Turning([90]), 0)))
-        with refused("loads.part_too_long", part="free", stroke="2 m"):
+        with refused("loads.part_too_long", part="free", stroke="2000 mm"):
             evaluate(load, Turning([90]))
 
 

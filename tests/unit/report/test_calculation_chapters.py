@@ -194,7 +194,7 @@ def test_rounding_beside_the_largest_is_zero() -> None:
 def test_samples_come_back_in_their_own_unit() -> None:
     found = solved("spring_rate")
     (block,) = [b for b in found.blocks(speaker("en")) if b.key == "regression.rate"]
-    shown = block.table(found.labels, speaker("en")).texts()[1:]
+    shown = block.table(found.labels).texts()[1:]
     rows = {row.key: cells for row, cells in zip(block.rows, shown, strict=True)}
     assert rows["b_1"][2] == "N" and rows["b_deflection"][1:3] == ["12.4617", "N/mm"]
     assert rows["residual"][2] == "N"
@@ -204,7 +204,7 @@ def test_samples_come_back_in_their_own_unit() -> None:
 def test_distances_of_throws_are_in_metres() -> None:
     found = solved("thrown_ball")
     (block,) = found.blocks(speaker("en"))
-    shown = block.table(found.labels, speaker("en")).texts()[1:]
+    shown = block.table(found.labels).texts()[1:]
     rows = {row.key: cells for row, cells in zip(block.rows, shown, strict=True)}
     assert rows["distance"][2] == rows["top"][2] == "m" and float(rows["distance"][1]) < 170
 

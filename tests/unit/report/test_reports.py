@@ -118,7 +118,7 @@ def test_calculations_and_cams_have_reports_beside_machines(name: str) -> None:
     }
     chinese = speaker("zh")
     result = problem.solve()
-    blocks = (block.table(result.labels, chinese) for block in result.blocks(chinese))
+    blocks = (block.table(result.labels) for block in result.blocks(chinese))
     numbers = {plain(typeset(row[1])) for table in blocks for row in table.texts("zh")[1:]}
     assert numbers and numbers <= printed
 

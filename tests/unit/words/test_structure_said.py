@@ -23,7 +23,7 @@ from linkwright.words.characters import cells
 from linkwright.words.sentence import code_of, in_language, values_of
 
 CRUSHER = "jaw_crusher_sixbar"
-SYMBOLS = {"F", "n", "p", "p_H", "w", "m"}
+SYMBOLS = {"F", "n", "p", "p_H", "w", "m", "mm"}
 LATIN = re.compile(r"[A-Za-z]\w*")
 
 FOURBAR = """
@@ -134,8 +134,8 @@ def test_distance_that_is_missing_is_said_in_chinese() -> None:
     assert outcome.say("en") == outcome.sentence
     said = outcome.say("zh")
     assert (code_of(outcome.sentence), values_of(outcome.sentence)["signature"]) == ("outcome.apart", "RRR")
-    assert "4.5 m" in said
-    assert f"{hypot(5.5, 1.5 * 3**0.5) - 4.5:.5f}" in said
+    assert "4500 mm" in said
+    assert f"{1e3 * (hypot(5.5, 1.5 * 3**0.5) - 4.5):.3f} mm" in said
     assert foreign(said, mechanism) == set()
 
 
@@ -166,10 +166,10 @@ def test_notes_on_change_points_in_chinese() -> None:
 @pytest.mark.parametrize(
     ("signature", "facts", "number"),
     [
-        ("RRR", {"distance²": 25.0, "first²": 1.0, "second²": 4.0}, "2 m"),
-        ("RRR", {"distance²": 1.0, "first²": 1.0, "second²": 16.0}, "2 m"),
-        ("RRP", {"height": -5.0, "length²": 4.0}, "3 m"),
-        ("RPR", {"distance²": 4.0, "offset": -5.0}, "3 m"),
+        ("RRR", {"distance²": 25.0, "first²": 1.0, "second²": 4.0}, "2000 mm"),
+        ("RRR", {"distance²": 1.0, "first²": 1.0, "second²": 16.0}, "2000 mm"),
+        ("RRP", {"height": -5.0, "length²": 4.0}, "3000 mm"),
+        ("RPR", {"distance²": 4.0, "offset": -5.0}, "3000 mm"),
         ("RPP", {"sine": 2e-17}, "2.0e-17"),
         ("PRP", {"sine": 2e-17}, "2.0e-17"),
     ],
@@ -178,7 +178,7 @@ def test_every_dyad_says_what_is_missing(signature: str, facts: dict[str, float]
     reason = DYADS[signature]().explain(facts)
     assert isinstance(reason, Message)
     assert number in reason and number in reason.say("zh")
-    assert set(LATIN.findall(reason.say("zh"))) <= {"m", "e"}
+    assert set(LATIN.findall(reason.say("zh"))) <= {"mm", "e"}
 
 
 def test_sentences_survive_copies_and_processes() -> None:

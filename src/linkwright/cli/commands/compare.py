@@ -133,5 +133,4 @@ def _show(found: Comparison, options: argparse.Namespace, session: Session) -> N
         curves, lambda: csv_text(curve_columns(found)), lambda: curve_data(found), force=options.force
     )
     write_diagram(options.plot, found, session, force=options.force)
-    text = found.text(session.language, session.room)
-    session.show_result(found, options.output, options.curves, options.plot, text=text, apart=False)
+    session.show_result(found, options.output, options.curves, options.plot, apart=False)

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import argparse
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.given import STEPS
 from linkwright.core.rows import Block
-from linkwright.core.table import csv_text
 from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.cli.machine_options import Wanted
     from linkwright.cli.machine_rows import Layout
-    from linkwright.machine.running import SteadyRunning
 
 SUMMARY = _("motor and flywheel for steady running, and the speed that results")
 DESCRIPTION = _(
@@ -38,7 +36,6 @@ linkwright machine --torque "20000 + 9500*sin(2*theta) - 5700*cos(2*theta)" \\
 linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(theta)" \\
     --speed 150rpm --mass 500kg --gyration 0.4m"""
 
-ENDINGS = (".csv", ".json")
 CURVE_OPTIONS = ("scale", "load", "period", "speed", "inertia", "mass", "gyration")
 #: Options that say the same, or of which one says nothing of the other's diagram.
 APART = (
@@ -69,7 +66,11 @@ def arguments(option: Options) -> None:
         STEPS,
         help=_("positions over the cycle (default 360); what lies between them is found exactly"),
     )
-    form("--output", "FILE", help=_("write the curves over the cycle in SI units to a .csv or .json file"))
+    form(
+        "--output",
+        "FILE",
+        help=_("write curves to a .csv file, or all numbers to a .json, .xlsx, .md or .html file"),
+    )
     form.force()
 
 
@@ -152,14 +153,14 @@ def _refuse_contradictions(options: argparse.Namespace) -> None:
 
 
 def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> int:
-    from linkwright.cli.files import refuse_output, write_table
+    from linkwright.cli.files import RESULTS, refuse_output, write_result
     from linkwright.cli.machine_rows import Layout, dimensions
     from linkwright.cli.source import read_model
     from linkwright.kinetostatics.run import solve_forces
     from linkwright.machine.flywheel import FLUCTUATION
     from linkwright.machine.running import steady_running
 
-    refuse_output(options.output, ENDINGS, force=options.force)
+    refuse_output(options.output, RESULTS, force=options.force)
     mechanism, _unused = read_model(options.file, session)
     forces = solve_forces(mechanism, steps=options.steps)
     running = steady_running(
@@ -169,10 +170,9 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
         efficiency=asked.efficiency,
         margin=asked.margin,
     )
-    columns = _cycle(running) if options.output is not None else {}
-    write_table(options.output, lambda: csv_text(columns), lambda: columns, force=options.force)
     sized = Block("dimensions", "", dimensions(running.exact_flywheel, running.equivalent.speed, asked))
     found = Layout(mechanism.name, lambda say: [*running.blocks(say), sized], running)
+    write_result(options.output, found, session, force=options.force)
     session.show_result(found, options.output)
     return 0
 
@@ -193,16 +193,3 @@ def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> Lay
     against, load = asked.load or (say(_("its mean")), None)
     title = say(_("T = {torque}, against {load}", torque=text, load=against))
     return Layout(title, partial(of_curves, driver, load, asked))
-
-
-def _cycle(running: SteadyRunning) -> dict[str, Any]:
-    """Curves over the cycle, SI: torque, inertia, excess energy, speed with both flywheels."""
-    reduced, energy = running.equivalent, running.energy
-    return {
-        "input [rad]": reduced.start + reduced.direction * energy.angle,
-        "equivalent_torque [N·m]": reduced.load(energy.angle),
-        "equivalent_inertia [kg·m²]": reduced.inertia_at(energy.angle),
-        "excess_energy [J]": energy.energy,
-        "speed_with_flywheel [rad/s]": running.speed.at(energy.angle),
-        "speed_with_exact_flywheel [rad/s]": running.exact_speed.at(energy.angle),
-    }

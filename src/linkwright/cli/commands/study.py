@@ -114,5 +114,4 @@ def _show(found: Study, options: argparse.Namespace, session: Session) -> None:
 
     write_result(options.output, found, session, force=options.force)
     write_diagram(options.plot, found, session, force=options.force)
-    text = found.text(session.language, session.room, rows=max(2, options.rows))
-    session.show_result(found, options.output, options.plot, text=text)
+    session.show_result(found, options.output, options.plot, rows=max(2, options.rows))

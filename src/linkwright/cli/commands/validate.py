@@ -42,8 +42,5 @@ def run(options: argparse.Namespace, session: Session) -> int:
         )
     with progress(session.say, _("comparing")) as told:
         found = validate(cases, told)
-    if session.json:
-        session.show_data(found.data())
-    else:
-        session.show(found.text(session.language, every=options.every, width=session.room))
+    session.show_result(found, every=options.every)
     return int(not found.ok)

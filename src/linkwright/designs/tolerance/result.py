@@ -457,9 +457,7 @@ class Spread(Result):
         if self.study.holes("pressed"):
             gaps = int((~self.followed.followed).sum()) if math.isnan(shift) else 0
             unknown = (
-                say(_("not followed (the pins cannot follow at {count} positions)", count=gaps))
-                if gaps
-                else ""
+                _("not followed (the pins cannot follow at {count} positions)", count=gaps) if gaps else ""
             )
             rows.append(Row("shift", shift, kind, text=unknown))
         if self.swept is not None:
@@ -472,7 +470,7 @@ class Spread(Result):
                     self.monte_carlo(text),
                     kind,
                     "",
-                    say(_("{count} machines", count=len(values))),
+                    _("{count} machines", count=len(values)),
                 ),
                 Row("mean", float(values.mean()), kind),
                 Row("range", low, kind, end=high),
@@ -480,24 +478,22 @@ class Spread(Result):
             ]
         if text in self.study.limits:
             share, low, high, linear = self.passed(text)
-            note = say(
-                _(
-                    "95 % interval {low} … {high} %; linear {linear} %",
-                    low=f"{100 * low:.3f}",
-                    high=f"{100 * high:.3f}",
-                    linear=f"{100 * linear:.3f}",
-                )
+            note = _(
+                "95 % interval {low} … {high} %; linear {linear} %",
+                low=f"{100 * low:.3f}",
+                high=f"{100 * high:.3f}",
+                linear=f"{100 * linear:.3f}",
             )
             rows.append(Row("yield", share, note=note, scale=PERCENT))
         parts = []
         for each in self.shares(text):
             slope = f"{each.slope:.5g} {self.study.per_unit(kind, each.name)}".rstrip()
-            note = say(_("∂y/∂p = {slope}", slope=slope))
+            note = _("∂y/∂p = {slope}", slope=slope)
             percent = f"{100 * each.share:.2f} %"
             parts.append(Row(each.name, each.share, label=each.name, note=note, text=percent))
         found = [Block(text, text, rows, tuple(filter(None, [self.reason(text, say)])))]
         return (
-            [*found, Block(f"{text}: contributions", say(_("Contributions to the variance")), parts)]
+            [*found, Block(f"{text}: contributions", _("Contributions to the variance"), parts)]
             if parts
             else found
         )
@@ -536,45 +532,27 @@ class Spread(Result):
     def _curve_block(self, output: str, say: Say) -> Block:
         kind = self.dimension(output)
         place, _unused, deviation = self.curve(output)
-        rows = []
-        i = int(deviation.argmax())
-        note = say(
-            pgettext(
-                "tolerance",
-                "at {place}",
-                place=shown(float(place[i]), "angle" if self.turning else "length", 4),
-            )
-        )
-        rows.append(Row("largest_deviation", float(deviation[i]), kind, "", note))
+        found = {"largest_deviation": deviation}
+        places = pgettext("tolerance", "at {place}")
         if output in self.curves:
             spread = self.curves[output]
-            k = int(spread.deviation.argmax())
-            place_k = shown(float(place[k]), "angle" if self.turning else "length", 4)
-            note = say(_("at {place}, of {count} machines", place=place_k, count=spread.machines))
-            rows.append(Row("largest_monte_carlo", float(spread.deviation[k]), kind, "", note))
-            wide = spread.high - spread.low
-            k = int(np.nanargmax(wide))
-            note = say(
-                pgettext(
-                    "tolerance",
-                    "at {place}",
-                    place=shown(float(place[k]), "angle" if self.turning else "length", 4),
-                )
-            )
-            rows.append(Row("widest", float(wide[k]), kind, "", note))
+            found |= {"largest_monte_carlo": spread.deviation, "widest": spread.high - spread.low}
         moved = self.pressed(output)
         if np.isfinite(moved).any() and np.nanmax(np.abs(moved)) > 0.0:
-            i = int(np.nanargmax(np.abs(moved)))
-            note = say(
-                pgettext(
-                    "tolerance",
-                    "at {place}",
-                    place=shown(float(place[i]), "angle" if self.turning else "length", 4),
-                )
+            found["largest_shift"] = moved
+        rows = []
+        for key, values in found.items():
+            i = int(np.nanargmax(np.abs(values)))
+            at = shown(float(place[i]), "angle" if self.turning else "length", 4)
+            note = (
+                _("at {place}, of {count} machines", place=at, count=self.curves[output].machines)
+                if key == "largest_monte_carlo"
+                else places.format(place=at)
             )
-            rows.append(Row("largest_shift", float(moved[i]), kind, "", note))
-        title = say(_("Curve {name}", name=output))
-        return Block(f"curve {output}", title, rows, self._followed_remark(output, say))
+            rows.append(Row(key, float(values[i]), kind, "", note))
+        return Block(
+            f"curve {output}", _("Curve {name}", name=output), rows, self._followed_remark(output, say)
+        )
 
     def steps(self, say: Say) -> list[Step]:
         found: list[Step] = []

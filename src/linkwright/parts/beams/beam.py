@@ -393,17 +393,17 @@ class BeamLine(Result):
                 rows.append(Row(f"{name}.force", force, "force", f"{name} F"))
             if kind in ("fixed", "guided") or self.beam.supports[name].torsional_stiffness:
                 rows.append(Row(f"{name}.couple", couple, "torque", f"{name} M"))
-        found = [Block("reactions", say(_("Reactions (force up, couple counter-clockwise)")), rows)]
+        found = [Block("reactions", _("Reactions (force up, couple counter-clockwise)"), rows)]
         extremes = []
         for quantity in QUANTITIES:
             for word, (x, value) in zip(("least", "largest"), self.extremes(quantity), strict=True):
                 label = f"{say(QUANTITY_NAMES[quantity])}, {say(EXTREMES[word])}"
-                note = say(_("at x = {x}", x=shown(x, "length")))
+                note = _("at x = {x}", x=shown(x, "length"))
                 extremes.append(Row(f"{word}_{quantity}", value, DIMENSIONS[quantity], label, note))
-        found.append(Block("extremes", say(_("Extremes")), extremes))
-        found.append(Block("places", say(_("Key points")), self._places(say)))
+        found.append(Block("extremes", _("Extremes"), extremes))
+        found.append(Block("places", _("Key points"), self._places(say)))
         strength = self._strength(say)
-        return [*found, Block("strength", say(_("Strength")), strength)] if strength else found
+        return [*found, Block("strength", _("Strength"), strength)] if strength else found
 
     def _places(self, say: Say) -> list[Row]:
         """Moment and deflection where segments meet."""
@@ -430,7 +430,7 @@ class BeamLine(Result):
                     self.stress[1],
                     "pressure",
                     "",
-                    say(_("at x = {x}", x=shown(self.stress[0], "length"))),
+                    _("at x = {x}", x=shown(self.stress[0], "length")),
                 )
             )
         if self.safety is not None:

@@ -477,11 +477,11 @@ class LinkStress(Result):
             ]
         rows.append(self._row("largest_deflection", say))
         rows.append(Row("closure", self.closure, "force", remainder=True))
-        return [Block("cycle", say(_("Largest values over the cycle")), rows, self._remarks(say))]
+        return [Block("cycle", _("Largest values over the cycle"), rows, self._remarks(say))]
 
     def _row(self, key: str, say: Say) -> Row:
         found, i, k = self.peaks[key]
-        note = say(_("at {at}, x = {x}", at=found._input(i), x=shown(self.stations[k], "length")))
+        note = _("at {at}, x = {x}", at=found._input(i), x=shown(self.stations[k], "length"))
         return Row(key, self.largest(key), LARGEST[key], "", note)
 
     def _input(self, index: int) -> str:

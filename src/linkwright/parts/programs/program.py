@@ -365,10 +365,10 @@ class Optimum(Result):
         rows.append(
             Row("objective", self.value, label=word, scale=in_si(kind), text=in_kind(self.value, kind))
         )
-        found = [Block("optimum", say(_("Optimum")), rows, (self._method(say),))]
+        found = [Block("optimum", _("Optimum"), rows, (self._method(say),))]
         limits = [self._limit_row(c, say) for c in self.program.subject_to]
         if limits:
-            found.append(Block("constraints", say(_("Constraints")), limits, self._explained(say)))
+            found.append(Block("constraints", _("Constraints"), limits, self._explained(say)))
         return found
 
     def data(self) -> dict[str, Any]:

@@ -318,7 +318,7 @@ class Reactions(Result):
 
     def blocks(self, say: Say) -> list[Block]:
         rows = [Row(name, value, _dimension(name), name) for name, value in self.values.items()]
-        return [Block("reactions", say(_("Reactions")), rows)]
+        return [Block("reactions", _("Reactions"), rows)]
 
     def steps(self, say: Say) -> list[Step]:
         balance, found = Step("1", say(_("Equations of equilibrium"))), Step("2", say(_("Reactions")))

@@ -206,23 +206,19 @@ class Resultant(Result):
         return not self.force.any() and not self.moment.any()
 
     def blocks(self, say: Say) -> list[Block]:
-        blocks = [
-            Block("resultant", say(_("Resultant R")), _vector_rows("R", self.force, self.size, self.angles))
-        ]
+        blocks = [Block("resultant", _("Resultant R"), _vector_rows("R", self.force, self.size, self.angles))]
         moment = [Row("M", m, "torque", f"M{axis}") for axis, m in zip("xyz", self.moment, strict=True)]
-        blocks.append(Block("moment", say(_("Moment about the chosen point")), moment))
+        blocks.append(Block("moment", _("Moment about the chosen point"), moment))
         if self.size:
             place = [
                 Row("axis", p, "length", f"{axis}0") for axis, p in zip("xyz", self.axis_point, strict=True)
             ]
             wrench = [*place, Row("pitch", self.pitch, "length")]
             wrench.append(Row("couple", self.pitch * self.size, "torque"))
-            blocks.append(
-                Block("wrench", say(_("Wrench: force along an axis with a couple about it")), wrench)
-            )
+            blocks.append(Block("wrench", _("Wrench: force along an axis with a couple about it"), wrench))
         against = _vector_rows("E", self.equilibrant, self.size, direction_angles(self.equilibrant))
-        remark = () if not self.balanced else (say(_("The system is in equilibrium.")),)
-        blocks.append(Block("equilibrant", say(_("Equilibrant E = −R")), against, remark))
+        remark = () if not self.balanced else (_("The system is in equilibrium."),)
+        blocks.append(Block("equilibrant", _("Equilibrant E = −R"), against, remark))
         vectors = {name: each.vector for name, each in self.system.forces.items()}
         return [*blocks, *asked_blocks(self.system, vectors, self.force, say)]
 
@@ -312,15 +308,13 @@ def asked_blocks(
         ]
         if np.any(vector):
             rows.append(Row("to_line", angle_between(vector, line.way), "angle"))
-        found.append(
-            Block(f"component {name}", say(_("Component of {of} along {name}", of=of, name=name)), rows)
-        )
+        found.append(Block(f"component {name}", _("Component of {of} along {name}", of=of, name=name), rows))
     angles = [
         Row(name, angle_between(vectors[a], vectors[b]), "angle", f"{name}: {a}, {b}")
         for name, a, b in pairs
         if np.any(vectors[a]) and np.any(vectors[b])
     ]
-    return [*found, *([Block("angles", say(_("Angles between forces")), angles)] if angles else [])]
+    return [*found, *([Block("angles", _("Angles between forces"), angles)] if angles else [])]
 
 
 def angle_between(first: Floats, second: Floats) -> float:
@@ -466,7 +460,7 @@ class PointEquilibrium(Result):
     def blocks(self, say: Say) -> list[Block]:
         rows = [Row(name, value, "force", name) for name, value in self.magnitudes.items()]
         remarks = [
-            say(_("{name} acts against its direction.", name=name))
+            _("{name} acts against its direction.", name=name)
             for name, value in self.magnitudes.items()
             if value < 0
         ]
@@ -475,8 +469,8 @@ class PointEquilibrium(Result):
             for name in self.magnitudes
             for axis, c in zip("xyz"[: len(self.matrix[1])], self.vectors[name], strict=False)
         ]
-        found = [Block("magnitudes", say(_("Unknown magnitudes")), rows, remarks)]
-        found.append(Block("components", say(_("Their components")), parts))
+        found = [Block("magnitudes", _("Unknown magnitudes"), rows, remarks)]
+        found.append(Block("components", _("Their components"), parts))
         return [*found, *asked_blocks(self.system, self.vectors, np.zeros(3), say)]
 
     def steps(self, say: Say) -> list[Step]:

@@ -164,7 +164,7 @@ class RotorBalance(Result):
                 rows.append(Row("seat", _angle(weight), "angle"))
             if self.rotor.speed:
                 rows.append(Row("rotating_force", abs(unbalance) * self.rotor.speed**2, "force"))
-            blocks.append(Block(f"plane {name}", say(_("Plane {name}", name=name)), rows))
+            blocks.append(Block(f"plane {name}", _("Plane {name}", name=name), rows))
         if self.left:
             rows = [Row("mass_radius_arm", abs(self.left), "inertia")]
             if self.rotor.speed:
@@ -172,9 +172,9 @@ class RotorBalance(Result):
             blocks.append(
                 Block(
                     "left",
-                    say(_("Left: the couple of masses beside the plane")),
+                    _("Left: the couple of masses beside the plane"),
                     rows,
-                    [say(_("One plane balances statically; two planes take the couple too."))],
+                    [_("One plane balances statically; two planes take the couple too.")],
                 )
             )
         return blocks

@@ -134,9 +134,9 @@ class StructureForces(Result):
         return [
             Block(
                 "reactions",
-                say(_("Reactions")),
+                _("Reactions"),
                 rows,
-                (say(_("largest gap in the balance of a link: {gap} N", gap=f"{gap:.1e}")),),
+                (_("largest gap in the balance of a link: {gap} N", gap=f"{gap:.1e}"),),
             )
         ]
 

@@ -149,13 +149,11 @@ class WedgeForces(Result):
                 "wedge",
                 "",
                 rows,
-                (
-                    say(
-                        _("The wedge locks itself: it must be pulled out.")
-                        if self.locks
-                        else _("The wedge does not lock: the load drives it out unless it is held.")
-                    ),
-                ),
+                [
+                    _("The wedge locks itself: it must be pulled out.")
+                    if self.locks
+                    else _("The wedge does not lock: the load drives it out unless it is held.")
+                ],
             )
         ]
 

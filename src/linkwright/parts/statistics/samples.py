@@ -37,7 +37,8 @@ from linkwright.parts.statistics.describe import (
     regression,
 )
 from linkwright.parts.statistics.hypotheses import AGAINST, TESTS, TOGETHER, Outcome
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Message, Say, _, language_of, pgettext
+from linkwright.words.sentence import in_language
 
 #: A probability below this one is not told apart from nothing.
 TINY = 1e-12
@@ -495,7 +496,7 @@ class Statistics(Result):
         found += [
             Block(
                 f"fit.{name}",
-                say(_("Distributions of {name}, best first (Akaike's number)", name=name)),
+                _("Distributions of {name}, best first (Akaike's number)", name=name),
                 self._fit_rows(name, say),
             )
             for name in self.problem.samples
@@ -503,7 +504,7 @@ class Statistics(Result):
         ]
         if self.tests:
             rows = [row for name in self.tests for row in self._test_rows(name, say)]
-            found.append(Block("tests", say(_("Tests")), rows))
+            found.append(Block("tests", _("Tests"), rows))
         found += [self._regressed(name, say) for name in self.regressions]
         found += [self._capable(name, say) for name in self.capabilities]
         return found
@@ -523,7 +524,7 @@ class Statistics(Result):
         rows.append(Row("largest", d.largest, scale=scale))
         if d.count > 2 and d.least < d.largest:
             rows += [Row("skewness", d.skewness), Row("kurtosis", d.kurtosis)]
-        return Block(f"sample.{name}", say(_("Sample {name}", name=name)), rows)
+        return Block(f"sample.{name}", _("Sample {name}", name=name), rows)
 
     def _measured(self, name: str, value: float) -> str:
         """A value of a sample in its own unit, as one sign of a formula."""
@@ -561,20 +562,16 @@ class Statistics(Result):
             distance = say(
                 _("largest distance of the distribution functions {distance}", distance=f"{fit.distance:.4f}")
             )
-            rows.append(
-                Row(fit.name, fit.akaike, "", say(DISTRIBUTION_NAMES[fit.name]), f"{note}; {distance}")
-            )
+            rows.append(Row(fit.name, fit.akaike, "", DISTRIBUTION_NAMES[fit.name], f"{note}; {distance}"))
         return rows
 
     def _test_rows(self, name: str, say: Say) -> list[Row]:
         outcome, test = self.tests[name], self.problem.tests[name]
         freedom = f"({', '.join(number(f) for f in outcome.freedom)})" if outcome.freedom else ""
         rejected = outcome.p < 1.0 - self.problem.confidence
-        hypothesis = say(HYPOTHESES[test.kind])
-        verdict = say(
-            (_("rejected: {hypothesis}") if rejected else _("not rejected: {hypothesis}")).format(
-                hypothesis=hypothesis
-            )
+        hypothesis = HYPOTHESES[test.kind]
+        verdict = (_("rejected: {hypothesis}") if rejected else _("not rejected: {hypothesis}")).format(
+            hypothesis=hypothesis
         )
         return [
             Row(f"{name}.{outcome.symbol}", outcome.statistic, "", f"{name}: {outcome.symbol}{freedom}"),
@@ -594,11 +591,11 @@ class Statistics(Result):
         for i, (term, scale) in enumerate(zip(r.terms, scales, strict=True)):
             error, low, high = (number(float(each[i]) / scale.factor) for each in (r.errors, r.low, r.high))
             p = _probability(float(r.p[i]))
-            note = say(_("± {error}; {low} … {high}; p {p}", error=error, low=low, high=high, p=p))
+            note = _("± {error}; {low} … {high}; p {p}", error=error, low=low, high=high, p=p)
             rows.append(Row(f"b_{term}", float(r.coefficients[i]), "", f"b({term})", note, scale))
         rows += [Row("determination", r.determination), Row("residual", r.deviation, scale=scales[0])]
         y = self.problem.regressions[name].y
-        return Block(f"regression.{name}", say(_("Regression {name} of {y}", name=name, y=y)), rows)
+        return Block(f"regression.{name}", _("Regression {name} of {y}", name=name, y=y), rows)
 
     def _capable(self, name: str, say: Say) -> Block:
         c, rows = self.capabilities[name], []
@@ -607,13 +604,13 @@ class Statistics(Result):
             rows.append(Row("cp", c.cp, "", f"{mark}p", f"{c.cp_interval[0]:.4g} … {c.cp_interval[1]:.4g}"))
         rows.append(Row("cpk", c.cpk, "", f"{mark}pk", f"{c.cpk_interval[0]:.4g} … {c.cpk_interval[1]:.4g}"))
         rows.append(Row("sigma", c.deviation, scale=self.scale(name)))
-        rows.append(Row("outside", c.outside, label=say(_("outside the limits")), scale=PARTS_PER_MILLION))
-        remark = say(
+        rows.append(Row("outside", c.outside, label=_("outside the limits"), scale=PARTS_PER_MILLION))
+        remark = (
             _("σ from within the subgroups (Cp, Cpk); share outside for a normal process.")
             if c.within
             else _("σ from all values (Pp, Ppk); share outside for a normal process.")
         )
-        return Block(f"capability.{name}", say(_("Capability of {name}", name=name)), rows, (remark,))
+        return Block(f"capability.{name}", _("Capability of {name}", name=name), rows, (remark,))
 
     def steps(self, say: Say) -> list[Step]:
         found: list[Step] = []
@@ -630,7 +627,7 @@ class Statistics(Result):
             step = Step(str(len(found) + 1), f"{name}: {say(HYPOTHESES[self.problem.tests[name].kind])}")
             step.put(outcome.symbol, outcome.formula, outcome.statistic)
             step.law(f"p {_probability(outcome.p)}")
-            step.say(self._test_rows(name, say)[1].note)
+            step.say(in_language(self._test_rows(name, say)[1].note, language_of(say)))
             found.append(step)
         for name, r in self.regressions.items():
             step = Step(

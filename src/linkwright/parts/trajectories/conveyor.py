@@ -225,15 +225,14 @@ class Transport(Result):
 
     def blocks(self, say: Say) -> list[Block]:
         rows = [
-            Row("speed", self.speed, "velocity", say(_("mean speed of transport"))),
+            Row("speed", self.speed, "velocity", _("mean speed of transport")),
             Row("displacement", self.motion.displacement, "length"),
             Row("throw_number", self.throw_number),
         ]
         if math.isfinite(self.needed_friction):
             rows.append(Row("needed_friction", self.needed_friction))
         rows += [
-            Row(mode, share, label=say(MODE_NAMES[mode]), scale=PERCENT)
-            for mode, share in self.shares.items()
+            Row(mode, share, label=MODE_NAMES[mode], scale=PERCENT) for mode, share in self.shares.items()
         ]
         kind = self._input_kind
         phases = [
@@ -244,12 +243,12 @@ class Transport(Result):
         remarks = (
             []
             if self.motion.repeats
-            else [say(_("The motion does not repeat from cycle to cycle; the mean is that of many cycles."))]
+            else [_("The motion does not repeat from cycle to cycle; the mean is that of many cycles.")]
         )
         if self.throw_number <= 1 and self.needed_friction <= self.conveyor.friction:
-            remarks.append(say(_("The load stays at rest on the trough.")))
+            remarks.append(_("The load stays at rest on the trough."))
         found = [Block("transport", "", rows, remarks)]
-        return [*found, Block("phases", say(_("Phases of one cycle")), phases[:24])]
+        return [*found, Block("phases", _("Phases of one cycle"), phases[:24])]
 
     @property
     def _input_kind(self) -> str:

@@ -339,7 +339,7 @@ class Shaken(Result):
         """Natural frequencies; of a machine that rocks with what moves most, over the radius of gyration."""
         hertz = self.frequencies / (2 * math.pi)
         if not self.problem.mounts:
-            return [Row(f"own_{axis}", hertz[i], "frequency", say(_("natural frequency along {axis}", axis=axis)))
+            return [Row(f"own_{axis}", hertz[i], "frequency", _("natural frequency along {axis}", axis=axis))
                     for i, axis in enumerate(self.axes)]  # fmt: skip
         sizes = np.abs(self.modes) * np.sqrt(self.problem.inertias)[:, None]
         most = [self.axes[int(k)] for k in sizes.argmax(axis=0)]
@@ -348,12 +348,10 @@ class Shaken(Result):
                 f"own_{k}",
                 hertz[k],
                 "frequency",
-                say(
-                    _(
-                        "natural frequency, mode {mode} (mostly {axis})",
-                        mode=k + 1,
-                        axis=WAYS[most[k]],
-                    )
+                _(
+                    "natural frequency, mode {mode} (mostly {axis})",
+                    mode=k + 1,
+                    axis=WAYS[most[k]],
                 ),
             )
             for k in range(len(hertz))
@@ -366,27 +364,25 @@ class Shaken(Result):
             for (key, amplitudes), (_unused, dimension) in zip(curves.items(), TITLES[axis], strict=True):
                 largest = self._largest(amplitudes[:, i])
                 straight, turning = LARGEST[key]
-                label = say(turning) if axis == "turn" else say(straight.format(axis=axis))
+                label = turning if axis == "turn" else straight.format(axis=axis)
                 rows.append(Row(f"{key}_{axis}", largest, dimension, label))
-        found = [Block("mounts", say(_("Largest values over the cycle")), rows)]
+        found = [Block("mounts", _("Largest values over the cycle"), rows)]
         listed = []
         for k in self.listed():
             for i, axis in enumerate(self.axes):
                 (_unused2, kind), (_unused3, way), _unused4 = TITLES[axis]
                 hertz = number(float(self.orders[k]) / (2 * math.pi))
-                label = say(
-                    _(
-                        "k = {order} ({hertz} Hz) {axis}",
-                        order=k,
-                        axis=WAYS[axis],
-                        hertz=hertz,
-                    )
+                label = _(
+                    "k = {order} ({hertz} Hz) {axis}",
+                    order=k,
+                    axis=WAYS[axis],
+                    hertz=hertz,
                 )
                 note = f"→ {shown(float(abs(self.moved[k, i])), way)}, {shown(float(abs(self.passed[k, i])), kind)}"
                 listed.append(Row(f"force_{k}_{axis}", float(abs(self.harmonics[k, i])), kind, label, note))
         return [
             *found,
-            Block("harmonics", say(_("Harmonics: shaking force → motion, force on the ground")), listed),
+            Block("harmonics", _("Harmonics: shaking force → motion, force on the ground"), listed),
         ]
 
     def listed(self) -> list[int]:

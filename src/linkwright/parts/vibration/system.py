@@ -35,7 +35,8 @@ from linkwright.parts.vibration.excitation import (
 )
 from linkwright.parts.vibration.linear import Linear, largest_between, tuned
 from linkwright.units import DIMENSIONS, SMALLEST
-from linkwright.words import Message, Say, _
+from linkwright.words import Message, Say, _, language_of
+from linkwright.words.sentence import in_language
 
 GROUND = "ground"
 #: Curves of frequency and time have so many points.
@@ -526,7 +527,7 @@ class Vibration(Result):
                     own / (2 * math.pi),
                     "frequency",
                     label,
-                    say(_("mode: {mode}", mode=mode)),
+                    _("mode: {mode}", mode=mode),
                 )
             )
             rows.append(Row(f"circular_{i + 1}", float(own), "angular_velocity", f"  ω{i + 1}"))
@@ -545,12 +546,12 @@ class Vibration(Result):
             if loose
             else ()
         )
-        found = [Block("modes", say(_("Natural frequencies and modes")), rows, remarks)]
+        found = [Block("modes", _("Natural frequencies and modes"), rows, remarks)]
         for name in ("absorber",):
             if name in self.system.springs and name in self.system.dampers:
                 tied = [Row("absorber_stiffness", self.system.springs[name].rate, "stiffness"),
                         Row("absorber_damping", self.system.dampers[name].rate, "damping")]  # fmt: skip
-                found.append(Block("absorber", say(_("Best damped absorber (Den Hartog)")), tied))
+                found.append(Block("absorber", _("Best damped absorber (Den Hartog)"), tied))
         if self.harmonic:
             found.append(self._forced(say))
         if self.in_time:
@@ -566,15 +567,15 @@ class Vibration(Result):
         rows = []
         for name, value in zip(self.system.masses, moved, strict=True):
             rows.append(
-                Row(f"{name}.amplitude", float(abs(value)), length, say(_("amplitude of {name}", name=name)))
+                Row(f"{name}.amplitude", float(abs(value)), length, _("amplitude of {name}", name=name))
             )
             rows.append(
-                Row(f"{name}.phase", float(np.angle(value)), "angle", say(_("phase of {name}", name=name)))
+                Row(f"{name}.phase", float(np.angle(value)), "angle", _("phase of {name}", name=name))
             )
         rows.append(Row("transmissibility", float(self.transmissibility(at)[0])))
         return Block(
             "forced",
-            say(_("Forced vibration at {hertz} Hz", hertz=number(given.frequency / (2 * math.pi)))),
+            _("Forced vibration at {hertz} Hz", hertz=number(given.frequency / (2 * math.pi))),
             rows,
         )
 
@@ -584,17 +585,17 @@ class Vibration(Result):
         rows = []
         for i, name in enumerate(self.system.masses):
             place, value = largest_between(time, moved[:, i], rate[:, i])
-            note = say(_("at t = {time} s", time=number(place)))
+            note = _("at t = {time} s", time=number(place))
             rows.append(
                 Row(
                     f"{name}.largest",
                     value,
                     length,
-                    say(_("largest displacement of {name}", name=name)),
+                    _("largest displacement of {name}", name=name),
                     note,
                 )
             )
-        return Block("response", say(_("Response in time")), rows)
+        return Block("response", _("Response in time"), rows)
 
     def steps(self, say: Say) -> list[Step]:
         matrices, modes = (
@@ -629,17 +630,14 @@ class Vibration(Result):
             forced = Step("3", say(_("Forced vibration")))
             forced.law("(K − ω²·M + i·ω·C)·X = F")
             for row in self._forced(say).rows:
-                forced.put(
-                    row.label or say(_("transmissibility")),
-                    "",
-                    float(row.value),
-                    row.dimension,
-                )
+                label = in_language(row.label or _("transmissibility"), language_of(say))
+                forced.put(label, "", float(row.value), row.dimension)
             found.append(forced)
         if self.in_time:
             timed = Step(str(len(found) + 1), say(_("Response in time")))
             timed.law("M·ẍ + C·ẋ + K·x = F(t)")
             for row in self._timed(say).rows:
-                timed.put(row.label, "", float(row.value), row.dimension)
+                label = in_language(row.label, language_of(say))
+                timed.put(label, "", float(row.value), row.dimension)
             found.append(timed)
         return found

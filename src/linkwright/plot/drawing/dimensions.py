@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
+from linkwright.core.quantity import length_text
 from linkwright.errors import RequestError
 from linkwright.kinematics.names import find_point
 from linkwright.pictures.labels import Label, Obstacles
@@ -80,11 +81,6 @@ def dimension_lines(
         else:
             found.append(_line(machine, measure, taken))
     return found
-
-
-def length_text(metres: float) -> str:
-    """``1.25 m`` from one metre upwards, ``60.5 mm`` below."""
-    return f"{metres:.6g} m" if float(f"{metres:.6g}") >= 1.0 else f"{1000 * metres:.6g} mm"
 
 
 def _measures(machine: Machine, wanted: Iterable[Dimension] | bool, index: int) -> Iterator[Distance | Angle]:

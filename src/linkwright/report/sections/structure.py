@@ -16,13 +16,14 @@ from linkwright.report.section import section
 from linkwright.structure.analysis import numeral
 from linkwright.structure.mobility import lower_pairs
 from linkwright.words import _, pgettext
+from linkwright.words.sentence import in_language
 
 
 @section("structure", _("Structure analysis"), 3.0)
 def blocks(case: Case) -> Iterator[Block]:
     """Mobility, Assur groups in solving order, class of the mechanism."""
     say, built = case.say, case.structure
-    first, *rest = built.tables(case.language)[0].notes
+    first, *rest = (in_language(each, case.language) for each in built.tables(case.language)[0].notes)
     yield Paragraph(symbols(first) + say(_(".")))
     yield _mobility(case)
     for line in rest[1:]:
