@@ -63,6 +63,7 @@ def test_numbers_of_a_sweep_are_kept_piece_by_piece_and_one_by_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Those of whole designs together, of the one that reaches a part of its cycle by itself."""
+    monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(finished_parts, "WORTH", float("inf"))  # kept however fast it was found
     crank, lengths, asked = lw.load(CRANK), np.array([3.0, 3.4, 2.3]), ["B.y max", "rocker.angle max"]
     whole = lw.sweep(crank, {"coupler.length": lengths}, outputs=asked, partial=True)
