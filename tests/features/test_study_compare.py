@@ -14,6 +14,7 @@ from tests.refusals import refused
 import linkwright as lw
 from linkwright import Comparison, compare, loads
 from linkwright.errors import RequestError
+from linkwright.words.sentence import in_language
 
 SIX, FOUR = "Hinged jaw crusher, six-bar", "Hinged jaw crusher, four-bar"
 
@@ -104,9 +105,12 @@ def test_a_weight_can_turn_the_ranking() -> None:
 def test_the_evaluation_says_the_numbers_in_both_languages(crushers: Comparison) -> None:
     for language in ("en", "zh"):
         text = crushers.text(language)
-        for part in ("2.2635°", "59066", "1633.7 N·m", "580.71 N·m", "O5", "O3", SIX, FOUR):
+        names = (in_language(each, language) for each in crushers.labels)
+        for part in ("2.2635°", "59066", "1633.7 N·m", "580.71 N·m", "O5", "O3", *names):
             assert part in text, (language, part)
-        assert crushers.ranking[0].label in crushers.evaluation(language).splitlines()[-2]
+        assert (
+            in_language(crushers.ranking[0].label, language) in crushers.evaluation(language).splitlines()[-2]
+        )
     chinese, english = (crushers.evaluation(language).splitlines()[:4] for language in ("zh", "en"))
     assert [sorted(numbers(line)) for line in chinese] == [sorted(numbers(line)) for line in english]
     assert all("\u4e00" <= line[0] <= "\u9fff" for line in chinese)
