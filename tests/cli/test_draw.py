@@ -140,7 +140,7 @@ def test_a_position_out_of_reach_is_not_drawn(tmp_path: Path) -> None:
     apart = math.sqrt(0.9**2 + 2**2 - 2 * 0.9 * 2 * math.cos(math.radians(170)))
     asked = ["draw", str(model), "--at", "170 deg", "--output", str(target)]
     told = is_refused(asked, "picture.the_position", ends=1, links={"coupler", "rocker"})
-    assert float(str(told.values["distance"]).split()[0]) == pytest.approx(apart, rel=1e-6)
+    assert float(str(told.values["distance"]).split()[0]) == pytest.approx(1e3 * apart, rel=1e-6)
     assert not target.exists()
 
 

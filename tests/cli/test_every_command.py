@@ -8,13 +8,7 @@ from typing import Any
 import pytest
 from tests.cli.commands import run
 
-from linkwright import fields
 from linkwright.cli import commands
-from linkwright.cli.commands import report
-from linkwright.report.section import section_names
-from linkwright.sheets import paper
-from linkwright.synthesis.names import TASK_NAMES
-from linkwright.synthesis.section import tasks
 
 #: What each command is asked; OUT stands for a file that it writes.
 ASKED: dict[str, list[str]] = {
@@ -100,10 +94,3 @@ def test_a_command_as_text_and_as_data(
         if "OUT" in word:
             assert word.replace("OUT", "text") in text.out and Path(word.replace("OUT", "text")).exists()
             assert word.replace("OUT", "data") in data.out and Path(word.replace("OUT", "data")).exists()
-
-
-def test_help_names_all_tasks_sections_and_sizes_that_there_are() -> None:
-    """It lists them without importing what they stand for."""
-    assert tuple(tasks()) == TASK_NAMES
-    assert tuple(section_names()) == report.SECTIONS
-    assert tuple(paper.SIZES) == fields.sheet.SIZES

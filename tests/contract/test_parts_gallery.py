@@ -21,7 +21,7 @@ from tests.share import in_turn
 import linkwright as lw
 from linkwright import gallery, parts
 from linkwright.cli import main
-from linkwright.words.sentence import in_language
+from linkwright.words import in_language
 
 NAMES = parts.gallery_names()
 KINDS = {name: re.findall(r"(?m)^kind: (\w+)", gallery.content(name).decode())[0] for name in NAMES}

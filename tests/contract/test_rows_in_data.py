@@ -121,4 +121,4 @@ def test_an_alternative_named_like_the_first_column_keeps_its_own(
     output = tmp_path / "found.csv"
     assert main(["compare", *files, "--metrics", "swing_angle", "--output", str(output)]) == 0
     head, row = output.read_text("utf-8").splitlines()
-    assert head == "metric,metric,other" and row.split(",")[1] == row.split(",")[2]
+    assert head == "metric,metric (2),other" and row.split(",")[1] == row.split(",")[2]

@@ -77,4 +77,4 @@ def test_pins_that_pass_each_other_closer_than_the_guides_offset_cannot(steps: i
 def test_pins_that_meet_where_the_guide_has_no_offset_pass() -> None:
     motion = lw.solve_motion(lw.loads(INVERTED.replace("OFFSET", "0")), steps=17, failures="mark")
     assert motion.ok.all()
-    noted(motion.notes, "cycle.meeting", links=("rocker", "bar"), where="driver = 0 m")
+    noted(motion.notes, "cycle.meeting", links=("rocker", "bar"), where="driver = 0 mm")

@@ -78,11 +78,11 @@ assembly: {B: left}
 def test_a_truss_that_does_not_close_is_refused_at_its_only_position() -> None:
     with refused(
         "motion.refused",
-        distance="3 m",
-        first="1 m",
-        second="1 m",
-        reach="2 m",
-        missing="1 m",
+        distance="3000 mm",
+        first="1000 mm",
+        second="1000 mm",
+        reach="2000 mm",
+        missing="1000 mm",
         where="its only position",
     ):
         lw.solve_motion(lw.loads(TWO_BARS))
@@ -107,11 +107,11 @@ def test_a_refusal_names_the_first_failing_position_by_all_its_drivers(
     left: list[float], right: list[float], failed: dict[str, object]
 ) -> None:
     links = ("left_bar", "right_bar")
-    with refused("motion.refused_told", links=links, missing="0.6 m", **failed) as caught:
+    with refused("motion.refused_told", links=links, missing="600 mm", **failed) as caught:
         lw.solve_motion(lw.loads(FIVE_BARS), at={"left": np.radians(left), "right": right})
     assert [each.values for each in caught.value.values["parts"]] == [
         {"name": "left", "value": "180°"},
-        {"name": "right", "value": "1.3 m"},
+        {"name": "right", "value": "1300 mm"},
     ]
 
 
@@ -170,8 +170,8 @@ def test_of_several_drivers_the_range_of_the_one_that_fails_is_told() -> None:
     first one's range was told."""
     ends = {
         "link": "rod2",
-        "low": "0.5 m",
-        "high": "1.5 m",
+        "low": "500 mm",
+        "high": "1500 mm",
         "told": "with the other drivers at their start {told}",
     }
     with refused("motion.refused_told", lw.PositionError, **ends):

@@ -116,7 +116,7 @@ def test_a_mechanism_whose_file_is_not_there_is_a_finding_of_the_calculation(tmp
     file = tmp_path / "bending.yaml"
     file.write_text(re.sub("(?m)^mechanism: .*", "mechanism: nowhere.yaml", text))
     (missing,) = lw.check(file)
-    assert (missing.where, missing.key, missing.code) == ("bending.yaml:6:12", "mechanism", "reference")
+    assert (missing.where, missing.key, missing.code) == ("bending.yaml:10:12", "mechanism", "reference")
     said([missing], "reference", name="nowhere.yaml")
 
 
@@ -138,4 +138,4 @@ def test_a_section_without_height_is_a_finding(tmp_path: Path, shape: str) -> No
     file.write_text(re.sub("(?m)^section: .*", f"section: {{{shape}}}", text))
     (found,) = lw.check(file)
     said([found], "range", "section", message="these dimensions make no section")
-    assert found.where == "bending.yaml:9:10"
+    assert found.where == "bending.yaml:13:10"

@@ -117,7 +117,7 @@ SECTIONS = {
     "course: {ask: [rocker.angle, nope]}": "course.ask.1",
     "course: {tolerance: [1]}": "course.tolerance",
     "optimize: {vary: {crank.length: [1 m, 2 kg]}, maximize: transmission_angle}": "optimize.vary.crank.length",
-    "optimize: {vary: {crank.length: {a: 1}}, maximize: transmission_angle}": "optimize.vary.crank.length",
+    "optimize: {vary: {crank.length: {a: 1}}, maximize: transmission_angle}": "optimize.vary.crank.length.a",
     "optimize: {vary: {crank.length: [1 m, 2 m]}, maximize: transmission_angel}": "optimize",
     "optimize: {vary: {crank.length: [1 m, 2 m]}, maximize: transmission_angle, steps: [3]}": "optimize.steps",
     "synthesis: {task: slider_crank, strok: 3 m}": "synthesis.strok",

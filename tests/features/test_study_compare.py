@@ -14,7 +14,7 @@ from tests.refusals import refused
 import linkwright as lw
 from linkwright import Comparison, compare, loads
 from linkwright.errors import RequestError
-from linkwright.words.sentence import in_language
+from linkwright.words import in_language
 
 SIX, FOUR = "Hinged jaw crusher, six-bar", "Hinged jaw crusher, four-bar"
 

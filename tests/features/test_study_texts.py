@@ -10,7 +10,7 @@ from tests import store
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.words.sentence import in_language
+from linkwright.words import in_language
 
 NAME = "Crank-rocker four-bar with a coupler point"
 CRANK, FRAME = 1.0, 4.0

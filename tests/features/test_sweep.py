@@ -366,7 +366,7 @@ loads:
     assert all(np.isnan(found[name][1]) for name in outputs) and found.ok.tolist() == [True, False, True]
     (failure,) = found.failures()
     assert (failure.kind, failure.designs.tolist(), failure.example) == ("load", [1], found.unloaded[1])
-    for part in ("loads.push", "cylinder", "2 m", "4 m", "1.9 m", "4.1 m"):
+    for part in ("loads.push", "cylinder", "2000 mm", "4000 mm", "1900 mm", "4100 mm"):
         assert part in failure.example
 
 

@@ -98,8 +98,8 @@ def test_what_is_missing_is_said_as_a_positive_length(
     sentence = str(motion.outcomes[0].sentence)
     assert not motion.ok[0]
     reach = abs(coupler - 3.0) if least else coupler + 3.0
-    told = [float(each) for each in re.findall(r"(-?[\d.]+) m\b", sentence)]
-    assert told == pytest.approx([abs(pivot - 1.0), coupler, 3.0, reach, missing], rel=1e-6)
+    told = [float(each) for each in re.findall(r"(-?[\d.]+) mm\b", sentence)]
+    assert np.array(told) / 1e3 == pytest.approx([abs(pivot - 1.0), coupler, 3.0, reach, missing], rel=1e-6)
 
 
 def test_a_name_with_control_characters_is_a_finding_from_files_and_from_code() -> None:

@@ -11,7 +11,7 @@ from tests.every import every
 import linkwright as lw
 from linkwright import gallery
 from linkwright.metrics import METRICS
-from linkwright.words.sentence import in_language
+from linkwright.words import in_language
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = DOCS / "pages.py"

@@ -125,7 +125,7 @@ def test_ladder() -> None:
     """A bar of 0.5 m between wall and floor: the foot goes 0.5 m to both sides."""
     found = input_range(stored("double_slider"))
     assert ends(found) == pytest.approx((-0.5, 0.5), abs=2e-16)
-    assert not found.rotary and "-0.5 m" in found.explain() and " 0.5 m" in found.explain()
+    assert not found.rotary and "-500 mm" in found.explain() and " 500 mm" in found.explain()
     assert found.low.group.values["links"] == found.high.group.values["links"] == ("bar", "head")
 
 

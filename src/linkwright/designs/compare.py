@@ -12,7 +12,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS, real, require
 from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
-from linkwright.core.table import Table, Tabular
+from linkwright.core.table import Table, Tabular, unused
 from linkwright.designs.alternatives import Alternative, alternatives
 from linkwright.designs.criteria import USUAL, Criterion, criteria
 from linkwright.designs.overlay import Overlay, overlays
@@ -148,7 +148,10 @@ class Comparison(Plotted, Tabular, Frozen):
         names = [f"{row.criterion.name} [{unit}]" if (unit := si_unit(row.dimension)) else row.criterion.name
                  for row in self.rows]  # fmt: skip
         found = ([math.nan if each is None else each.value for each in row.values] for row in self.rows)
-        return {"metric": names, **dict(zip(self.labels, zip(*found, strict=True), strict=True))}
+        columns: dict[str, Any] = {"metric": names}
+        for label, values in zip(self.labels, zip(*found, strict=True), strict=True):
+            columns[unused(label, columns)] = values
+        return columns
 
     def _index(self, label: str) -> int:
         if label not in self.labels:

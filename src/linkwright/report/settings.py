@@ -10,6 +10,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.events.position_list import STEPPED, PositionList, known_outputs, of_value
+from linkwright.fields import nodes
 from linkwright.fields.base import Field, Schema, Text, given, given_by_file, table_schema
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader, Saying, Sayings
@@ -125,10 +126,9 @@ class SectionTexts(ByAddress):
     """Own texts by the name of a section."""
 
     def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        found = super().read(reader, node, place, given)
-        for name in found or ():
-            SectionName().read(reader, Scalar(0, 0, 0, 0, name), place.child(name), {})
-        return found
+        for entry in node.entries if isinstance(node, nodes.Mapping) else ():
+            SectionName().read(reader, entry.key, place.child(entry.key.text), {})
+        return super().read(reader, node, place, given)
 
     def shape(self) -> Schema:
         texts = {name: self.item.shape() for name in SectionName().names}

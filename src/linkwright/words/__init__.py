@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from linkwright.words.message import LANGUAGES, Message, _, ngettext, pgettext
+from linkwright.words.sentence import in_language
 
-__all__ = ["LANGUAGES", "Message", "Say", "_", "language_of", "ngettext", "pgettext", "say"]
+__all__ = ["LANGUAGES", "Message", "Say", "_", "in_language", "language_of", "ngettext", "pgettext", "say"]
 
 Say = Callable[[Message], str]
 

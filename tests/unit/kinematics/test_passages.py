@@ -128,7 +128,7 @@ def test_change_points_and_gaps_are_said_once_with_their_place() -> None:
     twice = [replace(passage(1, share=0.0), at=np.pi / 3), replace(passage(1, share=0.0), at=np.pi / 3)]
     (said,) = passage_notes(twice, along)
     assert "a, b" in said and "driver = 60°" in said
-    assert "driver = 0.25 m" in passage_notes([replace(passage(1), at=0.25)], row(8, rotary=False))[0]
+    assert "driver = 250 mm" in passage_notes([replace(passage(1), at=0.25)], row(8, rotary=False))[0]
     assert "driver = 0°" in passage_notes([replace(passage(1), at=-1e-13)], along)[0]
     kinds = [
         passage_notes([passage(1, kind)], along)[0].code for kind in ("change", "meeting", "gap", "pole")

@@ -157,7 +157,7 @@ def test_positions_out_of_reach_have_a_sentence_and_no_number(tmp_path: Path) ->
     found = [block for block in report.document.blocks if isinstance(block, Table)]
     said = [b.text for b in report.document.blocks if isinstance(b, Paragraph) and b.kind == "missing"]
     assert math.isnan(column(found, "φ_2")[2]) and not math.isnan(column(found, "φ_2")[1])
-    assert any("180°" in each or "6 m" in each for each in said)
+    assert any("180°" in each or "6000 mm" in each for each in said)
     path, model = tmp_path / "a.csv", tmp_path / "arms.yaml"
     model.write_text(ARMS, "utf-8")
     assert main(["export", str(model), "--at", *listed, "--output", str(path)]) == 1
@@ -180,7 +180,6 @@ def test_angles_of_positions_far_apart() -> None:
     [
         (["0 deg", "rokcer min"], "study.no_such_output", {"name": "rokcer"}),
         (["0 deg", "60"], "missing-unit", {"text": "60"}),
-        ({"from": "0 deg", "step": "15 deg", "until": "1 deg"}, "solve.step_key", {"name": "until"}),
         ({"from": "0 deg", "step": "15 deg"}, "solve.step_keys", {}),
         ({"from": "0 deg", "to": "90 deg", "step": "-15 deg"}, "solve.step_away", {}),
         ({"from": "0 deg", "to": "90 deg", "count": "many"}, "solve.bad_count", {"text": "many"}),
@@ -194,6 +193,12 @@ def test_angles_of_positions_far_apart() -> None:
 def test_positions_that_make_no_sense(listed: object, code: str, values: Mapping[str, object]) -> None:
     with faulty(code, "report.positions", **values):
         lw.report("gallery:crank_rocker", sections=["tables"], positions=listed)  # type: ignore[arg-type]
+
+
+def test_a_key_that_positions_do_not_have_is_told_at_its_place() -> None:
+    listed = {"from": "0 deg", "step": "15 deg", "until": "1 deg"}
+    with faulty("unknown-key", "report.positions.until", offer="count"):
+        lw.report("gallery:crank_rocker", sections=["tables"], positions=listed)
 
 
 def test_inputs_of_laws_in_time_are_refused() -> None:

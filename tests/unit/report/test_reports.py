@@ -298,7 +298,7 @@ def test_every_joint_force_has_its_hodograph() -> None:
 def test_a_language_may_have_texts_of_its_own() -> None:
     given = {"title": "Crusher", "zh": {"title": "破碎机", "purpose": "课程设计"}}
     assert settings(given).title == "Crusher" and settings(given, "zh").title == "破碎机"
-    with refused("unknown-key", lw.ModelError, name="titel", offer="title") as caught:
+    with refused("unknown-key", lw.ModelError, key_="titel", offer="title") as caught:
         settings({"zh": {"titel": "x"}})
     assert [each.key for each in caught.value.findings] == ["report.zh.titel"]
 
