@@ -72,7 +72,10 @@ def outputs(mechanism: lw.Mechanism) -> list[str]:
 
 
 def rows(motion: lw.Motion, output: str) -> tuple[Floats, Floats, Floats]:
-    """Value, rate and second derivative of an output."""
+    """Value, rate and second derivative of an output; a block on a guide of the frame means its displacement."""
+    for name, guide in motion.mechanism.guides.items():
+        if (guide.guide, guide.block) == ("frame", output):
+            output = name
     if output in motion.mechanism.links:
         link = motion.link(output)
         return link.angle, link.angular_velocity, link.angular_acceleration

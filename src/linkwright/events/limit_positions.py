@@ -76,7 +76,8 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
 
     Args:
         motion: positions along the drivers' laws, such as a cycle.
-        output: an output, or its text: ``jaw`` (angle of a link), ``C.x``, ``jaw.D.y``, ``guide`` (displacement).
+        output: an output, or its text: ``jaw`` (angle of a link; displacement of a block on the frame),
+            ``C.x``, ``jaw.D.y``, ``guide`` (displacement).
 
     Raises:
         LinkwrightError: there is no such output, or the positions do not follow the drivers' laws in time.
