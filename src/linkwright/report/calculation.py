@@ -14,6 +14,7 @@ from linkwright.report.machine_results import picture
 from linkwright.report.section import SECTIONS
 from linkwright.report.sections import method
 from linkwright.report.sections.errata import errata_blocks
+from linkwright.report.sections.worked_position import to_scale
 from linkwright.report.settings import Settings
 from linkwright.words import Message, Say, _
 from linkwright.words.sentence import in_language
@@ -149,7 +150,7 @@ def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
             if RESULT_DIAGRAMS[kind].usual:
                 yield Paragraph(literal(error.say(language)), "missing")
             continue
-        yield Figure(
-            f"{literal(in_language(found.title, language))}: {say(RESULT_DIAGRAMS[kind].title)}",
-            ((svg, 0.75),),
+        caption = f"{literal(in_language(found.title, language))}: {say(RESULT_DIAGRAMS[kind].title)}"
+        yield (
+            to_scale(say, caption, svg) if RESULT_DIAGRAMS[kind].to_scale else Figure(caption, ((svg, 0.75),))
         )

@@ -17,6 +17,7 @@ from linkwright.equations.reading import filled, read, sides
 from linkwright.equations.reading import plain as unmarked
 from linkwright.equations.steps import Equation, Written
 from linkwright.errors import speaker
+from linkwright.pictures.svg.render import natural_size
 from linkwright.plot.sketches.base import SKETCHES
 from linkwright.report import report
 from linkwright.report.document import Figure, Formula, Heading, Paragraph, Table, plain
@@ -41,6 +42,14 @@ def test_a_calculation_is_a_chapter_like_a_textbook_example(language: str) -> No
     blocks = found.document.blocks
     assert sum(isinstance(b, Figure) for b in blocks) == 2
     assert any(isinstance(b, Formula) for b in blocks)
+
+
+def test_polygons_are_printed_to_the_scale_that_they_state() -> None:
+    """The picture's size is in px of 1/96 inch, its share that of a text 170 mm wide."""
+    for name in ("two_cables", "rotor_four_masses"):
+        shown = [each for each in report(f"gallery:{name}").document.blocks if isinstance(each, Figure)]
+        ((picture, share),) = shown[-1].pictures
+        assert share * 170.0 == pytest.approx(natural_size(picture)[0] * 25.4 / 96.0)
 
 
 def test_chapters_stand_in_the_order_of_the_files() -> None:

@@ -104,7 +104,7 @@ class ResultDiagram:
     ``title``: what it is called in titles; ``takes``: the type of the results; ``options``: those of OPTIONS that it
     has a use for; ``usual``: whether it may be drawn where no kind is named; ``draw(result, request)`` raises
     LinkwrightError for unknown names, and where there is nothing to draw; ``when``: which results of the type have
-    something to draw.
+    something to draw; ``to_scale``: whether a millimetre of paper stands for what the picture says it does.
     """
 
     title: Message
@@ -113,6 +113,7 @@ class ResultDiagram:
     usual: bool
     draw: Callable[[Any, Request], Figure | Drawing] = field(repr=False)
     when: Callable[[Any], bool] = field(repr=False)
+    to_scale: bool
 
     def suits(self, result: object) -> bool:
         """Whether it draws such a result."""
@@ -136,11 +137,12 @@ def result_diagram(
     options: tuple[str, ...] = (),
     usual: bool = True,
     when: Callable[[T], bool] = lambda result: True,
+    to_scale: bool = False,
 ) -> Callable[[Callable[[T, Request], D]], Callable[[T, Request], D]]:
     """Decorator that registers a function as the diagram ``name`` of results; see :class:`ResultDiagram`."""
 
     def registered(draw: Callable[[T, Request], D]) -> Callable[[T, Request], D]:
-        RESULT_DIAGRAMS.register(name)(ResultDiagram(title, takes, options, usual, draw, when))
+        RESULT_DIAGRAMS.register(name)(ResultDiagram(title, takes, options, usual, draw, when, to_scale))
         return draw
 
     return registered

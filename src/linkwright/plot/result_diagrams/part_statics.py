@@ -57,14 +57,14 @@ def _page(cells: Sequence[Cell], name: str, request: Request) -> Drawing:
     return page(cells, len(cells), (), request.heading(title), title)
 
 
-@result_diagram("resultant", _("force polygon"), Resultant)
+@result_diagram("resultant", _("force polygon"), Resultant, to_scale=True)
 def draw_resultant(result: Resultant, request: Request) -> Drawing:
     """Forces head to tail with their resultant, in one plane or in two."""
     vectors = {name: each.vector for name, each in result.system.forces.items()}
     return _page(_polygons(vectors, (), result.force), result.title, request)
 
 
-@result_diagram("closed_polygon", _("closed force polygon"), PointEquilibrium)
+@result_diagram("closed_polygon", _("closed force polygon"), PointEquilibrium, to_scale=True)
 def draw_closed_polygon(result: PointEquilibrium, request: Request) -> Drawing:
     """All forces of a point in equilibrium head to tail: they close; those that were sought in another colour."""
     return _page(_polygons(result.vectors, result.magnitudes, None), result.title, request)
@@ -118,7 +118,7 @@ def draw_wedge_push(result: WedgeForces, request: Request) -> Figure:
     return stacked([Panel("P", "force", curves)], axis, request, request.titled(result.title))
 
 
-@result_diagram("rotor_balance", _("polygons of mass times radius"), RotorBalance)
+@result_diagram("rotor_balance", _("polygons of mass times radius"), RotorBalance, to_scale=True)
 def draw_rotor_balance(result: RotorBalance, request: Request) -> Drawing:
     """Mass times radius of all masses as each plane carries them, head to tail, closed by the counterweight."""
     cells = []

@@ -265,7 +265,7 @@ DRAWN: Mapping[type, Callable[[Construction, Any, Synthesis], None]] = {
 }
 
 
-@result_diagram("construction", _("construction"), Synthesis, usual=False,
+@result_diagram("construction", _("construction"), Synthesis, usual=False, to_scale=True,
                 when=lambda found: type(found.derivation) in DRAWN)  # fmt: skip
 def draw_construction(result: Synthesis, request: Request) -> Drawing:
     """The construction of the first candidate."""

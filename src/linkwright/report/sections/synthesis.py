@@ -90,7 +90,7 @@ def _figure(found: Synthesis, kind: str, language: str) -> Iterator[Block]:
     except LinkwrightError as error:
         yield Paragraph(literal(error.say(language)), "missing")
         return
-    if kind == "construction":
+    if RESULT_DIAGRAMS[kind].to_scale:
         yield to_scale(say, say(CAPTIONS[kind]), shown)
     else:
         yield Figure(say(CAPTIONS[kind]), ((shown, _width(found, kind)),))
