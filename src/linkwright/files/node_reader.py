@@ -86,6 +86,11 @@ class PlainReader:
         yield
         self._own = before
 
+    @property
+    def full(self) -> bool:
+        """Whether there are so many findings that no more are noted."""
+        return len(self.findings) > MOST_FINDINGS
+
     def error(
         self,
         node: Node | None,
@@ -99,7 +104,7 @@ class PlainReader:
     ) -> None:
         """Note a finding at a node; ``column`` is an offset within it."""
         if len(self.findings) >= MOST_FINDINGS:
-            if len(self.findings) == MOST_FINDINGS:
+            if not self.full:
                 more = _("there are more than {count} findings; mend these first", count=MOST_FINDINGS)
                 self.findings.append(Finding("error", self.source, "", more, code="many"))
             return
@@ -366,6 +371,8 @@ class PlainReader:
             key = entry.key.text
             if key in known:
                 continue
+            if self.full:
+                break
             if (joined := self._joined(entry, place, known)) is not None:
                 split.add(joined)
                 kept.remove(entry)
@@ -390,7 +397,8 @@ class PlainReader:
                 key_=key[:100],
                 names=tuple(known),
             )
-        return as_meant(replace(mapping, entries=kept), known), split
+        mapping = replace(mapping, entries=kept)
+        return mapping if self.full else as_meant(mapping, known), split
 
     def _joined(self, entry: Entry, place: Place, known: list[str]) -> str | None:
         """The known key whose value stands behind it without a space after the colon, behind another sign or none."""

@@ -180,6 +180,8 @@ def read_parameters(reader: Reader, node: Node | None) -> dict[str, float]:
     entries = mapping.entries if mapping else []
     told = {name: _names(node.text) for name, node in mapping or [] if isinstance(node, Scalar)}
     for entry in entries:
+        if reader.full:
+            break
         name, place = entry.key.text, Place(f"parameters.{entry.key.text}", entry.key.text)
         value = _parameter(reader, entry.key, entry.value, place, told)
         told.pop(name, None)
