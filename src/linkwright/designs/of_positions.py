@@ -41,6 +41,7 @@ def note_of_positions(
         return _(
             "minima, maxima and means of outputs are those of the {steps} positions; those of the "
             "cycle are found without steps",
+            code="study.of_positions",
             steps=steps,
         )
     summary, sampled, exact, dimension = worst

@@ -148,6 +148,7 @@ def _indeterminate(motion: Motion) -> tuple[str, ...]:
             _(
                 "how the passive pairs {names} and the pairs beside them share the load is "
                 "statically indeterminate: the passive ones are taken as unloaded",
+                code="forces.passive",
                 names=passive,
             )
         )

@@ -107,7 +107,7 @@ def _class(structure: Structure, say: Say) -> Sequence[str]:
         _("It is a class {level} mechanism.", level=level),
     ]
     if len(structure.parts) > 1:
-        parts = _(" and ").join("{" + ", ".join(part) + "}" for part in structure.parts)
+        parts = say(_(" and ")).join("{" + ", ".join(part) + "}" for part in structure.parts)
         lines.append(
             _(
                 "These are {count} mechanisms that share nothing but the frame: {parts}.",
