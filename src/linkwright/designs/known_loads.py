@@ -30,6 +30,14 @@ from linkwright.loads.over_cycle import activity
 from linkwright.loads.phases import Always
 from linkwright.words import _
 
+FRICTION_SLOPE = _(
+    "friction has a derivative where it is far from self-locking and no group has it in "
+    "more than {most} pairs; leave the friction out of the model, or vary the dimension "
+    "in a study",
+    code="study.friction_slope",
+    most=MOST,
+)
+
 
 @dataclass(frozen=True)
 class KnownLoads:
@@ -53,15 +61,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     """
     rubbing = any(kind_of(name) == "friction" for name in fields)
     if rubbing and not can_be_traced(plain.forces.friction):
-        raise LinkwrightError(
-            _(
-                "friction has a derivative where it is far from self-locking and no group has it in "
-                "more than {most} pairs; leave the friction out of the model, or vary the dimension "
-                "in a study",
-                code="study.friction_slope",
-                most=MOST,
-            )
-        )
+        raise LinkwrightError(FRICTION_SLOPE)
     given = [
         name
         for name in (plain.forces.fields_needed() if rubbing else fields)

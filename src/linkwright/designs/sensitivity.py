@@ -15,7 +15,7 @@ from linkwright.core.given import STEPS, one_of, one_or_more, require
 from linkwright.core.read_only import Frozen, locked
 from linkwright.core.table import Amount, Cell, Table, Tabular, unused
 from linkwright.cycle.summary import Summary
-from linkwright.designs.known_loads import known_loads
+from linkwright.designs.known_loads import FRICTION_SLOPE, known_loads
 from linkwright.designs.objective import over_metrics
 from linkwright.designs.objective_terms import differentiable
 from linkwright.designs.one_by_one import OF_VALUES
@@ -25,7 +25,6 @@ from linkwright.designs.varied_dimensions import checked_addresses, refuse_misfi
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.formula.summaries import BACKENDS, Backend
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinetostatics.friction_stage import MOST
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.metrics.by_name import NO_OUTPUTS, wanted
@@ -271,15 +270,7 @@ class _Derivation:
         self.quantities = traced.quantities([*names, *(each.output for each in self.numbers if each.kind)])
         self.work = Slopes(traced, {name: self.quantities[name] for name in names}, by, backend, loads)
         if not self.work.certain:
-            raise LinkwrightError(
-                _(
-                    "friction has a derivative where it is far from self-locking and no group has it in "
-                    "more than {most} pairs; leave the friction out of the model, or vary the dimension "
-                    "in a study",
-                    code="study.friction_slope",
-                    most=MOST,
-                )
-            )
+            raise LinkwrightError(FRICTION_SLOPE)
         self.back = way == "reverse" or (way == "auto" and len(by) >= REVERSE_PAYS)
 
     def result(self) -> Sensitivity:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.fields.nodes import Scalar
+from linkwright.fields.nodes import Node, Scalar
 from linkwright.files.node_reader import PlainReader
 from linkwright.registry import listed
 from linkwright.words import _
@@ -44,3 +44,14 @@ def refuse_kind(reader: PlainReader, node: Scalar) -> None:
             kind=kind,
             hint=listed(kind, COMMANDS, "one_of"),
         )
+
+
+def refuse_task(reader: PlainReader, task: Node) -> None:
+    """The finding about a file with a task of synthesis where a machine or a calculation is needed."""
+    reader.finding(
+        task,
+        "synthesis",
+        _("the file holds a task of synthesis and no machine"),
+        "kind",
+        _("linkwright synthesize finds machines for it"),
+    )

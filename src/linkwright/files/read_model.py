@@ -76,13 +76,9 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
         return None, reader.findings
     task = mapping.get("synthesis")
     if task is not None and mapping.get("frame") is None and mapping.get("links") is None:
-        reader.finding(
-            task,
-            "synthesis",
-            _("the file holds a task of synthesis and no machine"),
-            "kind",
-            _("linkwright synthesize finds machines for it"),
-        )
+        from linkwright.files.calculations import refuse_task
+
+        refuse_task(reader, task)
         return None, reader.findings
     mechanism = _sections(reader, mapping, source)
     return (None if reader.error_count else mechanism), reader.findings

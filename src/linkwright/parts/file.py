@@ -15,6 +15,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, towards
 from linkwright.fields.reading import Place
 from linkwright.fields.sheet import FIELD as SHEET_SECTION
+from linkwright.files.calculations import refuse_task
 from linkwright.files.model_file import declared_kind, read_root
 from linkwright.files.node_reader import as_meant
 from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
@@ -178,13 +179,7 @@ def _kind(reader: Reader, root: MappingNode) -> str | None:
     if node is not None:
         return reader.word(node, "kind", tuple(KINDS))
     if (task := root.get("synthesis")) is not None and root.get("links") is None:
-        reader.finding(
-            task,
-            "synthesis",
-            _("the file holds a task of synthesis and no machine"),
-            "kind",
-            _("linkwright synthesize finds machines for it"),
-        )
+        refuse_task(reader, task)
         return None
     message, remedy = (
         (

@@ -224,17 +224,7 @@ class Program(Problem):
             for name, step, size in zip(self.variables, way, model.sizes, strict=True)
             if abs(step) > 1e-9 * size
         )
-        raise ModelError(
-            [
-                fault(
-                    "unbounded",
-                    "subject_to",
-                    UNBOUNDED,
-                    STOPS_THEM,
-                    variables=moving,
-                )
-            ]
-        )
+        raise _unbounded(moving)
 
     def _nonlinear(self) -> Optimum:
         model = self.model
@@ -254,17 +244,7 @@ class Program(Problem):
             far = tuple(
                 n for n, x, s in zip(self.variables, found.x, model.sizes, strict=True) if abs(x) > AWAY * s
             )
-            raise ModelError(
-                [
-                    fault(
-                        "unbounded",
-                        "subject_to",
-                        UNBOUNDED,
-                        STOPS_THEM,
-                        variables=far,
-                    )
-                ]
-            )
+            raise _unbounded(far)
         prices, gap = multipliers(model, found.x) if way == "nonlinear" else (None, 0.0)
         return Optimum(self, found.x, way, prices, agreed=(found.agreed, found.starts), gap=gap)
 
@@ -296,6 +276,11 @@ class Program(Problem):
                 set=texts,
             )
         return ModelError([told])
+
+
+def _unbounded(variables: tuple[str, ...]) -> ModelError:
+    """The refusal of a program whose optimum runs away along some variables."""
+    return ModelError([fault("unbounded", "subject_to", UNBOUNDED, STOPS_THEM, variables=variables)])
 
 
 def _aimless(model: Model) -> Model:
