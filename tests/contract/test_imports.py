@@ -64,6 +64,7 @@ def dotted(module: Path) -> str:
 KNOWN_TO_FORMULAS = (
     "linkwright.formula",
     "linkwright.errors",
+    "linkwright.words",
     "linkwright.core.arrays",
     "linkwright.core.dataclass",
     "linkwright.core.spline",

@@ -1,21 +1,20 @@
-"""Machine code kept in memory and in the user's cache folder.
+"""Machine code in memory and in the user's cache folder.
 
 The folder is ``LINKWRIGHT_CACHE`` where set (``off``: no folder), else ``linkwright`` in the
 user's cache folder (``XDG_CACHE_HOME``, ``~/.cache``; on Windows ``LOCALAPPDATA``, on macOS
-``~/Library/Caches``). A file is used only where it was written by this user on this machine
-with this version: its header must match and its digest must be made with the user's secret,
-a file that nobody else can read. Anything else is ignored and written anew.
+``~/Library/Caches``), made with mode 0700. A folder of another user, or one that others may
+write, is not used. A file counts where its header is that of this machine and version and its
+checksum fits; anything else is ignored and written anew.
 """
 
 from __future__ import annotations
 
 import hashlib
-import hmac
 import os
-import secrets
 import sys
 import tempfile
 import threading
+import warnings
 from collections import OrderedDict
 from collections.abc import Callable
 from contextlib import suppress
@@ -23,6 +22,7 @@ from functools import cache
 from pathlib import Path
 
 from linkwright.formula import machine_code
+from linkwright.words import _
 
 _KEPT_IN_MEMORY = 128
 #: Bytes of all files together; the least recently used are removed beyond it.
@@ -113,16 +113,12 @@ def _from_folder(key: str, entry: str) -> machine_code.Loaded | None:
 
 def _read(key: str) -> bytes | None:
     base = folder()
-    if base is None or not base.is_dir() or not _is_ours(base):
+    if base is None or not base.is_dir() or not _private(base):
         return None
-    secret, path = _secret(base, create=False), _path(base, key)
-    if secret is None or not path.is_file() or not _is_ours(path):
-        return None
+    path = _path(base, key)
     data, header = path.read_bytes(), _header(key)
-    if not data.startswith(header) or len(data) <= len(header) + _DIGEST:
-        return None
-    digest, code = data[len(header) : len(header) + _DIGEST], data[len(header) + _DIGEST :]
-    if not hmac.compare_digest(digest, _digest(secret, header, code)):
+    code = data[len(header) + _DIGEST :]
+    if not code or not data.startswith(header + _checksum(code)):
         return None
     with suppress(OSError):
         os.utime(path)
@@ -134,16 +130,13 @@ def _write(key: str, code: bytes) -> None:
     if base is None:
         return
     base.mkdir(parents=True, exist_ok=True, mode=0o700)
-    secret = _secret(base, create=True) if _is_ours(base) else None
-    if secret is None:
-        return
-    header = _header(key)
-    _replace(_path(base, key), header + _digest(secret, header, code) + code)
-    _remove_oldest(base)
+    if _private(base):
+        _replace(_path(base, key), _header(key) + _checksum(code) + code)
+        _remove_oldest(base)
 
 
-def _digest(secret: bytes, header: bytes, code: bytes) -> bytes:
-    return hmac.digest(secret, header + code, "sha256")
+def _checksum(code: bytes) -> bytes:
+    return hashlib.blake2b(code, digest_size=_DIGEST).digest()
 
 
 def _replace(path: Path, data: bytes) -> None:
@@ -158,27 +151,23 @@ def _replace(path: Path, data: bytes) -> None:
         raise
 
 
-def _secret(base: Path, *, create: bool) -> bytes | None:
-    """The user's secret; one that is missing, cut short or readable by others is made anew where ``create``."""
-    path = base / "secret"
-    if path.is_file() and _is_ours(path, private=True):
-        secret = path.read_bytes()
-        if len(secret) == _DIGEST:
-            return secret
-    if not create:
-        return None
-    secret = secrets.token_bytes(_DIGEST)
-    _replace(path, secret)
-    return secret
-
-
-def _is_ours(path: Path, *, private: bool = False) -> bool:
-    """Whether nobody else can have written (``private``: read) a file or folder."""
+def _private(base: Path) -> bool:
+    """Whether a folder is the user's and nobody else may write in it; warns where not."""
     if sys.platform == "win32":
         return True
-    status = path.lstat()
-    forbidden = 0o077 if private else 0o022
-    return status.st_uid == os.getuid() and not status.st_mode & forbidden
+    status = base.stat()
+    if status.st_uid == os.getuid() and not status.st_mode & 0o022:
+        return True
+    warnings.warn(
+        _(
+            "the cache folder {folder} belongs to another user or others may write in it, so compiled code "
+            "is not cached; make it yours with mode 0700, or name another one in LINKWRIGHT_CACHE",
+            folder=base,
+        ),
+        RuntimeWarning,
+        stacklevel=2,
+    )
+    return False
 
 
 def _remove_oldest(base: Path) -> None:
