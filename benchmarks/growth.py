@@ -22,7 +22,7 @@ from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.kinetostatics.trace import trace_forces
-from linkwright.structure import structure
+from linkwright.topology import structure
 
 STRUCTURE, TRACE, COMPILE, EVALUATE = "structure", "trace", "compile", "evaluate"
 EFFORT = "effort"

@@ -24,7 +24,7 @@ from tests.gradients import main
 from tests.state.comparing import LEAST
 
 import linkwright as lw
-from linkwright.metrics import METRICS
+from linkwright.analysis import METRICS
 
 TOLERANCE = 1e-9
 #: Metrics that are known to fewer digits.

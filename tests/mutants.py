@@ -32,7 +32,7 @@ from tests.mutation.probes import SOURCE
 from tests.mutation.trial import killed, preload
 
 PACKAGES = (
-    "kinematics", "groups", "structure", "kinetostatics", "loads", "drivers", "joints", "metrics", "machine",
+    "kinematics", "groups", "topology", "kinetostatics", "applied_loads", "drivers", "joints", "analysis", "machine",
     "engine", "study", "units.py",
 )  # fmt: skip
 EQUIVALENT = Path(__file__).parent / "equivalent_mutants.txt"

@@ -8,8 +8,8 @@ from linkwright.pictures.drawing import bounds, document
 from linkwright.pictures.picture import Text, as_runs
 from linkwright.pictures.svg.element import group
 from linkwright.pictures.symbols.base import SYMBOLS
-from linkwright.plot.animation import animate
-from linkwright.plot.drawing import draw
+from linkwright.plotting.animation import animate
+from linkwright.plotting.drawing import draw
 
 HERE = Path(__file__).parent
 STILL: dict[str, tuple[str, dict[str, Any]]] = {

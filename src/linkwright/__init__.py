@@ -7,6 +7,8 @@ from linkwright.lazy import offer
 TYPE_CHECKING = False  # type checkers take it for true
 
 if TYPE_CHECKING:
+    from linkwright.analysis import MetricsTable as MetricsTable
+    from linkwright.analysis import metrics as metrics
     from linkwright.cams.cam import Cam as Cam
     from linkwright.cams.compensating_cam import CompensatingCam as CompensatingCam
     from linkwright.cams.compensating_cam import compensating_cam as compensating_cam
@@ -52,9 +54,9 @@ if TYPE_CHECKING:
     from linkwright.errors import SelfCheckError as SelfCheckError
     from linkwright.events.limit_positions import LimitPosition as LimitPosition
     from linkwright.events.limit_positions import limit_positions as limit_positions
-    from linkwright.export.export import export as export
-    from linkwright.export.sweep_parts import SweepParts as SweepParts
-    from linkwright.export.sweep_parts import sweep_parts as sweep_parts
+    from linkwright.exporters.export import export as export
+    from linkwright.exporters.sweep_parts import SweepParts as SweepParts
+    from linkwright.exporters.sweep_parts import sweep_parts as sweep_parts
     from linkwright.file_check import check as check
     from linkwright.files.build import Model as Model
     from linkwright.files.model_file import gallery_names as gallery_names
@@ -88,23 +90,18 @@ if TYPE_CHECKING:
     from linkwright.machine.balancing import Balancing as Balancing
     from linkwright.machine.balancing import balance as balance
     from linkwright.mechanism.mechanism import Mechanism as Mechanism
-    from linkwright.metrics import MetricsTable as MetricsTable
-    from linkwright.metrics import metrics as metrics
     from linkwright.page.content import LivingPage as LivingPage
     from linkwright.page.content import living_page as living_page
     from linkwright.pictures.diagram import Diagram as Diagram
     from linkwright.pictures.drawing import Drawing as Drawing
-    from linkwright.plot.animation import Animation as Animation
-    from linkwright.plot.animation import animate as animate
-    from linkwright.plot.diagrams.diagram_by_name import plot as plot
-    from linkwright.plot.drawing.draw import draw as draw
-    from linkwright.report.report import Report as Report
-    from linkwright.report.report import report as report
+    from linkwright.plotting.animation import Animation as Animation
+    from linkwright.plotting.animation import animate as animate
+    from linkwright.plotting.diagrams.diagram_by_name import plot as plot
+    from linkwright.plotting.drawing.draw import draw as draw
+    from linkwright.reports.report import Report as Report
+    from linkwright.reports.report import report as report
     from linkwright.sheets.sheet import Sheet as Sheet
     from linkwright.sheets.sheet import sheet as sheet
-    from linkwright.structure import Structure as Structure
-    from linkwright.structure import StructureError as StructureError
-    from linkwright.structure import structure as structure
     from linkwright.synthesis.free_curve.generate import free_curve as free_curve
     from linkwright.synthesis.function_generation.generate import function_generation as function_generation
     from linkwright.synthesis.motion_generation.generate import motion_generation as motion_generation
@@ -115,39 +112,42 @@ if TYPE_CHECKING:
     from linkwright.synthesis.result import Synthesis as Synthesis
     from linkwright.synthesis.result import SynthesisError as SynthesisError
     from linkwright.synthesis.tasks import synthesize as synthesize
+    from linkwright.topology import Structure as Structure
+    from linkwright.topology import StructureError as StructureError
+    from linkwright.topology import structure as structure
     from linkwright.validation.validate import Validation as Validation
     from linkwright.validation.validate import validate as validate
-    from linkwright.worked.solution import Worked as Worked
-    from linkwright.worked.solution import worked as worked
+    from linkwright.worked_solutions.solution import Worked as Worked
+    from linkwright.worked_solutions.solution import worked as worked
 
 __version__ = VERSION
 
 ATTACHED.update(
     {
         "CamDesign.blocks": "linkwright.cams.report:blocks",
-        "CamDesign.draw": "linkwright.plot.true_shapes:draw_cam",
-        "CamDesign.save_profile": "linkwright.export.dxf.true_shapes:save_profile",
+        "CamDesign.draw": "linkwright.plotting.true_shapes:draw_cam",
+        "CamDesign.save_profile": "linkwright.exporters.dxf.true_shapes:save_profile",
         "CamDesign.steps": "linkwright.cams.report:steps",
         "Comparison.evaluation": "linkwright.designs.evaluation:evaluation",
         "Comparison.tables": "linkwright.designs.evaluation:tables",
-        "Forces._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
+        "Forces._repr_svg_": "linkwright.plotting.drawing.draw:picture_of",
         "Forces.balance_residual": "linkwright.kinetostatics.link_balance:balance_residual",
         "Forces.columns": "linkwright.kinetostatics.table:force_columns",
-        "GearPair.draw": "linkwright.plot.true_shapes:draw_pair",
-        "GearPair.save_dxf": "linkwright.export.dxf.true_shapes:save_pair",
-        "Mechanism._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
-        "Mechanism.structure": "linkwright.structure.decompose:structure",
-        "Motion._repr_svg_": "linkwright.plot.drawing.draw:picture_of",
+        "GearPair.draw": "linkwright.plotting.true_shapes:draw_pair",
+        "GearPair.save_dxf": "linkwright.exporters.dxf.true_shapes:save_pair",
+        "Mechanism._repr_svg_": "linkwright.plotting.drawing.draw:picture_of",
+        "Mechanism.structure": "linkwright.topology.decompose:structure",
+        "Motion._repr_svg_": "linkwright.plotting.drawing.draw:picture_of",
         "Motion.columns": "linkwright.kinematics.table:motion_columns",
         "Motion._named_course": "linkwright.kinematics.output_formulas:named_course",
         "Motion.outcomes": "linkwright.kinematics.reach_sentences:explain",
         "Motion.refusal": "linkwright.kinematics.refusal:refusal",
         "Motion.to_dataframe": "linkwright.kinematics.table:motion_frame",
         "Optimum.tables": "linkwright.designs.optimise.report:tables",
-        "Plotted.plot": "linkwright.plot.diagrams.diagram_by_name:plot",
-        "Problem.sketch": "linkwright.plot.sketches.base:sketch",
-        "Rack.draw": "linkwright.plot.true_shapes:draw_rack",
-        "Rack.save_dxf": "linkwright.export.dxf.true_shapes:save_rack",
+        "Plotted.plot": "linkwright.plotting.diagrams.diagram_by_name:plot",
+        "Problem.sketch": "linkwright.plotting.sketches.base:sketch",
+        "Rack.draw": "linkwright.plotting.true_shapes:draw_rack",
+        "Rack.save_dxf": "linkwright.exporters.dxf.true_shapes:save_rack",
         "Study.tables": "linkwright.designs.study_text:tables",
         "Synthesis.worked": "linkwright.synthesis.steps.solution:worked",
         "Variants.files": "linkwright.course.questions:files_of",
@@ -157,7 +157,7 @@ ATTACHED.update(
 SECTIONS.update({
     "course": "linkwright.course.task:SECTION",
     "optimize": "linkwright.designs.optimise.problem:SECTION",
-    "report": "linkwright.report.settings:SECTION",
+    "report": "linkwright.reports.settings:SECTION",
     "synthesis": "linkwright.synthesis.section:SECTION",
 })  # fmt: skip
 

@@ -25,12 +25,12 @@ from linkwright.words.sentence import code_of
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from linkwright.applied_loads.base import Load
+    from linkwright.applied_loads.phases import Phase
     from linkwright.elements.topology import Group
     from linkwright.kinematics.motion import Motion
-    from linkwright.loads.base import Load
-    from linkwright.loads.phases import Phase
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.structure.analysis import Structure
+    from linkwright.topology.analysis import Structure
 
 #: Positions of the cycle that are tried.
 TRIED = 72
@@ -229,8 +229,8 @@ def _turned(mechanism: Mechanism) -> tuple[list[Finding], list[Finding]]:
 
 def _hardly_determined(motion: Motion) -> Iterator[Finding]:
     """Groups that are close to a singular position all the time."""
-    from linkwright.metrics.analysis import Analysis
-    from linkwright.metrics.singularity import Singularity
+    from linkwright.analysis.analysis import Analysis
+    from linkwright.analysis.singularity import Singularity
 
     if motion.mechanism.drivers:
         for group, best, limit in Singularity.throughout(Analysis.of(motion)):
@@ -260,10 +260,10 @@ def _varies(load: Load) -> bool:
 def _of_loads(mechanism: Mechanism, loads: Sequence[str], varying: Sequence[str]) -> list[Finding]:
     """Loads whose phase the motion does not have: of an output that never reverses, of more than its stroke, while
     an output moves as it never does; and ``varying`` ones that have no value somewhere in the cycle."""
+    from linkwright.applied_loads.over_cycle import activity, magnitudes
+    from linkwright.applied_loads.phases import MovingPhase
     from linkwright.kinematics.solve import try_motion
     from linkwright.kinetostatics.signals import MotionSignals
-    from linkwright.loads.over_cycle import activity, magnitudes
-    from linkwright.loads.phases import MovingPhase
 
     signals, found = MotionSignals(try_motion(mechanism, TRIED)), []
     for load in loads:
@@ -326,7 +326,7 @@ def _of_settings(mechanism: Mechanism, folder: str, *, moves: bool) -> list[Find
 
 
 def _of_report(given: Mapping[str, Any], mechanism: Mechanism | None, folder: str) -> list[Finding]:
-    from linkwright.report.settings import settings
+    from linkwright.reports.settings import settings
 
     try:
         settings(given, mechanism=mechanism, folder=folder)

@@ -19,7 +19,7 @@ def offer(package: str) -> dict[str, tuple[str, ...]]:
     They stand in the package's source as ``from module import name as name``, the form in which a type checker takes
     a name for public, and nowhere else. Where a function has the name of a subpackage
     (``linkwright.structure``), the attribute is the subpackage, and calling it calls the function: both
-    ``linkwright.structure(mechanism)`` and ``linkwright.structure.Group`` work, however either was imported.
+    ``linkwright.structure(mechanism)`` and ``linkwright.topology.Group`` work, however either was imported.
     A plain module of the same name stays importable; the attribute is the public name. Other subpackages
     (``linkwright.parts``) are imported when they are first used.
     """

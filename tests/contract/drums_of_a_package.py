@@ -11,7 +11,7 @@ from linkwright.fields.base import Quantities
 from linkwright.fields.references import LinkName, LinkNames, PointPair
 from linkwright.joints.base import HigherPair
 from linkwright.mechanism.wheel_sizes import WheelSizes, wheel_sizes
-from linkwright.plot.drawing.joint_marks import Mark, marks
+from linkwright.plotting.drawing.joint_marks import Mark, marks
 
 
 @dataclass(frozen=True)
@@ -96,8 +96,8 @@ def tape_sizes(joint: Tape, mechanism):
 #: Checks in a process in which the package is installed: against a belt, whose taut strand is the tape.
 PROGRAM = r'''
 import xml.etree.ElementTree as ET
-from linkwright.report.document import Table
-from linkwright.report.report import report
+from linkwright.reports.document import Table
+from linkwright.reports.report import report
 DRUMS = """
 format: 1
 name: hoist

@@ -12,7 +12,7 @@ from tests.refusals import refused
 import linkwright as lw
 from linkwright.groups import DYADS
 from linkwright.groups.base import Solved
-from linkwright.structure import Group
+from linkwright.topology import Group
 
 GEARS = """
 format: 1

@@ -16,7 +16,7 @@ from tests.contract.calculations import solved
 
 import linkwright as lw
 from linkwright import parts
-from linkwright.metrics import coupler_curve
+from linkwright.analysis import coupler_curve
 from linkwright.validation.published import from_gallery
 
 

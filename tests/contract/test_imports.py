@@ -27,24 +27,24 @@ STAGES = (
     ("curves", "equations"),
     ("fields", "elements"),
     ("laws",),
-    ("joints", "drivers", "loads"),
+    ("joints", "drivers", "applied_loads"),
     ("mechanism",),
     ("files",),
-    ("structure",),
+    ("topology",),
     ("groups",),
     ("kinematics",),
     ("events",),
     ("kinetostatics",),
     ("dyads",),
     ("cycle",),
-    ("metrics", "machine", "worked"),
+    ("analysis", "machine", "worked_solutions"),
     ("designs", "synthesis", "cams", "gears", "parts"),
-    ("report", "plot", "export", "page", "validation", "course", "sheets"),
+    ("reports", "plotting", "exporters", "page", "validation", "course", "sheets"),
     ("file_check",),
     ("cli", "server", "__main__"),
 )
 STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}
-FRONT = STAGE["report"]
+FRONT = STAGE["reports"]
 FRONT_END_PACKAGES = {
     "matplotlib", "resvg_py", "PIL", "av", "ezdxf", "xlsxwriter", "pyarrow", "typst",
     "fastapi", "starlette", "uvicorn", "typer", "rich", "argparse", "click",
@@ -96,10 +96,10 @@ def test_an_upward_import_is_found() -> None:
     def found(source: str, package: str) -> list[str]:
         return upward(imports(ast.parse(source)), package)
 
-    assert found("def late():\n    from linkwright.kinematics import motion", "structure")
-    assert found("if TYPE_CHECKING:\n    from linkwright.kinematics import motion", "structure")
-    assert found("import linkwright.plot.curves", "metrics")
-    assert not found("from linkwright.structure import analysis", "kinematics")
+    assert found("def late():\n    from linkwright.kinematics import motion", "topology")
+    assert found("if TYPE_CHECKING:\n    from linkwright.kinematics import motion", "topology")
+    assert found("import linkwright.plotting.curves", "analysis")
+    assert not found("from linkwright.topology import analysis", "kinematics")
 
 
 @pytest.mark.parametrize("package", sorted(STAGE))

@@ -7,8 +7,8 @@ import pytest
 from tests.every import every
 
 import linkwright as lw
+from linkwright.analysis import METRICS, Analysis, Summary, centrode, instant_centre, metrics
 from linkwright.files.build import Model
-from linkwright.metrics import METRICS, Analysis, Summary, centrode, instant_centre, metrics
 
 
 def four_bar(turn: float = 0.0, mirror: float = 1.0, scale: float = 1.0) -> lw.Mechanism:

@@ -8,8 +8,8 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
+from linkwright.analysis import METRICS, Analysis, MetricsTable, metrics
 from linkwright.gallery import names
-from linkwright.metrics import METRICS, Analysis, MetricsTable, metrics
 
 SKIPPED = {"truss", "two_bars_equilibrium"}
 

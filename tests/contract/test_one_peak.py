@@ -12,8 +12,8 @@ from tests import store
 
 import linkwright as lw
 from linkwright.cli import main
-from linkwright.plot import plot
-from linkwright.plot.animation import animate
+from linkwright.plotting import plot
+from linkwright.plotting.animation import animate
 
 #: Positions of the coarse cycle, and of the fine one.
 FEW, MANY = 24, 5760

@@ -1,7 +1,7 @@
 """The public names: each is there, documented, and seen by type checkers as well."""
 
 import ast
-import importlib
+import importlib.util
 import subprocess
 import sys
 from pathlib import Path
@@ -32,9 +32,6 @@ def test_a_name_that_is_not_there() -> None:
         linkwright.solve_everything  # noqa: B018
 
 
-PACKAGES = ("structure", "metrics", "export", "loads", "plot", "worked", "report")
-
-
 def test_everything_public_comes_with_a_star() -> None:
     names: dict[str, object] = {}
     exec("from linkwright import *", names)
@@ -42,50 +39,15 @@ def test_everything_public_comes_with_a_star() -> None:
         assert names[name] is getattr(linkwright, name)
 
 
-FIRST = ("", "import linkwright.{0}", "from linkwright.{0} import *", "linkwright.{0}")
-#: Each way of the arguments in a process of its own, which has imported nothing of the package but its name.
-CALLED = """
-import inspect, os, sys, traceback, numpy
-import linkwright
-names, ways = (each.split("|") for each in sys.argv[1:])
-for name, first in [(name, way.format(name)) for name in names for way in ways]:
-    if (process := os.fork()) == 0:
-        try:
-            exec(first)
-            exec(f"import linkwright.{name}")
-            found = getattr(linkwright, name)
-            assert inspect.ismodule(found) and callable(found), found
-            try:
-                found(no_such_option=1)
-            except TypeError as error:
-                print(name, *inspect.signature(found).parameters, error, sep="|", flush=True)
-            os._exit(0)
-        except BaseException:
-            traceback.print_exc()
-            sys.stderr.flush()
-            os._exit(1)
-    assert os.waitpid(process, 0)[1] == 0, (name, first)
-"""
+def test_functions_and_subpackages_have_names_of_their_own() -> None:
+    for _, name in NAMES:
+        assert importlib.util.find_spec(f"linkwright.{name}") is None, name
 
 
-def test_a_package_is_called_as_its_function_whatever_is_imported_first() -> None:
-    """The package's modules, the function's parameters and a call through the package."""
-    command = [sys.executable, "-c", CALLED, "|".join(PACKAGES), "|".join(FIRST)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    told = [line.split("|") for line in done.stdout.splitlines()]
-    assert [name for name, *_ in told] == [name for name in PACKAGES for _ in FIRST]
-    for name, parameter, *_, refusal in told:
-        assert parameter in {"mechanism", "result", "source", "text", "results", "motion", "machines"}, name
-        assert parameter in refusal or "no_such_option" in refusal, name
-
-
-def test_packages_and_functions_work_side_by_side() -> None:
-    for name in ("metrics", "structure"):
-        importlib.import_module(f"linkwright.{name}")
+def test_functions_and_subpackages_are_both_there() -> None:
     mechanism = linkwright.load("gallery:crank_rocker")
-    assert isinstance(linkwright.structure(mechanism), linkwright.structure.Structure)
-    assert "transmission_angle" in linkwright.metrics.METRICS
+    assert isinstance(linkwright.structure(mechanism), linkwright.topology.Structure)
+    assert "transmission_angle" in linkwright.analysis.METRICS
     assert linkwright.metrics(linkwright.solve_motion(mechanism, steps=36)).rows
     assert linkwright.loads(linkwright.dump(mechanism)) == mechanism
 

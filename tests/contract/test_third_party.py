@@ -26,11 +26,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from linkwright.drivers.base import LAWS
-from linkwright.loads import base
-from linkwright.loads.base import LOADS, Load
-from linkwright.loads.site import Wrench
-from linkwright.metrics import METRICS
-from linkwright.metrics.base import Metric
+from linkwright.applied_loads import base
+from linkwright.applied_loads.base import LOADS, Load
+from linkwright.applied_loads.site import Wrench
+from linkwright.analysis import METRICS
+from linkwright.analysis.base import Metric
 from linkwright.fields.base import Quantity
 
 

@@ -9,6 +9,7 @@ import pytest
 from tests.refusals import noted
 
 import linkwright as lw
+from linkwright.analysis import MetricValue
 
 HEAD = """
 format: 1
@@ -80,7 +81,7 @@ def test_guides_whose_crossing_stands_still_do_not_go_to_infinity(body: str) -> 
 def test_the_room_of_what_goes_to_infinity_has_no_bounds(body: str) -> None:
     """Before, it is the triangle of both pins on the frame and the farthest place, 0.2 m / tan 5° away."""
 
-    def room(end: str) -> lw.metrics.MetricValue:
+    def room(end: str) -> MetricValue:
         machine = model(body, TURN, f"from: -40 deg, to: {end} deg")
         (found,) = lw.metrics(lw.solve_motion(machine, steps=12, failures="mark"), ["swept_area"]).rows
         return found

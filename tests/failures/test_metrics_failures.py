@@ -7,6 +7,7 @@ from tests import store
 from tests.refusals import refused
 
 import linkwright as lw
+from linkwright.analysis import coupler_curve, metrics
 from linkwright.machine import (
     TorqueCurve,
     disk,
@@ -20,7 +21,6 @@ from linkwright.machine import (
     steady_running,
     true_speed,
 )
-from linkwright.metrics import coupler_curve, metrics
 
 
 def forces_of(name: str) -> lw.Forces:

@@ -13,7 +13,7 @@ from tests.refusals import noted, refused
 
 import linkwright as lw
 from linkwright import input_range, limit_positions
-from linkwright.metrics import metrics
+from linkwright.analysis import metrics
 
 
 @pytest.mark.rotating

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from linkwright.errors import LinkwrightError
-from linkwright.plot import Diagram, plot
+from linkwright.plotting import Diagram, plot
 
 
 def drawn_in_chinese(result: Any, kind: str | None = None, **options: Any) -> Diagram:

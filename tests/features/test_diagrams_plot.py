@@ -16,7 +16,7 @@ from tests.refusals import refused
 import linkwright as lw
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.machine import steady_running
-from linkwright.plot import Diagram, plot
+from linkwright.plotting import Diagram, plot
 
 CRUSHER = store.machine("jaw_crusher_sixbar")
 
@@ -265,7 +265,7 @@ def test_sizes_beyond_all_paper_are_refused(forces: lw.Forces) -> None:
 @pytest.mark.rotating
 def test_a_plot_imports_nothing_that_it_does_not_write() -> None:
     code = (
-        "import sys, linkwright as lw; from linkwright.plot import plot;"
+        "import sys, linkwright as lw; from linkwright.plotting import plot;"
         "plot(lw.load('gallery:crank_rocker'), 'sva').svg();"
         "print(*(set(sys.modules) & {'fontTools.subset', 'matplotlib.pyplot', 'scipy', 'ezdxf', 'linkwright.designs',"
         "'linkwright.parts', 'linkwright.synthesis', 'linkwright.designs.tolerance'}))"

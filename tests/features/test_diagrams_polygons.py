@@ -10,7 +10,7 @@ from tests.refusals import refused
 
 import linkwright as lw
 from linkwright.errors import RequestError
-from linkwright.plot import plot
+from linkwright.plotting import plot
 
 #: Places in the file have two decimals, a polygon is some 200 units long.
 RESOLUTION = 3e-4

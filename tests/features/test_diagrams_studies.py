@@ -16,12 +16,12 @@ from tests.features.chinese import drawn_in_chinese
 from tests.refusals import refused
 
 import linkwright as lw
+from linkwright.analysis import coupler_curve, metrics
 from linkwright.cli import main
 from linkwright.designs import Comparison, Study, compare, sensitivity, study, sweep
 from linkwright.errors import RequestError
 from linkwright.machine import Balancing, TorqueCurve, balance
-from linkwright.metrics import coupler_curve, metrics
-from linkwright.plot import Diagram
+from linkwright.plotting import Diagram
 
 Floats = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ import pytest
 from tests.every import every
 
 from linkwright import parts
-from linkwright.plot import plot
+from linkwright.plotting import plot
 
 
 @cache

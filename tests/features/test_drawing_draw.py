@@ -14,7 +14,7 @@ from tests.refusals import refused
 import linkwright as lw
 from linkwright import Drawing, draw
 from linkwright.errors import RequestError
-from linkwright.plot.animation import animate
+from linkwright.plotting.animation import animate
 
 SVG = "{http://www.w3.org/2000/svg}"
 

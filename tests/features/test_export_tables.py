@@ -17,7 +17,7 @@ from tests.refusals import refused
 import linkwright as lw
 from linkwright import Forces
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.export import export
+from linkwright.exporters import export
 
 FORMULA = '=HYPERLINK("http://example.org","x")'
 

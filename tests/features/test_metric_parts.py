@@ -13,8 +13,8 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.metrics import METRICS, Analysis, Summary, coupler_curve, metrics
-from linkwright.metrics.base import Metric, Number
+from linkwright.analysis import METRICS, Analysis, Summary, coupler_curve, metrics
+from linkwright.analysis.base import Metric, Number
 
 DENSE = 7200
 MACHINE = store.machine("crank_rocker")

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import linkwright as lw
-from linkwright.plot import plot
-from linkwright.plot.animation import animate
+from linkwright.plotting import plot
+from linkwright.plotting.animation import animate
 
 NAME = "a\x01b\ufffe\uffff\x1b[31m\x85 <&> %%c"
 LEFT = "ab[31m <&> %%c"

@@ -10,7 +10,7 @@ from tests.every import every
 
 import linkwright as lw
 from linkwright import gallery
-from linkwright.metrics import METRICS
+from linkwright.analysis import METRICS
 from linkwright.words import in_language
 
 DOCS = Path(__file__).parents[2] / "docs"

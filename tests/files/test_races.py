@@ -9,7 +9,7 @@ from tests import store
 from tests.at_once import at_once
 
 from linkwright.errors import RequestError
-from linkwright.export.sweep_parts import sweep_parts
+from linkwright.exporters.sweep_parts import sweep_parts
 
 
 def test_of_two_sweeps_into_one_folder_one_is_refused(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import linkwright as lw
-from linkwright.metrics import METRICS, Analysis
+from linkwright.analysis import METRICS, Analysis
 
 
 def numbers_alone(

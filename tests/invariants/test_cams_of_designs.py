@@ -14,7 +14,7 @@ from tests.refusals import findings
 from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.metrics import METRICS, Analysis, Summary
+from linkwright.analysis import METRICS, Analysis, Summary
 
 Floats = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from tests.invariants.rubbing import rubbing
 from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.metrics import METRICS, metrics
+from linkwright.analysis import METRICS, metrics
 
 #: Machines with what varies: an expression, a table and an expression of three cylinders, a part of a turn, two
 #: drivers of speeds 1 : -2, a driven slide.

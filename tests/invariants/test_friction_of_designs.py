@@ -11,7 +11,7 @@ from tests.reference.random_mechanisms import random_mechanism
 from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.metrics import Analysis, Summary
+from linkwright.analysis import Analysis, Summary
 
 STEPS = 48
 

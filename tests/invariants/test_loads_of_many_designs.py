@@ -6,7 +6,7 @@ from tests.invariants.loaded_presses import AT, BY_LIMITS, GEARED, LOADS, MODEL,
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.metrics import metrics
+from linkwright.analysis import metrics
 
 BY = "rod.length"
 OUTPUTS = ("driver.effort rms", "driver.effort max", "reaction A on rod mean")

@@ -10,6 +10,7 @@ from tests.store import forces as loaded
 from tests.store import machine, text
 
 import linkwright as lw
+from linkwright.analysis import metrics
 from linkwright.machine import (
     TorqueCurve,
     equivalent,
@@ -19,7 +20,6 @@ from linkwright.machine import (
     steady_running,
     true_speed,
 )
-from linkwright.metrics import metrics
 
 MACHINES = ("jaw_crusher_sixbar", "jaw_crusher_fourbar", "shaper_quick_return")
 

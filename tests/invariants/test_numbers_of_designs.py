@@ -7,9 +7,9 @@ from tests.store import machine as stored
 from tests.store import motion as moved
 
 import linkwright as lw
-from linkwright.metrics import METRICS, metrics
-from linkwright.metrics.base import METRICS as REGISTRY
-from linkwright.metrics.base import Metric, Number
+from linkwright.analysis import METRICS, metrics
+from linkwright.analysis.base import METRICS as REGISTRY
+from linkwright.analysis.base import Metric, Number
 
 NAMES = [name for name, metric in METRICS.items() if not metric.on_request and name != "limit_position"]
 #: Numbers that are found of each design by itself.

@@ -10,7 +10,7 @@ from tests.invariants.numbers_alone import numbers_alone
 from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.metrics import METRICS
+from linkwright.analysis import METRICS
 
 Floats = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import linkwright as lw
-from linkwright.metrics import metrics
+from linkwright.analysis import metrics
 
 MODEL = """
 format: 1

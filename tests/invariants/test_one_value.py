@@ -15,9 +15,9 @@ from tests.store import machine as stored
 
 import linkwright as lw
 from linkwright import parts
+from linkwright.analysis import METRICS
 from linkwright.cli import main
 from linkwright.machine import steady_running
-from linkwright.metrics import METRICS
 
 #: A pulse that acts on 4° of the crank: positions a degree apart miss its top.
 PULSE = """

@@ -8,7 +8,7 @@ from scipy.special import ellipe, ellipk
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.metrics import metrics
+from linkwright.analysis import metrics
 
 
 @pytest.mark.rotating

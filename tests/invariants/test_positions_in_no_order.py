@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.metrics import metrics
+from linkwright.analysis import metrics
 
 
 def shuffled(values: np.ndarray) -> np.ndarray:

@@ -9,6 +9,7 @@ import pytest
 from tests.store import motion
 
 import linkwright as lw
+from linkwright.analysis import MetricValue
 from linkwright.cli import main
 
 BRACKET = """
@@ -33,7 +34,7 @@ driver: {{turn: crank, about: A, speed: 60 rpm, start: {start} deg}}
 """
 
 
-def row(name: str) -> lw.metrics.MetricValue:
+def row(name: str) -> MetricValue:
     return lw.metrics(motion(name, 72))["singularity"][0]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.structure import Group, Structure
+from linkwright.topology import Group, Structure
 
 #: By signature: class, order, the links with their own pins (lower case: on links before), guides (guide, block).
 GROUPS: dict[str, tuple[int, int, dict[str, str], list[tuple[str, str]]]] = {

@@ -12,8 +12,8 @@ from tests.store import forces as loaded
 from tests.store import machine as stored
 
 import linkwright as lw
+from linkwright.analysis import METRICS, metrics
 from linkwright.machine import equivalent_inertia, steady_running, true_speed
-from linkwright.metrics import METRICS, metrics
 
 OWN = ["speed_fluctuation", "slowest_speed", "fastest_speed"]
 SIZED = ["exact_flywheel", "reached_fluctuation"]

@@ -10,7 +10,7 @@ from tests.every import every
 
 import linkwright as lw
 from linkwright import parts
-from linkwright.report import SECTIONS
+from linkwright.reports import SECTIONS
 
 PAGES = {each: Path("docs", each, "cases", "contents.md") for each in ("en", "zh")}
 ROOT = Path(__file__).parents[2]

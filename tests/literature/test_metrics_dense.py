@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.metrics import MetricsTable, metrics
+from linkwright.analysis import MetricsTable, metrics
 
 DENSE = 7200
 FOURBAR = """

@@ -10,8 +10,8 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
+from linkwright.analysis import MetricsTable, coupler_curve, four_bars, metrics
 from linkwright.files.build import Model
-from linkwright.metrics import MetricsTable, coupler_curve, four_bars, metrics
 
 RECIPROCATING = """
 format: 1

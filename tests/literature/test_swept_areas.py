@@ -11,7 +11,7 @@ from tests.reference.geared_mechanisms import geared_case
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.metrics import metrics
+from linkwright.analysis import metrics
 
 #: A point of a drawing: its name and coordinates.
 DRAWN = r"  (P\d+): \[(\S+) m, (\S+) m\]\n"

@@ -102,7 +102,7 @@ def metrics(machine: Machine) -> Entries:
 
 def chains(machine: Machine) -> Entries:
     """Four-bar loops with their lengths and Grashof's margins."""
-    from linkwright.metrics import four_bars
+    from linkwright.analysis import four_bars
 
     for bar in four_bars(machine.mechanism):
         yield bar.name, "m", [bar.margin, *bar.lengths.values()]
@@ -110,7 +110,7 @@ def chains(machine: Machine) -> Entries:
 
 def coupler(machine: Machine, point: str) -> Entries:
     """Length, area and special points of a coupler curve."""
-    from linkwright.metrics import coupler_curve
+    from linkwright.analysis import coupler_curve
 
     found = coupler_curve(machine.motion, point)
     yield from leaves({"length [m]": found.length, "area [m²]": found.area, "path [m]": found.path})
@@ -120,7 +120,7 @@ def coupler(machine: Machine, point: str) -> Entries:
 
 def centre(machine: Machine, link: str) -> Entries:
     """The instant centre of a link on the frame."""
-    from linkwright.metrics import instant_centre
+    from linkwright.analysis import instant_centre
 
     yield "", "m of centres", curve(instant_centre(machine.motion, link))
 

@@ -77,7 +77,7 @@ def write_result(name: str | None, found: Tabular, session: Session, *, force: b
     """Writes a result as the file's ending says: its columns or tables, or its data."""
     if name is None:
         return
-    from linkwright.export.export import chosen_format, content_of
+    from linkwright.exporters.export import chosen_format, content_of
 
     path = Path(name)
     write_whole(path, content_of(found, chosen_format(path, None), session.language), force=force)

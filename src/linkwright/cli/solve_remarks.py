@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from linkwright.analysis.analysis import Kind
 from linkwright.cli.solving import Solved, named_columns
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.dataclass import dataclass
@@ -19,7 +20,6 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
-from linkwright.metrics.analysis import Kind
 from linkwright.words import Say, _, language_of, pgettext
 
 Wanted = tuple[Callable[[Forces], Floats], Kind]
@@ -141,7 +141,7 @@ def closeness(motion: Motion, language: str) -> list[str]:
     """
     if not motion.inputs or not motion.ok.any():
         return []
-    from linkwright.metrics.singularity import Singularity
+    from linkwright.analysis.singularity import Singularity
 
     cycle = motion
     if not motion.positions.closed:

@@ -11,8 +11,8 @@ from linkwright.cli.session import Session
 from linkwright.cli.solving import Solved, leading, point_keys
 from linkwright.core.table import Column
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure import Structure
-from linkwright.structure.analysis import turned_against
+from linkwright.topology import Structure
+from linkwright.topology.analysis import turned_against
 from linkwright.words import Say, _, language_of, pgettext
 from linkwright.words.characters import GAP, cells, padded
 from linkwright.words.sentence import in_language

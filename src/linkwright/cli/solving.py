@@ -11,6 +11,7 @@ from typing import Literal
 
 import numpy as np
 
+from linkwright.analysis.analysis import Analysis
 from linkwright.cli.errors import UsageError
 from linkwright.cli.positions import inputs, joined, places
 from linkwright.core.arrays import Floats, Indices, largest
@@ -29,7 +30,6 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.analysis import Analysis
 from linkwright.words import _
 
 Failures = Literal["raise", "mark"]

@@ -38,5 +38,5 @@ class Plotted:
     @attached
     def plot(self, kind: str | None = None, **options: Any) -> Diagram:
         """A diagram, the usual one of such results unless a ``kind`` is named; kinds and options:
-        ``linkwright.plot.plot``."""
+        ``linkwright.plotting.plot``."""
         raise NotImplementedError

@@ -9,7 +9,7 @@ from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.equations.terms import APPLY, Term
-from linkwright.worked.solution import Worked
+from linkwright.worked_solutions.solution import Worked
 
 #: Changes the formula of one line: its number, its result, its formula.
 Change = Callable[[int, Term, Term], Term]

@@ -19,7 +19,7 @@ from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.worked.solution import worked
+from linkwright.worked_solutions.solution import worked
 
 RPM = 2.0 * math.pi / 60.0
 #: Off the middle of its link by this share of its length, a mass centre can be measured from the wrong end.

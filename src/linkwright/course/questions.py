@@ -20,8 +20,8 @@ from linkwright.course.variants import Variant, Variants
 from linkwright.drivers.base import Law
 from linkwright.errors import RequestError, speaker
 from linkwright.files.write import to_data
-from linkwright.plot.drawing.draw import draw
-from linkwright.plot.drawing.machine import DIAGONAL
+from linkwright.plotting.drawing.draw import draw
+from linkwright.plotting.drawing.machine import DIAGONAL
 from linkwright.words import Say, _
 
 #: Width of the pictures of questions, pixels.
@@ -69,7 +69,7 @@ def drawing(found: Variants, each: Variant, language: str, diagonal: float = DIA
 
 def data_rows(found: Variants, each: Variant, say: Say) -> list[tuple[str, str]]:
     """What a variant gives: every dimension of links and frame, loads, input and its rate."""
-    from linkwright.report.sections.task import given, kind_of
+    from linkwright.reports.sections.task import given, kind_of
 
     model, rows = each.mechanism, []
     for name, (x, y) in model.frame.points.items():
@@ -131,9 +131,18 @@ def braceless(text: str) -> str:
 # sheets and key ---------------------------------------------------------------------------------
 def sheets(found: Variants, language: str) -> Files:
     """One page per variant: drawing, data, numbers asked for."""
-    from linkwright.report.document import Block, Document, Figure, Heading, Paragraph, Source, Table, literal
-    from linkwright.report.legible import legible
-    from linkwright.report.typst_pages import compiled
+    from linkwright.reports.document import (
+        Block,
+        Document,
+        Figure,
+        Heading,
+        Paragraph,
+        Source,
+        Table,
+        literal,
+    )
+    from linkwright.reports.legible import legible
+    from linkwright.reports.typst_pages import compiled
 
     say = speaker(language)
     document = Document(say(_("Exercise: {name}", name=found.name)), say, language, contents=False)

@@ -13,6 +13,8 @@ from typing import Any, Literal
 
 import numpy as np
 
+from linkwright.analysis import metrics
+from linkwright.analysis.transmission_angle import TransmissionAngle
 from linkwright.core.attached import attached
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
@@ -25,8 +27,6 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.model_file import load
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics import metrics
-from linkwright.metrics.transmission_angle import TransmissionAngle
 from linkwright.words import _
 
 FORMAT = 1
@@ -269,7 +269,7 @@ def _transmission(mechanism: Mechanism) -> float | None:
 
 
 def _transmits(motion: Any) -> bool:
-    from linkwright.metrics.base import METRICS
+    from linkwright.analysis.base import METRICS
 
     return METRICS["transmission_angle"]().applies(motion)
 

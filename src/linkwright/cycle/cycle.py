@@ -11,6 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
+from linkwright.applied_loads.phases import MovingPhase, SwingPhase
 from linkwright.core.arrays import Indices
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.cycle.block import Swings
@@ -22,7 +23,6 @@ from linkwright.events.formula import Formula
 from linkwright.formula.trace import Scalar, absolute
 from linkwright.kinetostatics.friction import FrictionTerm
 from linkwright.kinetostatics.load_site import acts_name
-from linkwright.loads.phases import MovingPhase, SwingPhase
 
 
 class Cycle(Asked):

@@ -8,6 +8,9 @@ from math import pi
 
 import numpy as np
 
+from linkwright.applied_loads.phases import InputPhase, MovingPhase, SwingPhase
+from linkwright.applied_loads.sizes import Table
+from linkwright.applied_loads.strokes import NEAR
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.outputs import Output
 from linkwright.cycle.block import Block, ByColumns
@@ -21,9 +24,6 @@ from linkwright.events.stretches import Cuts
 from linkwright.events.strokes import Repeated, between, of_limits
 from linkwright.formula.trace import Scalar, Trace, sin
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.loads.phases import InputPhase, MovingPhase, SwingPhase
-from linkwright.loads.sizes import Table
-from linkwright.loads.strokes import NEAR
 
 #: The column that is a value which is reached.
 REACH = "reach"

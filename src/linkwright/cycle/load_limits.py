@@ -8,6 +8,7 @@ from math import pi
 
 import numpy as np
 
+from linkwright.applied_loads.signals import BetweenLimits
 from linkwright.core.arrays import Flags, Floats
 from linkwright.cycle.block import Block, ByColumns, Swings
 from linkwright.cycle.machine import Machine
@@ -22,7 +23,6 @@ from linkwright.kinetostatics.load_site import (
     value_name,
 )
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.loads.signals import BetweenLimits
 
 #: Designs of which limits are sought together.
 BLOCK = 1024

@@ -12,6 +12,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from linkwright.applied_loads.base import Load
+from linkwright.applied_loads.phases import SwingPhase
+from linkwright.applied_loads.strokes import NEAR, TURN
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.cycle.machine import length_name, since_name
 from linkwright.events.events import AT, Designs, at_times
@@ -20,9 +23,6 @@ from linkwright.events.limits import Limits
 from linkwright.events.stretches import Span
 from linkwright.events.strokes import Ends, Strokes
 from linkwright.kinetostatics.load_site import acts_name
-from linkwright.loads.base import Load
-from linkwright.loads.phases import SwingPhase
-from linkwright.loads.strokes import NEAR, TURN
 
 Columns = dict[str, Floats]
 

@@ -9,6 +9,10 @@ from typing import NoReturn
 
 import numpy as np
 
+from linkwright.applied_loads.base import Load
+from linkwright.applied_loads.phases import Always, MovingPhase
+from linkwright.applied_loads.sizes import Formula as Expression
+from linkwright.applied_loads.sizes import Table
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.curves.pieces import HIGH, LOW
@@ -47,10 +51,6 @@ from linkwright.kinetostatics.named_outputs import Named, Quantity
 from linkwright.kinetostatics.programs import ForcePrograms, force_programs
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import TURNING, AlongInput, numbers_of_loads
-from linkwright.loads.base import Load
-from linkwright.loads.phases import Always, MovingPhase
-from linkwright.loads.sizes import Formula as Expression
-from linkwright.loads.sizes import Table
 from linkwright.mechanism.mechanism import Mechanism
 
 #: Change of an angle between two positions, or from a line, rad, up to which there is no doubt how often it turned.

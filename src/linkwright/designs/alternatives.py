@@ -11,6 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
+from linkwright.analysis import Analysis
+from linkwright.analysis.of_output import Asked, pivot
+from linkwright.analysis.outputs import mechanism_outputs
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
@@ -26,9 +29,6 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.machine import flywheel_inertia
 from linkwright.machine.running import require_steady
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics import Analysis
-from linkwright.metrics.of_output import Asked, pivot
-from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.words import _
 
 #: A mean torque of this share of the largest one is zero but for rounding.

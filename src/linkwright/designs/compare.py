@@ -7,6 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar
 
+from linkwright.analysis.base import MetricValue
+from linkwright.analysis.by_name import ask
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS, real, require
@@ -20,8 +22,6 @@ from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.kinematics.outcome import PositionError
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.base import MetricValue
-from linkwright.metrics.by_name import ask
 from linkwright.registry import offered
 from linkwright.units import si_unit
 from linkwright.words import _

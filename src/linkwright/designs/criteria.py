@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import cached_property
 
+from linkwright.analysis import METRICS, Metric, MetricValue
+from linkwright.analysis.by_name import is_summary, measured, metric_named, metric_of, wanted
+from linkwright.analysis.flywheel import SIZED
+from linkwright.analysis.of_output import OWN
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import one_or_more
 from linkwright.designs.alternatives import Alternative
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.metrics import METRICS, Metric, MetricValue
-from linkwright.metrics.by_name import is_summary, measured, metric_named, metric_of, wanted
-from linkwright.metrics.flywheel import SIZED
-from linkwright.metrics.of_output import OWN
 from linkwright.registry import offered
 from linkwright.words import _
 from linkwright.words.sentence import in_words

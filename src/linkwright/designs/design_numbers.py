@@ -8,6 +8,13 @@ from functools import partial
 
 import numpy as np
 
+from linkwright.analysis import Analysis
+from linkwright.analysis.by_name import ask, measured, needs_forces
+from linkwright.analysis.evaluate import unloaded
+from linkwright.analysis.hulls_of_designs import hulls_of_designs, swept
+from linkwright.analysis.of_designs import MetricsOfDesigns, numbers_of_designs
+from linkwright.analysis.of_output import Asked
+from linkwright.analysis.ranges_of_designs import ranged, ranges_of_designs
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS
@@ -22,13 +29,6 @@ from linkwright.formula.threads import chunks
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics import Analysis
-from linkwright.metrics.by_name import ask, measured, needs_forces
-from linkwright.metrics.evaluate import unloaded
-from linkwright.metrics.hulls_of_designs import hulls_of_designs, swept
-from linkwright.metrics.of_designs import MetricsOfDesigns, numbers_of_designs
-from linkwright.metrics.of_output import Asked
-from linkwright.metrics.ranges_of_designs import ranged, ranges_of_designs
 from linkwright.words import _
 
 #: Designs up to which what finds their numbers together may choose to do so without a compiler.

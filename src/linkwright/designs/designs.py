@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.analysis.by_name import wanted
 from linkwright.core.arrays import Flags, Floats, Whole
 from linkwright.core.attached import Plotted
 from linkwright.core.cached_property import cached_property
@@ -31,7 +32,6 @@ from linkwright.formula.threads import chunks
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.by_name import wanted
 from linkwright.words import _
 
 #: Designs of a piece that goes to a cluster; fewer stay on this machine.

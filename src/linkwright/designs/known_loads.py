@@ -12,6 +12,10 @@ from dataclasses import field
 
 import numpy as np
 
+from linkwright.applied_loads.base import Load
+from linkwright.applied_loads.magnitude import Magnitude
+from linkwright.applied_loads.over_cycle import activity
+from linkwright.applied_loads.phases import Always
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import kind_of, owners_of
@@ -24,10 +28,6 @@ from linkwright.kinetostatics.load_site import acts_name, middle_name
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
-from linkwright.loads.base import Load
-from linkwright.loads.magnitude import Magnitude
-from linkwright.loads.over_cycle import activity
-from linkwright.loads.phases import Always
 from linkwright.words import _
 
 FRICTION_SLOPE = _(

@@ -9,6 +9,8 @@ from math import inf
 
 import numpy as np
 
+from linkwright.applied_loads.base import Load
+from linkwright.applied_loads.strokes import TURN
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import kind_of, owners_of, row_name
@@ -22,8 +24,6 @@ from linkwright.kinetostatics.friction_stage import can_be_traced
 from linkwright.kinetostatics.load_site import turns_steadily
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads, traced_magnitude
-from linkwright.loads.base import Load
-from linkwright.loads.strokes import TURN
 from linkwright.mechanism.mechanism import Mechanism
 
 #: The output that is the sum of magnitudes which may not exist, and that is 1 where friction is not certain.

@@ -9,6 +9,14 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.analysis.by_name import is_metric
+from linkwright.analysis.hulls_of_designs import swept
+from linkwright.analysis.of_designs import (
+    MetricsOfDesigns,
+    NumbersOfDesigns,
+    numbers_of_designs,
+    refuse_obstacles,
+)
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS, one_of, require
@@ -26,14 +34,6 @@ from linkwright.kinematics.positions import Positions, at_inputs
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.by_name import is_metric
-from linkwright.metrics.hulls_of_designs import swept
-from linkwright.metrics.of_designs import (
-    MetricsOfDesigns,
-    NumbersOfDesigns,
-    numbers_of_designs,
-    refuse_obstacles,
-)
 from linkwright.words import Message, _
 
 

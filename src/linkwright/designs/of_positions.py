@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from linkwright.analysis.analysis import Analysis
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
@@ -15,7 +16,6 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.analysis import Analysis
 from linkwright.words import Message, _
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.applied_loads.strokes import TURN
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.search import first_largest
 from linkwright.cycle.summary import Summary
@@ -21,7 +22,6 @@ from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.loads.strokes import TURN
 from linkwright.words import _
 
 #: What a summary is of values at positions; extremes skip those that do not exist.

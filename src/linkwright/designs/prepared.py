@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from linkwright.applied_loads.strokes import turned
 from linkwright.core.arrays import Floats
 from linkwright.core.given import STEPS, one_of, require
 from linkwright.core.outputs import Output
@@ -34,7 +35,6 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.load_site import LAP, limit_name
 from linkwright.kinetostatics.run import run_forces
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.loads.strokes import turned
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright import units
+from linkwright.applied_loads.keys import PhaseField
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import si_of, written
 from linkwright.errors import LinkwrightError, RequestError, about
-from linkwright.loads.keys import PhaseField
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Literal, get_args
 
 import numpy as np
 
+from linkwright.analysis.by_name import NO_OUTPUTS, wanted
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
@@ -27,7 +28,6 @@ from linkwright.formula.summaries import BACKENDS, Backend
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.by_name import NO_OUTPUTS, wanted
 from linkwright.words import _
 
 Way = Literal["auto", "forward", "reverse"]

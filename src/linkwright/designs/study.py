@@ -11,6 +11,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.analysis.by_name import ask
+from linkwright.analysis.evaluate import unloaded
+from linkwright.analysis.of_output import Asked
+from linkwright.analysis.outputs import usual_output
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
@@ -34,10 +38,6 @@ from linkwright.formula.machine_code import available
 from linkwright.kinematics.names import place_meant
 from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.by_name import ask
-from linkwright.metrics.evaluate import unloaded
-from linkwright.metrics.of_output import Asked
-from linkwright.metrics.outputs import usual_output
 from linkwright.registry import offered
 from linkwright.units import si_unit
 from linkwright.words import _
@@ -317,7 +317,7 @@ class _Work:
     def _closed(self) -> bool:
         """Whether there is a group with a closed form."""
         from linkwright.kinematics.groups import dyad_shape
-        from linkwright.structure import structure
+        from linkwright.topology import structure
 
         return any(group.cuts and dyad_shape(group) is not None for group in structure(self.mechanism).groups)
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 
+from linkwright.applied_loads.site import Wrench
 from linkwright.core.cached_property import cached_property
 from linkwright.files.model_file import loads
 from linkwright.formula.numpy_backend import NumpyProgram
@@ -26,8 +27,7 @@ from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.rates import RateTracer
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.trace import ForceTrace, trace_forces
-from linkwright.loads.site import Wrench
-from linkwright.structure import structure
+from linkwright.topology import structure
 
 #: A link of a group; each may have a mass.
 _LINK = "{{points: {points}, mass: 1 kg, inertia: 1 kg·m², mass_centre: [1 m, 1 m]}}"

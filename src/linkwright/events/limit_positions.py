@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from linkwright.applied_loads.signals import Limit, LimitKind
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import require
@@ -33,7 +34,6 @@ from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import place_meant, program_names
 from linkwright.kinematics.reached_stretches import Reach
-from linkwright.loads.signals import Limit, LimitKind
 from linkwright.words import _
 
 #: An output whose largest rate is below this share of the mechanism's does not move.

@@ -8,11 +8,11 @@ from functools import partial
 from itertools import groupby
 from typing import Any
 
+from linkwright.applied_loads.base import LOADS
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.files.node_reader import MODES, PlainReader, meant_kind
 from linkwright.joints.base import JOINTS
-from linkwright.loads.base import LOADS
 from linkwright.mechanism.link import LINK_FIELDS
 from linkwright.registry import PROBABLE, nearest
 from linkwright.words import _

@@ -9,6 +9,7 @@ from dataclasses import replace
 from functools import partial
 
 from linkwright import units
+from linkwright.applied_loads.base import Load, read_load
 from linkwright.core import expressions
 from linkwright.core.expression_tree import Derived, derived
 from linkwright.errors import Finding, QuantityError, Severity
@@ -25,7 +26,6 @@ from linkwright.files.read_joints import read_joints, scan_joints
 from linkwright.files.read_links import legible, read_drawing, read_frame, read_links, scan_points
 from linkwright.files.read_outputs import free_name, read_outputs
 from linkwright.files.reader import Reader
-from linkwright.loads.base import Load, read_load
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import GRAVITY, Mechanism
 from linkwright.words import Message, _

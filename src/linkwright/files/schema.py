@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+from linkwright.applied_loads.base import LOADS
 from linkwright.drivers.base import LAWS
 from linkwright.fields.base import Field, Schema, Word, table_schema
 from linkwright.fields.references import Coordinates
@@ -12,7 +13,6 @@ from linkwright.files.node_reader import MODES
 from linkwright.files.read_drivers import CYCLE_FORMS, SLIDE_FIELDS, TURN_FIELDS
 from linkwright.files.read_model import FORMAT, HEADER
 from linkwright.joints.base import JOINTS
-from linkwright.loads.base import LOADS
 from linkwright.mechanism.link import FRAME_FIELDS, LINK_FIELDS
 from linkwright.mechanism.mechanism import Cycle
 from linkwright.words import _

@@ -21,7 +21,7 @@ from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import nearest, offered
-from linkwright.structure.analysis import Structure
+from linkwright.topology.analysis import Structure
 from linkwright.words import Message, _
 from linkwright.words.sentence import lines
 

@@ -30,7 +30,7 @@ from linkwright.kinematics.passing_proof import FINE, NEAR, measures, modal
 from linkwright.kinematics.positions import Positions, at_times, off_law
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.structure import Structure
+from linkwright.topology import Structure
 
 #: A refined minimum of the quality within this distance of zero is a touch; of the squared distance of two pins,
 #: as share of the largest one.

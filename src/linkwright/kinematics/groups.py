@@ -20,7 +20,7 @@ from linkwright.kinematics.closure import Coordinate, cut_of, jacobian, pair_of
 from linkwright.kinematics.dimensions import Dimensions, DriverInput
 from linkwright.kinematics.equation import Equation
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure.analysis import Structure
+from linkwright.topology.analysis import Structure
 
 #: Below this ratio of the square under the root to its best value a position is called singular.
 SINGULAR = 1e-10

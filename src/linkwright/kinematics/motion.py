@@ -23,7 +23,7 @@ from linkwright.kinematics.rest import moving, pace_name
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.structure import Structure
+from linkwright.topology import Structure
 from linkwright.words import _
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from linkwright.kinematics.assembly import assemble
 from linkwright.kinematics.names import program_names
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace, trace_motion
-from linkwright.structure import Structure
+from linkwright.topology import Structure
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism

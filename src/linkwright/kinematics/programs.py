@@ -17,7 +17,7 @@ from linkwright.kinematics.program_shape import Form, shape
 from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure import Structure
+from linkwright.topology import Structure
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ def motion_programs(mechanism: Mechanism, manner: Manner) -> MotionPrograms:
     """The programs of a mechanism's shape.
 
     Raises:
-        StructureError: as :func:`linkwright.structure.structure`.
+        StructureError: as :func:`linkwright.topology.structure`.
     """
     key = Form((shape(mechanism, manner.free), manner.flipping, manner.iterations))
     return _kept.get(None, key, lambda: MotionPrograms(mechanism, analysed(mechanism), manner))

@@ -21,7 +21,7 @@ from linkwright.kinematics.constraint_equations import (
     drawn_coordinates,
 )
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure.mobility import counts, grubler
+from linkwright.topology.mobility import counts, grubler
 from linkwright.words import Message, _
 
 #: Singular values below this share of the largest one count as zero: at solved positions, and in a drawing.

@@ -16,7 +16,7 @@ from linkwright.kinematics.rank import ZERO, RankReport, numeric_rank, rank_at, 
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure import Structure
+from linkwright.topology import Structure
 from linkwright.words import _
 
 

@@ -9,7 +9,7 @@ from linkwright.core.linear_sums import LinearSums
 from linkwright.elements.topology import TreeJoint
 from linkwright.joints.base import LackingError
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure.analysis import Structure
+from linkwright.topology.analysis import Structure
 
 #: ``turn`` of a link, ``slide`` of a guide, ``drive`` of a driver.
 Key = tuple[str, str]

@@ -20,7 +20,7 @@ from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.programs import AS_IT_IS, Manner, MotionPrograms, motion_programs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure import Structure
+from linkwright.topology import Structure
 
 
 class MotionSolver:

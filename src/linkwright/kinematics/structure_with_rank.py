@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure import Structure, StructureError, structure
-from linkwright.structure.mobility import counts, grubler
+from linkwright.topology import Structure, StructureError, structure
+from linkwright.topology.mobility import counts, grubler
 from linkwright.words import _
 
 
@@ -13,7 +13,7 @@ def analysed(mechanism: Mechanism) -> Structure:
     where the joints close, if it says more than the count of what is determined more than once.
 
     Raises:
-        StructureError: as :func:`linkwright.structure.structure`.
+        StructureError: as :func:`linkwright.topology.structure`.
     """
     try:
         return structure(mechanism)

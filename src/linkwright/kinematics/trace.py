@@ -18,7 +18,7 @@ from linkwright.kinematics.groups import GroupTracer, Placed, dyad_shape
 from linkwright.kinematics.rates import RateTracer
 from linkwright.kinematics.rest import moving, pace_name
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure.analysis import Structure
+from linkwright.topology.analysis import Structure
 
 
 @dataclass

@@ -13,7 +13,7 @@ from linkwright.kinematics.rotation_sums import Key, RotationSums, Terms
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.structure.analysis import Structure
+from linkwright.topology.analysis import Structure
 
 #: Cycles of more turns are not looked for.
 MOST = 1000

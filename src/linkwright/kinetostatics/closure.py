@@ -9,7 +9,7 @@ from linkwright.formula.trace import Scalar, absolute, angle, sqrt
 from linkwright.formula.vector import Vec
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinetostatics.load_site import guide_state
-from linkwright.structure.analysis import Structure
+from linkwright.topology.analysis import Structure
 
 
 def dyads(structure: Structure) -> tuple[Group, ...]:

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from linkwright.applied_loads.site import Wrench
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import RelativeAngle, row_name
@@ -16,7 +17,6 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.load_site import guide_state
-from linkwright.loads.site import Wrench
 from linkwright.mechanism.mechanism import Mechanism
 
 

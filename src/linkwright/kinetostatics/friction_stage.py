@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 
+from linkwright.applied_loads.site import Wrench
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection
 from linkwright.formula.linear import product, solution
@@ -21,7 +22,6 @@ from linkwright.formula.vector import ZERO, Vec
 from linkwright.kinetostatics.friction import FrictionTerm, FrictionTerms, traced_rate
 from linkwright.kinetostatics.load_site import guide_state
 from linkwright.kinetostatics.trace import ForceTrace, Size
-from linkwright.loads.site import Wrench
 
 #: Newton's steps, and what the last one may leave, as share of the largest force.
 STEPS, LEFT = 6, 1e-12

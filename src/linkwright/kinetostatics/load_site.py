@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from linkwright.applied_loads.base import Load
+from linkwright.applied_loads.signals import BetweenLimits, place_named
+from linkwright.applied_loads.strokes import moving_of_turn, share_of, stroke_of_turn
 from linkwright.core.outputs import Output, row_name
 from linkwright.formula.trace import Mask, Scalar, angle, cos, select, sign, sin, sqrt
 from linkwright.formula.vector import Vec
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.loads.base import Load
-from linkwright.loads.signals import BetweenLimits, place_named
-from linkwright.loads.strokes import moving_of_turn, share_of, stroke_of_turn
 from linkwright.mechanism.mechanism import Mechanism
 
 
@@ -84,8 +84,8 @@ def guide_state(motion: MotionTrace, joint: str) -> tuple[Vec, Vec, Scalar]:
 
 
 class TracedSite:
-    """One load's view; see :class:`linkwright.loads.site.Site`, :class:`linkwright.loads.signals.Course` and
-    :class:`linkwright.loads.strokes.Turning`.
+    """One load's view; see :class:`linkwright.applied_loads.site.Site`, :class:`linkwright.applied_loads.signals.Course`
+    and :class:`linkwright.applied_loads.strokes.Turning`.
 
     ``along_input``: the magnitude is traced, with ``phase_known`` all but its phase; else one that varies is an input
     of the program per position.

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from functools import cached_property
 
+from linkwright.applied_loads.site import Wrench
 from linkwright.core.outputs import Output, row_name, row_names
 from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import ZERO, Vec
 from linkwright.kinetostatics.trace import ForceTrace
-from linkwright.loads.site import Wrench
 
 
 class ForceOutputs:

@@ -7,6 +7,7 @@ from functools import partial
 
 import numpy as np
 
+from linkwright.applied_loads.over_cycle import evaluate
 from linkwright.core.arrays import Floats
 from linkwright.core.given import STEPS, require
 from linkwright.core.outputs import Output, kind_of, row_name
@@ -23,7 +24,6 @@ from linkwright.kinetostatics.friction import FrictionTerm
 from linkwright.kinetostatics.programs import caused_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.loads.over_cycle import evaluate
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import format as spelled
 from linkwright.words import Message, _

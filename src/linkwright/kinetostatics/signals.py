@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from linkwright.applied_loads.signals import Limit, Whole
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, RelativeAngle
@@ -16,14 +17,13 @@ from linkwright.kinematics.cycle_angles import CycleAngles
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.positions import Positions
 from linkwright.kinetostatics.friction import moving_rate
-from linkwright.loads.signals import Limit, Whole
 from linkwright.mechanism.mechanism import Mechanism
 
 TURN = 2 * np.pi
 
 
 class MotionSignals:
-    """Signals over the positions of a motion; see :class:`linkwright.loads.signals.Signals`.
+    """Signals over the positions of a motion; see :class:`linkwright.applied_loads.signals.Signals`.
 
     Angles and limit positions refer to the mechanism's cycle, so they do not depend on which positions are
     asked.

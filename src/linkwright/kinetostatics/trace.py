@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping, Set
 from dataclasses import field
 from functools import partial
 
+from linkwright.applied_loads.site import Wrench
 from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, TreeJoint
 from linkwright.formula.linear import product, transposed
@@ -23,7 +24,6 @@ from linkwright.kinematics.equation import Equation
 from linkwright.kinematics.groups import Placed
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.load_site import TracedSite, acts_name
-from linkwright.loads.site import Wrench
 
 #: The size of the force between the teeth of a pair, from that force.
 Size = Callable[[Connection, Scalar], Scalar]

@@ -7,6 +7,7 @@ from dataclasses import field
 
 import numpy as np
 
+from linkwright.applied_loads.base import Load
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, row_name
 from linkwright.formula.table import Table
@@ -14,7 +15,6 @@ from linkwright.formula.trace import Scalar
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.load_site import TracedSite, constant_name, middle_name
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.loads.base import Load
 from linkwright.mechanism.mechanism import Mechanism
 
 #: An angle that covers more than this is one of a link that turns.

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
+from linkwright.analysis.analysis import Analysis
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS, real, require
@@ -20,7 +21,6 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.analysis import Analysis
 from linkwright.words import _
 
 Radius = Mapping[str, float] | float

@@ -8,6 +8,7 @@ from itertools import chain
 
 import numpy as np
 
+from linkwright.analysis.analysis import Analysis
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
@@ -20,7 +21,6 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation, of_energy
 from linkwright.machine.torque_curve import TURN, TorqueCurve
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.analysis import Analysis
 from linkwright.words import Message, _
 
 

@@ -8,6 +8,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.analysis.analysis import Analysis
+from linkwright.analysis.singularity import Singularity
+from linkwright.analysis.true_speed import steady_cycle
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
@@ -23,9 +26,6 @@ from linkwright.machine.equivalent import Equivalent, steady_rate
 from linkwright.machine.flywheel import NOTHING, flywheel_inertia, on_faster_shaft, speed_fluctuation
 from linkwright.machine.motor import Motor, motor
 from linkwright.machine.speed import SpeedCurve
-from linkwright.metrics.analysis import Analysis
-from linkwright.metrics.singularity import Singularity
-from linkwright.metrics.true_speed import steady_cycle
 from linkwright.words import Message, Say, _
 
 #: What the numbers are, by the keys of their rows.

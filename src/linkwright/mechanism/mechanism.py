@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import field, fields
 from typing import TYPE_CHECKING, Any
 
+from linkwright.applied_loads.base import Load
 from linkwright.core.attached import attached
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
@@ -18,7 +19,6 @@ from linkwright.fields.base import Field, Quantities, Quantity
 from linkwright.fields.references import PLACE
 from linkwright.joints.base import Joint
 from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
-from linkwright.loads.base import Load
 from linkwright.mechanism.link import Link, Vec
 from linkwright.mechanism.named_output import NamedOutput
 from linkwright.registry import nearest, no_such

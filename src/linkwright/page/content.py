@@ -35,7 +35,7 @@ from linkwright.page.positions import packed, positions
 from linkwright.page.programs import SIZES, PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
 from linkwright.page.texts import TEXTS
-from linkwright.plot.drawing.machine import Machine, fitted
+from linkwright.plotting.drawing.machine import Machine, fitted
 from linkwright.whole_files import write_whole
 from linkwright.words import LANGUAGES, _
 from linkwright.words.sentence import in_language

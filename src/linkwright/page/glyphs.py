@@ -15,17 +15,24 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.applied_loads.base import Load
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
 from linkwright.kinematics.names import canonical
-from linkwright.loads.base import Load
 from linkwright.mechanism.link import Link
 from linkwright.page.contacts import CamContact, RackWay, Wheel, Wheels, contact_shape
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape
-from linkwright.plot.drawing.guides import clear_shift, ground_side, input_arrows, is_cylinder, travel, welds
-from linkwright.plot.drawing.load_marks import Press, Turn, mark_of
-from linkwright.plot.drawing.loads import named_points, pressing
-from linkwright.plot.drawing.machine import Machine, Part, bodies, flat, pins
+from linkwright.plotting.drawing.guides import (
+    clear_shift,
+    ground_side,
+    input_arrows,
+    is_cylinder,
+    travel,
+    welds,
+)
+from linkwright.plotting.drawing.load_marks import Press, Turn, mark_of
+from linkwright.plotting.drawing.loads import named_points, pressing
+from linkwright.plotting.drawing.machine import Machine, Part, bodies, flat, pins
 
 _LENGTHS = 2
 

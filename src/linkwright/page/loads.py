@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from linkwright.applied_loads.base import Load
+from linkwright.applied_loads.phases import Always, InputPhase, MovingPhase, SwingPhase
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import Output
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import program_names
 from linkwright.kinetostatics.load_site import acts_name, middle_name
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.loads.base import Load
-from linkwright.loads.phases import Always, InputPhase, MovingPhase, SwingPhase
 from linkwright.page.positions import known_between
 
 

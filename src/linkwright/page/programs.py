@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from linkwright.applied_loads.base import Load
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_groups
 from linkwright.core.json_data import Plain
@@ -33,7 +34,6 @@ from linkwright.kinetostatics.load_site import TracedSite, guide_state
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
-from linkwright.loads.base import Load
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.dimensions import geometry_addresses
 from linkwright.page.loads import angles, found_again, interval, moving_name, phases, traced_name

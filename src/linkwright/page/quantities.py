@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from linkwright.analysis.outputs import mechanism_outputs
 from linkwright.core.arrays import Floats
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import KINDS, Output, row_names
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.force_names import reaction_pairs
-from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.page.programs import PagePrograms
 from linkwright.words import LANGUAGES, Message, _
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any
 
+from linkwright.applied_loads.force import Force
 from linkwright.core.expressions import amount
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -15,7 +16,6 @@ from linkwright.fields.nodes import Node, Scalar
 from linkwright.files.write import flow
 from linkwright.joints.gear import GearPair
 from linkwright.joints.prismatic import PrismaticJoint
-from linkwright.loads.force import Force
 from linkwright.server import request
 from linkwright.server.draft import Draft, fresh, picture
 from linkwright.server.drawn_contacts import add_cam, add_rack

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 
+from linkwright.analysis import METRICS, metrics
+from linkwright.analysis.outputs import mechanism_outputs
 from linkwright.core.json_data import Plain
 from linkwright.designs.criteria import criterion
 from linkwright.designs.optimise.optimize import optimize
@@ -17,8 +19,6 @@ from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
-from linkwright.metrics import METRICS, metrics
-from linkwright.metrics.outputs import mechanism_outputs
 from linkwright.server.background import Job
 from linkwright.words import _
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from linkwright.applied_loads.base import LOADS
 from linkwright.errors import LinkwrightError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.write import flow
 from linkwright.joints.base import JOINTS
-from linkwright.loads.base import LOADS
 from linkwright.server import request
 from linkwright.server.draft import Draft, fresh, picture, texts, word
 from linkwright.words import _

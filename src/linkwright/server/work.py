@@ -140,12 +140,12 @@ class Work:
         with TemporaryDirectory() as folder:
             path = Path(folder) / f"machine{ending.removeprefix('.report')}"
             if ending.startswith(".report"):
-                from linkwright.report.report import report
+                from linkwright.reports.report import report
 
                 folder_of_file = self._folder(text(asked, "name", ""))
                 report(document.mechanism, language=language, folder=folder_of_file).save(path)
             else:
-                from linkwright.export.export import export
+                from linkwright.exporters.export import export
 
                 more: Plain = {"text": model} if ending == ".html" else {}
                 export(document.mechanism, path, language=language, **more)
@@ -182,7 +182,7 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
         if mechanism is not None:
             from linkwright.kinematics.solve import solve_motion
             from linkwright.page.content import page_data
-            from linkwright.structure import structure
+            from linkwright.topology import structure
 
             found["mobility"] = structure(mechanism).mobility
             found["optimize"] = dict(mechanism.optimize)

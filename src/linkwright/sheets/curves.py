@@ -10,8 +10,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.quantity import per_mm, significant
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import LEAST, Pen, Picture, Runs, Words, as_runs, indexed, joined, round_up
-from linkwright.plot.diagrams.axes import ANGLE_STEPS, InputAxis, Unit
-from linkwright.plot.diagrams.panels import Panel as Plotted
+from linkwright.plotting.diagrams.axes import ANGLE_STEPS, InputAxis, Unit
+from linkwright.plotting.diagrams.panels import Panel as Plotted
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.units import si_unit
 

@@ -15,9 +15,9 @@ from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.labels import TO_UNITS, UNIT, Label, Name, put
 from linkwright.pictures.picture import LEAST, Circle, Fill, Line, Pen, Picture, Vec, as_runs, indexed, joined
 from linkwright.pictures.symbols.base import SYMBOLS, vec
-from linkwright.plot.drawing.loads import load_labels, load_marks
-from linkwright.plot.drawing.machine import View, extent_of
-from linkwright.plot.drawing.scene import Scene, laid_out, link_labels, point_labels
+from linkwright.plotting.drawing.loads import load_labels, load_marks
+from linkwright.plotting.drawing.machine import View, extent_of
+from linkwright.plotting.drawing.scene import Scene, laid_out, link_labels, point_labels
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.sheets.positions import Positions
 from linkwright.words import _, pgettext

@@ -17,8 +17,8 @@ from linkwright.kinematics.solve import with_times
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.report.machine_results import Case
-from linkwright.report.settings import settings as report_settings
+from linkwright.reports.machine_results import Case
+from linkwright.reports.settings import settings as report_settings
 from linkwright.sheets.settings import Subject, places
 from linkwright.words import _
 

@@ -19,7 +19,7 @@ from linkwright.files.reader import SectionReading
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
 from linkwright.registry import Registry
-from linkwright.report.settings import worked_place
+from linkwright.reports.settings import worked_place
 from linkwright.sheets.panel import Panel
 from linkwright.sheets.paper import Paper, Standard
 from linkwright.sheets.title_block import Fields

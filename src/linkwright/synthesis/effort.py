@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from linkwright.analysis.evaluate import metrics
 from linkwright.core.given import real
 from linkwright.kinematics import solve_motion
 from linkwright.kinetostatics.run import solve_forces
-from linkwright.metrics.evaluate import metrics
 from linkwright.synthesis.linkage import Linkage
 
 

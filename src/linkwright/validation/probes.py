@@ -79,7 +79,7 @@ def _motion(source: str, steps: int) -> Any:
 
 def metrics(given: Mapping[str, Any]) -> Find:
     """Design numbers: ``stroke``, or ``stroke guide`` with its subject."""
-    from linkwright.metrics import metrics as table_of
+    from linkwright.analysis import metrics as table_of
 
     motion = _motion(_source(given), 90)
 
@@ -94,7 +94,7 @@ def metrics(given: Mapping[str, Any]) -> Find:
 
 def structure(given: Mapping[str, Any]) -> Find:
     """Mobility and class."""
-    from linkwright.structure import structure as analysis
+    from linkwright.topology import structure as analysis
 
     found = analysis(load(f"gallery:{given['model']}"))
     values = {"mobility": found.mobility, "grubler": found.grubler, "class": found.mechanism_class}

@@ -6,7 +6,7 @@ from linkwright.cli.commands import export as command
 from linkwright.cli.commands.export import OPTIONS
 from linkwright.cli.help import command_parser
 from linkwright.errors import speaker
-from linkwright.export.export import FORMATS
+from linkwright.exporters.export import FORMATS
 
 
 def test_the_command_offers_every_format() -> None:

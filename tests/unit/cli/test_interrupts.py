@@ -100,7 +100,7 @@ def test_interruption_leaves_no_file(
 
         return png(svg, width=100)
 
-    monkeypatch.setattr("linkwright.plot.animation.png", second_frame_never_comes)
+    monkeypatch.setattr("linkwright.plotting.animation.png", second_frame_never_comes)
     assert main(["animate", "gallery:jaw_crusher_sixbar", "--output", str(tmp_path / "a.gif")]) == 130
     assert capsys.readouterr().err == INTERRUPTED
     assert list(tmp_path.iterdir()) == []

@@ -2,7 +2,7 @@
 
 from linkwright import fields
 from linkwright.cli.commands import report
-from linkwright.report.section import section_names
+from linkwright.reports.section import section_names
 from linkwright.sheets import paper
 from linkwright.synthesis.names import TASK_NAMES
 from linkwright.synthesis.section import tasks

@@ -51,6 +51,6 @@ def test_gradients_are_differences_of_fourth_order(name: str) -> None:
 
 
 def _outputs(mechanism: lw.Mechanism) -> tuple[object, ...]:
-    from linkwright.metrics.outputs import mechanism_outputs
+    from linkwright.analysis.outputs import mechanism_outputs
 
     return mechanism_outputs(mechanism)

@@ -5,13 +5,13 @@ import pytest
 from tests.invariants.loaded_presses import MODEL
 
 import linkwright as lw
+from linkwright.applied_loads.phases import MovingPhase, SwingPhase
+from linkwright.applied_loads.strokes import Amount, StrokePart
 from linkwright.core.outputs import Output
 from linkwright.cycle.load_limits import LoadLimits
 from linkwright.cycle.machine import Machine
 from linkwright.cycle.near_limits import NearLimits
 from linkwright.kinetostatics.load_site import limit_name, value_name
-from linkwright.loads.phases import MovingPhase, SwingPhase
-from linkwright.loads.strokes import Amount, StrokePart
 
 
 def test_outputs_that_turn_more_than_twice_are_doubted() -> None:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.analysis.of_designs import NumbersOfDesigns
 from linkwright.cli import main
 from linkwright.core.arrays import Floats
 from linkwright.designs import design_numbers, finished_parts
@@ -19,7 +20,6 @@ from linkwright.designs.finished_parts import _made, _plain
 from linkwright.designs.study import PIECE, _Work
 from linkwright.designs.sweep_run import SweepRun
 from linkwright.formula.reductions import Results
-from linkwright.metrics.of_designs import NumbersOfDesigns
 from linkwright.words import _
 
 pytestmark = pytest.mark.rotating

@@ -9,10 +9,10 @@ from tests.invariants.turned_cams import UNEVEN
 from tests.store import machine as stored
 
 import linkwright as lw
+from linkwright.analysis import Analysis
+from linkwright.analysis.by_name import measured
 from linkwright.cli import main
 from linkwright.cycle.summary import KINDS
-from linkwright.metrics import Analysis
-from linkwright.metrics.by_name import measured
 
 #: A crank that lifts a weight, of which a press takes part from 42° on, between two of 36 positions.
 PRESS = """

@@ -12,9 +12,9 @@ from tests.refusals import refused
 from linkwright.joints.base import Joint, LackingError
 from linkwright.mechanism.wheel_sizes import disc_radii, wheel_sizes
 from linkwright.page.contacts import contact_shape
-from linkwright.plot.drawing.joint_marks import marks as marks_of
-from linkwright.worked.contacts import contact_of
-from linkwright.worked.wheels import own_form
+from linkwright.plotting.drawing.joint_marks import marks as marks_of
+from linkwright.worked_solutions.contacts import contact_of
+from linkwright.worked_solutions.wheels import own_form
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from tests.invariants.output_driven import turning
 
 import linkwright as lw
+from linkwright.analysis import Analysis
 from linkwright.events.path_step import PathStep
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.branch import Branch, Node, _Walk, follow, straight
@@ -22,7 +23,6 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.reach_sentences import branch_notes
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.step_rule import CORRECTION, MISFIT
-from linkwright.metrics import Analysis
 
 pytestmark = pytest.mark.rotating
 

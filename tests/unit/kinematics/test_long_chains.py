@@ -4,10 +4,10 @@ import pytest
 from tests.invariants.fourbars import four_bars
 
 import linkwright as lw
+from linkwright.analysis import Analysis
 from linkwright.formula.program import Program
 from linkwright.kinematics.placement import placements
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.metrics import Analysis
 
 
 def programs_of(count: int, monkeypatch: pytest.MonkeyPatch) -> int:

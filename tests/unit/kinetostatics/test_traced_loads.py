@@ -5,10 +5,10 @@ import pytest
 from tests.invariants.loaded_presses import LOADS, machine
 
 import linkwright as lw
+from linkwright.applied_loads.over_cycle import evaluate
 from linkwright.core.outputs import row_name
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.loads.over_cycle import evaluate
 
 pytestmark = pytest.mark.rotating
 

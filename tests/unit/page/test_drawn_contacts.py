@@ -16,7 +16,7 @@ from tests.ui.pages import STEPS, page, page_of
 
 import linkwright as lw
 from linkwright.mechanism.cam_shape import CamShape
-from linkwright.plot.drawing.joint_marks import marks as marks_of
+from linkwright.plotting.drawing.joint_marks import marks as marks_of
 
 pytestmark = needs_chromium
 

@@ -11,7 +11,7 @@ import pytest
 import linkwright as lw
 from linkwright.kinematics.placement import placements
 from linkwright.page.glyphs import glyphs
-from linkwright.plot.drawing.machine import Machine, fitted
+from linkwright.plotting.drawing.machine import Machine, fitted
 
 ENGINE = """
 format: 1

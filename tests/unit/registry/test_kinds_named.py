@@ -15,33 +15,33 @@ import pytest
 from tests.every import every
 
 import linkwright
+from linkwright.analysis import METRICS
+from linkwright.applied_loads.base import LOADS
 from linkwright.drivers.base import LAWS
 from linkwright.groups.base import DYADS
 from linkwright.joints.base import JOINTS
-from linkwright.loads.base import LOADS
-from linkwright.metrics import METRICS
 from linkwright.registry import Registry
 
 ROOT = Path(linkwright.__file__).parent
 #: The rooms of the kinds' own files, with their registries.
 ROOMS: Mapping[str, Registry] = {
-    "joints": JOINTS, "loads": LOADS, "drivers": LAWS, "groups": DYADS, "metrics": METRICS,
+    "joints": JOINTS, "applied_loads": LOADS, "drivers": LAWS, "groups": DYADS, "analysis": METRICS,
 }  # fmt: skip
 #: Rooms that solve: nothing there asks which kind an element is.
-SOLVING = ("structure", "kinematics", "engine", "groups")
+SOLVING = ("topology", "kinematics", "engine", "groups")
 #: What is left, by file: how often a kind is asked for or imported, and why.
 LEFT: Mapping[str, tuple[int, str]] = {
     "cams/compensating_cam.py": (2, "finds the lift of a cam joint"),
     "dyads/calls.py": (7, "calls of the teaching subprograms, of which each is about kinds of its own"),
     "dyads/listed_forces.py": (4, "which loads and joints a listing can write"),
     "dyads/listing.py": (4, "which laws and joints a listing can write"),
-    "plot/flow_chart/content.py": (3, "words of a flow chart for gears, cams and laws"),
+    "plotting/flow_chart/content.py": (3, "words of a flow chart for gears, cams and laws"),
     "sheets/kinds/cam.py": (3, "the sheet of a cam, of a machine's too"),
     "cams/joint.py": (2, "designs the cam of a cam joint"),
-    "report/sections/cams.py": (2, "the section of reports on the design of cams"),
-    "worked/cams.py": (1, "the formulas of a cam joint, which asks for them"),
-    "worked/lifts.py": (1, "the same, of its lift"),
-    "worked/wheels.py": (1, "the same, from the joint's hook to them"),
+    "reports/sections/cams.py": (2, "the section of reports on the design of cams"),
+    "worked_solutions/cams.py": (1, "the formulas of a cam joint, which asks for them"),
+    "worked_solutions/lifts.py": (1, "the same, of its lift"),
+    "worked_solutions/wheels.py": (1, "the same, from the joint's hook to them"),
     "server/drawn_contacts.py": (2, "tools of the studio that write a cam, a rack into a file"),
     "server/edits.py": (3, "tools of the studio that write a guide, a slot, a gear, a force into a file"),
     "designs/tolerance/pin_turning_law.py": (
@@ -52,17 +52,17 @@ LEFT: Mapping[str, tuple[int, str]] = {
     "machine/running.py": (1, "says how near its motion comes to a singular position"),
     "course/variants.py": (1, "which transmission angles are good: the metric's limit"),
     "cli/solve_remarks.py": (1, "says how near a solution is to a singular position"),
-    "export/modelica/laws.py": (3, "the texts of laws, by type"),
+    "exporters/modelica/laws.py": (3, "the texts of laws, by type"),
     "mechanism/cam_shape.py": (1, "the profile of a cam joint"),
     "mechanism/wheel_sizes.py": (5, "the sizes of wheels, by type"),
     "page/contacts.py": (8, "what pages draw of pairs, by type"),
-    "plot/drawing/joint_marks.py": (5, "what drawings show of joints, by type"),
-    "worked/contacts.py": (4, "how forces of pairs act, by type"),
-    "worked/dyads.py": (5, "the formulas of closed forms, by type"),
-    "plot/drawing/load_marks.py": (3, "the marks of forces, torques and pressures, by type"),
-    "worked/load_formulas.py": (6, "the formulas of loads, by type"),
-    "plot/drawing/draw.py": (2, "the kind of arrows on paper: velocities, accelerations, forces"),
-    "plot/animation.py": (1, "the kind of arrows on paper"),
+    "plotting/drawing/joint_marks.py": (5, "what drawings show of joints, by type"),
+    "worked_solutions/contacts.py": (4, "how forces of pairs act, by type"),
+    "worked_solutions/dyads.py": (5, "the formulas of closed forms, by type"),
+    "plotting/drawing/load_marks.py": (3, "the marks of forces, torques and pressures, by type"),
+    "worked_solutions/load_formulas.py": (6, "the formulas of loads, by type"),
+    "plotting/drawing/draw.py": (2, "the kind of arrows on paper: velocities, accelerations, forces"),
+    "plotting/animation.py": (1, "the kind of arrows on paper"),
     "parts/beams/beam.py": (1, "the kind of a beam's support; spring is one"),
     "parts/vibration/follower.py": (1, "a law of cams of its own, not a driver's"),
 }

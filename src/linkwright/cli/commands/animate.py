@@ -79,7 +79,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.files import refuse_output
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
-    from linkwright.plot.animation import animate
+    from linkwright.plotting.animation import animate
 
     refuse_output(options.output, ENDINGS, force=options.force)
     seconds = _seconds(options.seconds)

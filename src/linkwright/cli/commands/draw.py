@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
     from linkwright.kinetostatics.forces import Forces
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.plot.drawing.dimensions import Dimension
+    from linkwright.plotting.drawing.dimensions import Dimension
 
 SUMMARY = _("the kinematic drawing, as SVG, PNG or PDF")
 DESCRIPTION = _(
@@ -85,7 +85,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     """Draws a model and writes the picture."""
     from linkwright.cli.files import refuse_output
     from linkwright.cli.source import read_model
-    from linkwright.plot.drawing.draw import draw
+    from linkwright.plotting.drawing.draw import draw
 
     refuse_output(options.output, ENDINGS, force=options.force)
     mechanism, _unused = read_model(options.file, session)

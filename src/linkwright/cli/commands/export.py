@@ -100,7 +100,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.files import refuse_existing
     from linkwright.cli.solving import chosen_motion
     from linkwright.cli.source import read_model
-    from linkwright.export import export
+    from linkwright.exporters import export
 
     path = Path(options.output)
     chosen, form = _checked(path, options)
@@ -155,7 +155,7 @@ def _of_page(file: str, beside: Sequence[str]) -> dict[str, Any]:
 def _checked(path: Path, options: argparse.Namespace) -> tuple[str, dict[str, Any]]:
     """The format and its options; raises UsageError before any work is done."""
     from linkwright.errors import LinkwrightError
-    from linkwright.export.export import FORMATS, check_options, chosen_format
+    from linkwright.exporters.export import FORMATS, check_options, chosen_format
 
     given = {name: getattr(options, name) for name in OPTIONS}
     form = {name: value for name, value in given.items() if value is not None}

@@ -14,9 +14,9 @@ from linkwright.words import _
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
+    from linkwright.analysis.table import MetricsTable
     from linkwright.kinematics.motion import Motion
     from linkwright.mechanism.mechanism import Mechanism
-    from linkwright.metrics.table import MetricsTable
 
 SUMMARY = _("design numbers: transmission angle, strokes, peak torque and reactions, …")
 DESCRIPTION = _(
@@ -92,7 +92,7 @@ def _names(texts: list[str] | None) -> list[str] | None:
     """Names that were asked for; raises UsageError for one that no number has, with the nearest."""
     if texts is None:
         return None
-    from linkwright.metrics.base import METRICS
+    from linkwright.analysis.base import METRICS
 
     names = [name.strip() for text in texts for name in text.split(",")]
     if not all(names):
@@ -116,11 +116,11 @@ def _evaluated(
 
     Raises RequestError where none applies.
     """
+    from linkwright.analysis import Analysis, metrics
+    from linkwright.analysis.evaluate import inapplicable, unloaded
     from linkwright.errors import RequestError
     from linkwright.kinematics.solve import solve_motion
     from linkwright.kinetostatics.run import solve_forces
-    from linkwright.metrics import Analysis, metrics
-    from linkwright.metrics.evaluate import inapplicable, unloaded
 
     idle = {name: unloaded(mechanism, [name]) for name in names or () if options.forces is None}
     refused: dict[str, str] = {name: why for name, why in idle.items() if why is not None}
@@ -142,8 +142,8 @@ def _all(
     motion: Motion, options: argparse.Namespace
 ) -> tuple[MetricsTable, list[str], LinkwrightError | None]:
     """All numbers that apply, those of the motion alone where the forces fail, and why they do."""
+    from linkwright.analysis import metrics
     from linkwright.kinetostatics.run import solve_forces
-    from linkwright.metrics import metrics
 
     if options.forces is False or not (options.forces or motion.mechanism.has_loads):
         return metrics(motion), [], None

@@ -39,7 +39,7 @@ ENDINGS = (".svg", ".pdf", ".png")
 
 
 def arguments(option: Options) -> None:
-    from linkwright.plot.diagrams.diagram_by_name import kinds
+    from linkwright.plotting.diagrams.diagram_by_name import kinds
 
     option(
         "files", "FILE", nargs="+", help=_("model files, or gallery:NAME; several are laid over each other")
@@ -117,8 +117,8 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 
 def _require_kind(options: argparse.Namespace) -> None:
-    from linkwright.plot.diagrams.base import OPTIONS
-    from linkwright.plot.diagrams.diagram_by_name import require_kind, require_options
+    from linkwright.plotting.diagrams.base import OPTIONS
+    from linkwright.plotting.diagrams.diagram_by_name import require_kind, require_options
 
     with about("--kind", UsageError, LinkwrightError):
         require_kind(options.kind)
@@ -174,7 +174,7 @@ def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
 
 
 def _drawn(options: argparse.Namespace, session: Session, motions: dict[str, Motion]) -> Diagram:
-    from linkwright.plot.diagrams.diagram_by_name import plot
+    from linkwright.plotting.diagrams.diagram_by_name import plot
 
     return plot(
         motions,
@@ -194,7 +194,7 @@ def _drawn(options: argparse.Namespace, session: Session, motions: dict[str, Mot
 
 def _place(text: str | None, motions: dict[str, Motion], session: Session) -> float | str | None:
     """The value of --at; raises UsageError. What has no driver says so itself."""
-    from linkwright.plot.diagrams.source import Source
+    from linkwright.plotting.diagrams.source import Source
 
     first = Source(next(iter(motions.values())))
     if text is None or not first.mechanism.drivers:

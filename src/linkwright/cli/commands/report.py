@@ -84,7 +84,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
     from linkwright.parts.file import kind_of
-    from linkwright.report.report import report
+    from linkwright.reports.report import report
     from linkwright.synthesis.task_file import task_file
 
     path = _path(options)

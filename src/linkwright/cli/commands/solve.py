@@ -99,7 +99,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def _show_worked(solved: Solved, options: argparse.Namespace, session: Session) -> None:
     """The worked solution of the positions that were named, or of the first one."""
-    from linkwright.worked.solution import worked
+    from linkwright.worked_solutions.solution import worked
 
     rows = solved.rows if options.at or options.times else solved.rows[:1]
     source = solved.motion if solved.forces is None else solved.forces

@@ -11,7 +11,7 @@ from linkwright.cli.session import Session
 from linkwright.words import _
 
 if TYPE_CHECKING:
-    from linkwright.export.sweep_parts import SweepParts
+    from linkwright.exporters.sweep_parts import SweepParts
 
 SUMMARY = _("numbers of very many designs, part by part, also on a cluster")
 DESCRIPTION = _(
@@ -70,7 +70,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     """Computes the missing parts and says what lies in the folder."""
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
-    from linkwright.export.sweep_parts import sweep_parts
+    from linkwright.exporters.sweep_parts import sweep_parts
 
     mechanism, _unused = read_model(options.file, session)
     with progress(session.say, _("designs")) as report:

@@ -49,7 +49,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 
 def surplus(word: str) -> str:
     """Where the numbers are named of which somebody asks for one."""
-    from linkwright.metrics.base import METRICS
+    from linkwright.analysis.base import METRICS
     from linkwright.registry import nearest
 
     return _(

@@ -11,6 +11,11 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from linkwright import units
+from linkwright.analysis.by_name import ask
+from linkwright.analysis.evaluate import unloaded
+from linkwright.analysis.of_designs import MetricsOfDesigns
+from linkwright.analysis.of_output import Asked
+from linkwright.analysis.outputs import mechanism_outputs, usual_output
 from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse
 from linkwright.designs.alternatives import Alternative
@@ -26,11 +31,6 @@ from linkwright.formula.machine_code import available
 from linkwright.formula.summaries import Backend
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics.by_name import ask
-from linkwright.metrics.evaluate import unloaded
-from linkwright.metrics.of_designs import MetricsOfDesigns
-from linkwright.metrics.of_output import Asked
-from linkwright.metrics.outputs import mechanism_outputs, usual_output
 from linkwright.units import powers
 from linkwright.words import _
 

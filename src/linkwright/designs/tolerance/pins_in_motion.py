@@ -14,6 +14,7 @@ from dataclasses import field, fields, is_dataclass, replace
 
 import numpy as np
 
+from linkwright.applied_loads.base import Load
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.designs.designs import sweep_curves
@@ -25,7 +26,6 @@ from linkwright.joints.base import implied_joint
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
-from linkwright.loads.base import Load
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _

@@ -9,6 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.analysis.by_name import wanted
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
@@ -26,7 +27,6 @@ from linkwright.designs.varied_dimensions import design_values
 from linkwright.equations.steps import Step
 from linkwright.errors import LinkwrightError, ModelError, fault
 from linkwright.kinetostatics.forces import Forces
-from linkwright.metrics.by_name import wanted
 from linkwright.parts.base import Result
 from linkwright.words import Message, Say, _, pgettext
 

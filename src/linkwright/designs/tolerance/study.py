@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from linkwright import units
+from linkwright.analysis.base import METRICS
+from linkwright.analysis.by_name import is_metric, wanted
 from linkwright.core.dataclass import dataclass
 from linkwright.designs.ranges import dimension_of
 from linkwright.designs.tolerance.problem import LEAST, Clearance, Tolerance, Tolerances
@@ -10,8 +12,6 @@ from linkwright.designs.tolerance.result import Spread
 from linkwright.designs.varied_dimensions import misfits
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError, fault
 from linkwright.kinematics.names import output_meant
-from linkwright.metrics.base import METRICS
-from linkwright.metrics.by_name import is_metric, wanted
 from linkwright.registry import PROBABLE, nearest
 from linkwright.words import _, pgettext
 

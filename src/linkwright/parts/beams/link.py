@@ -9,6 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.analysis import Analysis
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import STEPS
@@ -26,7 +27,6 @@ from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics import Analysis
 from linkwright.parts.base import Result
 from linkwright.parts.beams.axis import LinkAxis, SpreadMass
 from linkwright.parts.beams.balance import polynomial_text

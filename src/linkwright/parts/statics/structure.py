@@ -20,7 +20,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Result
 from linkwright.parts.statics.balance import Balance, structure_balance
 from linkwright.parts.statics.body import describe
-from linkwright.structure import StructureError, structure
+from linkwright.topology import StructureError, structure
 from linkwright.words import Message, Say, _, language_of
 
 #: Starts of the search for a position, and the gap below which the joints close.
@@ -147,7 +147,7 @@ class StructureForces(Result):
         return structure_balance(self.forces)
 
     def steps(self, say: Say) -> list[Step]:
-        from linkwright.worked.solution import worked
+        from linkwright.worked_solutions.solution import worked
 
         found = list(worked(self.forces, language=language_of(say)).steps)
         last = max(int(step.number.partition(".")[0]) for step in found)

@@ -9,6 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.analysis import Analysis
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.core.given import CURVE_STEPS
@@ -22,7 +23,6 @@ from linkwright.fields.tables import Whole
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.metrics import Analysis
 from linkwright.parts.base import Result
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport

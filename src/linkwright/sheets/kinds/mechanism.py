@@ -10,14 +10,14 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.picture import as_runs, indexed
-from linkwright.plot.diagrams.axes import SYMBOLS, InputAxis
-from linkwright.plot.diagrams.base import Request
-from linkwright.plot.diagrams.force_polygon import link_forces, worth_drawing
-from linkwright.plot.diagrams.outputs import main_output
-from linkwright.plot.diagrams.panels import Panel as Plotted
-from linkwright.plot.diagrams.source import Source
-from linkwright.plot.diagrams.sva import Sva
-from linkwright.plot.diagrams.torque import Torque
+from linkwright.plotting.diagrams.axes import SYMBOLS, InputAxis
+from linkwright.plotting.diagrams.base import Request
+from linkwright.plotting.diagrams.force_polygon import link_forces, worth_drawing
+from linkwright.plotting.diagrams.outputs import main_output
+from linkwright.plotting.diagrams.panels import Panel as Plotted
+from linkwright.plotting.diagrams.source import Source
+from linkwright.plotting.diagrams.sva import Sva
+from linkwright.plotting.diagrams.torque import Torque
 from linkwright.sheets.curves import CurvePanel
 from linkwright.sheets.machine import MachinePanel
 from linkwright.sheets.machine_tables import data_table, force_table, motion_table

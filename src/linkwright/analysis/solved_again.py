@@ -1,0 +1,132 @@
+"""A motion and its forces solved again at other times of the same cycle, or in more positions of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import ceil
+from typing import Any
+
+import numpy as np
+
+from linkwright.applied_loads.base import Load
+from linkwright.applied_loads.over_cycle import activity
+from linkwright.core.arrays import Flags, Floats
+from linkwright.core.cached_property import cached_property
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.between_positions import Between
+from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.reached_stretches import Reach
+from linkwright.kinematics.solve import MotionRun
+from linkwright.kinematics.solver import MotionSolver
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.signals import MotionSignals
+
+#: Shares of the cycle at which the forces of an extreme are looked at: at a jump they are those of one side.
+BESIDE = np.array([0.0, -1e-9, 1e-9])
+#: Steps of a cycle from which its numbers are read.
+FEWEST = 24
+
+
+def in_enough_positions(motion: Motion, forces: Forces | None) -> tuple[Motion, Forces | None]:
+    """A motion and its forces; of a cycle in so few positions that much can lie between them, in more."""
+    from linkwright.kinetostatics.run import run_forces
+
+    positions = motion.positions
+    if not (positions.cycle and positions.steps < FEWEST and motion.inputs):
+        return motion, forces
+    steps = positions.steps * ceil(FEWEST / positions.steps)
+    over = over_cycle(motion.mechanism, steps, endpoint=positions.repeated)
+    closer = MotionRun(MotionSolver(motion.mechanism), over).solve("mark")
+    return closer, forces and run_forces(closer, forces.static)
+
+
+class _SameCycle(MotionSignals):
+    """Signals of a motion within a cycle that is known."""
+
+    def __init__(self, motion: Motion, known: MotionSignals) -> None:
+        super().__init__(motion)
+        self._known = known
+
+    @property
+    def cycle(self) -> Motion:
+        return self._known.cycle
+
+    @property
+    def turned(self) -> Motion:
+        return self._known.turned
+
+
+class Resolver(Reach):
+    """Solves the design of a motion at further times, with the programs that are there already."""
+
+    def __init__(self, motion: Motion, forces: Forces | None) -> None:
+        super().__init__(motion, _between(motion))
+        self._forces = forces
+
+    @property
+    def possible(self) -> bool:
+        """Whether the positions are those of the drivers' laws at their times, so that others lie between them."""
+        return self._between is not None
+
+    @property
+    def closes(self) -> bool:
+        """Whether the last position is followed by the first, in the same assembly."""
+        return self._between is not None and self._between.closes
+
+    def at(self, time: Floats, of: str = "motion", asked: tuple[str, ...] = ()) -> Any:
+        """Motion, or Forces with ``of="forces"``, at some times, s; ``asked``: outputs beside the stored ones."""
+        if of != "forces":
+            return self.motion(time)
+        return self.forces(self.motion(time), asked)
+
+    def forces_at(
+        self, wanted: Sequence[tuple[Callable[[Forces], Floats], float, float]]
+    ) -> tuple[Forces, list[int]]:
+        """Forces where signals of them have values, and the position of each: at a jump that on its side.
+
+        ``wanted``: signals of the forces, each with a time, s, and its value there.
+        """
+        times = np.array([time for _, time, _ in wanted])[:, None] + self._motion.time.max() * BESIDE
+        forces = self.at(times.ravel(), "forces")
+        off = [np.abs(signal(forces) - value).reshape(times.shape) for signal, _, value in wanted]
+        return forces, [k * BESIDE.size + int(each[k].argmin()) for k, each in enumerate(off)]
+
+    def motion(self, time: Floats) -> Motion:
+        """Motion at some times; positions out of reach are NaN, also those that could be assembled behind a gap."""
+        return self.solved(time, None if self.whole else self.reached(time))
+
+    def forces(self, motion: Motion, asked: tuple[str, ...] = ()) -> Forces:
+        """Forces of such a motion; ``asked``: outputs beside the stored ones."""
+        from linkwright.kinetostatics.run import run_forces
+
+        known = self._forces
+        assert known is not None
+        return run_forces(motion, known.static, known.solver, _SameCycle(motion, self._signals), asked)
+
+    def active(self, load: Load, time: Floats) -> Flags:
+        """Whether a load acts at some times, (n,)."""
+        return activity(load, _SameCycle(self.motion(time), self._signals)).where
+
+    @cached_property
+    def _signals(self) -> MotionSignals:
+        return MotionSignals(self._motion)
+
+    def input_at(self, time: float) -> float:
+        """Coordinate of the first driver at a time."""
+        name, driver = next(iter(self._motion.mechanism.drivers.items()))
+        try:
+            return driver.law.at(time)
+        except LinkwrightError:
+            if self._between is None:
+                raise
+            return float(self._between.positions(np.array([time])).coordinates[name][0][0])
+
+
+def _between(motion: Motion) -> Between | None:
+    if not motion.mechanism.drivers:
+        return None
+    try:
+        return Between(motion)
+    except LinkwrightError:
+        return None

@@ -1,0 +1,249 @@
+"""What a motion reaches, on pieces on which signals are solved again: the whole of its cycle, or stretches of it.
+
+Places on a whole cycle are times. A stretch that ends where the mechanism gets out of reach runs by the cosine of the
+place in it, as points come to the ends of their range with infinite rates; stretches are then for pieces what designs
+are elsewhere. Beside a change point, or an end of range, pieces are polynomials through places a little away from it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from linkwright.analysis.one_sided_limits import AWAY, SLOWED, STEEPEST, limit, weights
+from linkwright.analysis.solved_again import Resolver
+from linkwright.core.arrays import Flags, Floats, Indices
+from linkwright.core.cached_property import cached_property
+from linkwright.core.dataclass import dataclass
+from linkwright.curves.curve import increasing
+from linkwright.curves.pieces import HIGH, LOW, Columns, Layout, Pieces, Wanted
+from linkwright.cycle.solved import PIECES
+from linkwright.events.course import Course
+from linkwright.events.stretches import Span, Stretches
+
+#: A piece beside a change point reaches this share of the cycle. Nearer to it than the first of its places no
+#: position is asked for: places are exact to the machine's digits over the distance, second derivatives to these over
+#: its cube.
+AROUND = 1.0 / 36.0
+#: The columns that tell on which side of a piece a change point, or an end, is, and the number of its way.
+SIDE, WAY = "side of an end", "way"
+#: Cuts nearer to an end than this share of the way are there.
+SAME = 1e-11
+#: Results at so many sets of times are kept.
+KEPT = 8
+_NONE: Floats = np.empty(0)
+_HALF_TURN = Course((), np.pi, np.pi, False, 0)
+Signal = Callable[[Any], Floats]
+#: Signals (k, n) of the motion or of the forces.
+Read = Callable[[Any], Floats]
+
+
+class Ways:
+    """A ``course`` of places with ``cuts``, and change points, or ends, beside which pieces go so far, (k,) each.
+
+    ``reached`` (ways, 2): begins and ends of stretches, s, of what is reached in part.
+    """
+
+    def __init__(
+        self, resolver: Resolver, course: Course, cuts: Floats, ends: Floats, beside: Floats, reached: Floats
+    ) -> None:
+        self.resolver, self.course, self._cuts = resolver, course, cuts
+        self.ends, self._beside, self._reached = ends, beside, reached
+        self._solved: dict[tuple[str, bytes], Any] = {}
+
+    @classmethod
+    def of_cycle(cls, resolver: Resolver, course: Course, cuts: Floats) -> Ways:
+        """The whole cycle, or way."""
+        length, changes = course.duration, np.sort(resolver.changes)
+        around = changes
+        if course.closed:
+            changes = increasing(course.begin + (changes - course.begin) % length)
+            around = np.concatenate([changes - length, changes, changes + length])
+        apart = np.abs(changes[:, None] - around)
+        nearest = np.where(apart > 0.0, apart, np.inf).min(axis=1, initial=np.inf)
+        return cls(resolver, course, cuts, changes, np.minimum(AROUND * length, 0.5 * nearest), _NONE)
+
+    @classmethod
+    def in_part(cls, resolver: Resolver, reached: Sequence[tuple[float, float]]) -> Ways:
+        """All stretches of time, s, that are reached."""
+        ends, beside = np.array([np.pi, 2.0 * np.pi]), np.full(2, SLOWED[0])
+        return cls(resolver, _HALF_TURN, _NONE, ends, beside, np.array(reached))
+
+    @property
+    def whole(self) -> bool:
+        """Whether it is the whole cycle, or way."""
+        return not len(self._reached)
+
+    @property
+    def durations(self) -> Floats:
+        """How long the ways take, (ways,) s."""
+        return np.array([self.course.duration]) if self.whole else np.diff(self._reached).ravel()
+
+    @property
+    def looks(self) -> Floats:
+        """Some times away from the ends, s."""
+        place = np.linspace(np.pi, 2.0 * np.pi, 11)[1:-1]
+        return np.concatenate([self.time(place, np.intp(k)) for k in range(len(self.durations))])
+
+    def time(self, place: Floats, way: Indices | np.intp) -> Floats:
+        """When it comes to places of some ways, s."""
+        if self.whole:
+            return place
+        begin, end = self._reached[way].T
+        return np.asarray(0.5 * (begin + end) + 0.5 * (end - begin) * np.cos(place))
+
+    def pace(self, place: Floats) -> Floats | float:
+        """Share of the way's time by share of its places."""
+        return 1.0 if self.whole else -0.5 * np.pi * np.sin(place)
+
+    def stretches(self, more: Floats, nearer: float) -> Stretches:
+        """What lies between the cuts, ``more`` of them, and ends of the pieces beside change points, ``nearer`` to
+        these by a factor."""
+        around = self.ends[:, None] + nearer * self._beside[:, None] * np.array([-1.0, 0.0, 1.0])
+        cuts, course = np.concatenate([self._cuts, around.ravel(), more]), self.course
+        if not course.closed:
+            near, gone = SAME * course.duration, cuts - course.begin
+            cuts = cuts[(gone > near) & (gone < course.duration - near)]
+        span = Span(course, np.full(len(self.durations), course.duration), np.zeros(len(self.durations)))
+        return Stretches(span, [], cuts)
+
+    def at(self, time: Floats, of: str) -> Any:
+        """The motion or the forces at some times, s."""
+        key = of, time.tobytes()
+        if key not in self._solved:
+            if len(self._solved) >= KEPT:
+                del self._solved[next(iter(self._solved))]
+            self._solved[key] = self.resolver.at(time, of)
+        return self._solved[key]
+
+    @cached_property
+    def solved(self) -> bool:
+        """Whether something is solved at all of its first places."""
+        found: list[Flags] = []
+
+        def ok(motion: Any) -> Floats:
+            found.append(motion.ok)
+            return np.asarray(motion.ok[None].astype(float))
+
+        SignalsOnWays(self, ok, "motion", Wanted())
+        return all(each.all() for each in found)
+
+    def curve(self, read: Read, of: str, count: int, pieces: int = PIECES) -> SolvedCurves:
+        """``count`` signals on pieces, so many of a lap to begin with, that meet them everywhere."""
+        signals = SignalsOnWays.told(self, read, of, Wanted(even=tuple(range(count))), first=pieces)
+        found, limits = signals.pieces, np.array([end.limits for end in signals.ends]).reshape(-1, count)
+        values = np.stack([found.values(k) for k in range(count)])
+        edges = np.append(found.columns[LOW], found.columns[HIGH][-1])
+        untold = np.isnan(limits).any(axis=0) & (not self.whole)
+        return SolvedCurves(edges, values, np.isinf(limits).any(axis=0), untold)
+
+
+class SolvedCurves(NamedTuple):
+    """Signals ``values`` (k, nodes, pieces) on pieces between ``edges``, ways behind each other; those that grow
+    without bound at a change point or an end, and those of which nothing tells the limit at an end, (k,)."""
+
+    edges: Floats
+    values: Floats
+    unbounded: Flags
+    untold: Flags
+
+
+@dataclass(frozen=True)
+class End:
+    """A change point, or an end, of a ``way``, at a ``time``, s: the ``limits`` of the signals there, and the values
+    of the first ``beside`` it, nearest first."""
+
+    way: int
+    time: float
+    limits: Floats
+    beside: Floats
+
+    @property
+    def limit(self) -> float:
+        """That of the first signal."""
+        return float(self.limits[0])
+
+
+class SignalsOnWays:
+    """Signals on ``pieces`` of ways, ``paced`` ones by the time; ``ends``: what they do at change points and ends."""
+
+    def __init__(
+        self,
+        ways: Ways,
+        read: Read,
+        of: str,
+        wanted: Wanted,
+        more: Floats = _NONE,
+        nearer: float = 1.0,
+        first: int = PIECES,
+        paced: tuple[int, ...] = (),
+    ) -> None:
+        self._ways, self._read, self._of, self._paced = ways, read, of, [*paced]
+        self.ends: list[End] = []
+        self.stretches = stretches = ways.stretches(more, nearer)
+        edges, near = ways.ends[:, None], 1e-9 * ways.course.duration
+        begin, end = stretches.begin, stretches.begin + stretches.length
+        lap = ways.course.duration if ways.course.closed else 0.0
+        behind, before = (
+            np.abs(each - edges) < near for each in (begin, np.stack([end, end - lap])[:, None])
+        )
+        self._side = behind.any(axis=0) - before.any(axis=(0, 1)).astype(float)
+        stretch, low, high = stretches.first_pieces(first)
+        own = (self._side[stretch] == 0.0) | (low == 0.0)
+        high = np.where(self._side[stretch] == 0.0, high, 1.0)
+        layout = Layout(stretches.design, stretches.span.count, self._columns)
+        self.pieces = Pieces(self._values, layout, stretch[own], low[own], high[own], wanted)
+
+    @classmethod
+    def told(
+        cls,
+        ways: Ways,
+        read: Read,
+        of: str,
+        wanted: Wanted,
+        more: Floats = _NONE,
+        first: int = PIECES,
+        paced: tuple[int, ...] = (),
+    ) -> SignalsOnWays:
+        """With pieces beside ends short enough that limits there are told, if they can be."""
+        found = cls(ways, read, of, wanted, more, 1.0, first, paced)
+        if ways.whole or not any(np.isnan(each.limits).any() for each in found.ends):
+            return found
+        return cls(ways, read, of, wanted, more, SLOWED[1] / SLOWED[0], first, paced)
+
+    def _columns(self, stretch: Indices, first: Floats, last: Floats) -> dict[str, Floats]:
+        low, high = self.stretches.ends(stretch, first, last)
+        return {
+            LOW: low,
+            HIGH: high,
+            SIDE: self._side[stretch],
+            WAY: self.stretches.design[stretch].astype(float),
+        }
+
+    def _solved(self, time: Floats) -> Floats:
+        """The signals (nodes, signals, pieces) at times of one way, s, in which angles go on from the first one."""
+        rows = np.asarray(self._read(self._ways.at(time.ravel(), self._of)), dtype=float)
+        return np.moveaxis(rows.reshape(-1, *time.shape), 0, 1)
+
+    def _values(self, columns: Columns, nodes: Floats) -> Floats:
+        low, width, side, ways = columns[LOW], columns[HIGH] - columns[LOW], columns[SIDE], self._ways
+        way = columns[WAY].astype(np.intp)
+        own = low + width * nodes[:, None]
+        place, near, count = own.copy(), np.flatnonzero(side), len(AWAY)
+        ends = np.where(side > 0.0, low, columns[HIGH])[near]
+        place[:count, near] = ends + (side * width)[near] * AWAY[:, None]
+        place[count:, near] = place[count - 1, near]
+        parts = [self._solved(ways.time(place[:, way == each], each)) for each in np.unique(way)]
+        found = np.concatenate(parts, axis=2)
+        times = ways.time(ends, way[near])
+        for k, time in zip(near, times, strict=True):
+            values = found[:count, :, k]
+            limits = np.array([limit(row, 2 if ways.whole else STEEPEST) for row in values.T])
+            self.ends.append(End(int(way[k]), float(time), limits, values[:, 0].copy()))
+            between = weights(AWAY, nodes if side[k] > 0.0 else 1.0 - nodes) @ values
+            steep = np.isinf(limits) | (np.isnan(limits) & (not ways.whole))
+            found[:, :, k] = np.where(steep, values[-1], between)
+        found[:, self._paced] *= np.broadcast_to(ways.pace(own), own.shape)[:, None]
+        return found

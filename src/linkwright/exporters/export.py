@@ -1,0 +1,160 @@
+"""What every file format supplies, the registry of the formats, and the one call that writes a result to a file."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from linkwright.core.dataclass import dataclass
+from linkwright.core.given import STEPS
+from linkwright.core.table import Tabular
+from linkwright.errors import RequestError, require_language
+from linkwright.exporters.results import Results
+from linkwright.files.source import ENDINGS
+from linkwright.kinematics.motion import Motion
+from linkwright.kinetostatics.forces import Forces
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.registry import Registry, nearest, offered
+from linkwright.whole_files import refuse_target, write_whole
+from linkwright.words import Message, _
+
+_ENDING = _(
+    '{path}: no format is written to files with the ending "{suffix}"; {hint}', code="export.no_ending"
+)
+
+
+@dataclass(frozen=True)
+class Format:
+    """A file format: the endings of its files, and the function that makes a file's content.
+
+    ``content(results, **options)`` takes :class:`linkwright.exporters.results.Results` and keyword-only options;
+    ``of_result(result, language)`` another result in tables, where the format can hold one.
+    """
+
+    suffixes: tuple[str, ...]
+    content: Callable[..., bytes]
+    of_result: Callable[[Tabular, str], bytes] | None = None
+
+
+FORMATS: Registry[Format] = Registry(_("export format"), "linkwright.exporters.formats")
+
+
+def package(name: str, purpose: Message, install: str | None = None) -> Any:
+    """An optional package, imported when it is needed.
+
+    Raises:
+        LinkwrightError: it is not installed; the sentence has the command that installs it.
+    """
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        command = f"pip install {install or name}"
+        raise RequestError(
+            _(
+                "{purpose} need the package {install}; install it with: {command}",
+                code="export.needs_package",
+                purpose=purpose,
+                install=install or name,
+                command=command,
+            )
+        ) from None
+
+
+def export(
+    result: Mechanism | Motion | Forces | Tabular,
+    path: str | Path,
+    *,
+    format: str | None = None,
+    force: bool = False,
+    steps: int = STEPS,
+    language: str = "en",
+    **options: Any,
+) -> Path:
+    """Write a result to a file for other programs, whole or not at all.
+
+    Args:
+        result: forces or a motion as they are; a mechanism is solved first, with forces where it has masses or
+            loads; or any other result, as its tables: ``csv`` (its curves or columns where it has some), ``xlsx``,
+            ``json`` (its ``data()``), ``markdown``, ``html``.
+        path: the file; its ending chooses the format.
+        format: ``csv``, ``xlsx``, ``json``, ``markdown``, ``parquet``, ``dxf``, ``mjcf``, ``modelica``, ``python``,
+            ``svg``, ``png``, ``pdf``, where the ending does not say it.
+        force: replace a file that exists.
+        steps: positions over the cycle, for a mechanism.
+        language: ``en`` or ``zh``, of headings and drawings.
+        **options: of the format; see the format's page.
+
+    Returns:
+        The path. Numbers are SI: m, kg, s, N, rad, counter-clockwise positive.
+
+    Raises:
+        LinkwrightError: an unknown format, ending or option, a file that exists, a folder that cannot be written, a
+            package that is not installed, a result that the format cannot hold.
+    """
+    target = Path(path)
+    chosen = chosen_format(target, format)
+    refuse_target(target, force=force)
+    require_language(language)
+    if isinstance(result, Tabular):
+        content = content_of(result, chosen, language)
+    else:
+        check_options(chosen, FORMATS[chosen], options)
+        content = FORMATS[chosen].content(Results.of(result, steps, language), **options)
+    return write_whole(target, content, force=force)
+
+
+def content_of(result: Tabular, name: str, language: str) -> bytes:
+    """The file of a result in a format; raises LinkwrightError for a format that cannot hold its tables."""
+    content = FORMATS[name].of_result
+    if content is None:
+        raise RequestError(
+            _(
+                "the format {name} cannot hold tables; use one of {names}",
+                code="export.no_tables",
+                name=name,
+                names=tuple(each for each, form in FORMATS.items() if form.of_result is not None),
+            )
+        )
+    return content(result, language)
+
+
+def chosen_format(path: Path, name: str | None) -> str:
+    """The format that is named, or else that of the path's ending; raises LinkwrightError."""
+    if name is not None:
+        FORMATS[name]
+        return name
+    by_suffix = {suffix: each for each, form in FORMATS.items() for suffix in form.suffixes}
+    suffix = path.suffix.lower()
+    if suffix in by_suffix:
+        return by_suffix[suffix]
+    if suffix in ENDINGS[:2]:
+        raise RequestError(
+            _ENDING.format(path=path, suffix=suffix, hint=_("lw.dump gives the text of a model in Python"))
+        )
+    names, near = tuple(sorted(by_suffix)), nearest(suffix[1:], [each[1:] for each in by_suffix])
+    hint = (
+        _('did you mean "{offer}"? (one of: {names})', offer=f".{near}", names=names)
+        if near
+        else _("use {names}, or say which format", names=names)
+    )
+    raise RequestError(_ENDING.format(path=path, suffix=suffix, hint=hint))
+
+
+def check_options(name: str, form: Format, options: dict[str, Any]) -> None:
+    """Raises LinkwrightError for an option that the format does not have, with the nearest one."""
+    known = [p.name for p in inspect.signature(form.content).parameters.values() if p.kind is p.KEYWORD_ONLY]
+    for option in options:
+        if option not in known:
+            hint = offered(option, known, _("it has {names}"))
+            raise RequestError(
+                _(
+                    "the format {name} has no option {option}; {hint}",
+                    code="export.no_option",
+                    name=name,
+                    option=option,
+                    hint=hint,
+                )
+            )

@@ -1,0 +1,272 @@
+"""Links as bodies of a MuJoCo model, nested in the chains of the Assur groups, what closes the loops; its numbers."""
+
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+from linkwright.core.dataclass import dataclass
+from linkwright.elements.topology import Connection, TreeJoint
+from linkwright.exporters.results import Results
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.placement import placements
+from linkwright.mechanism.link import Link
+from linkwright.words.characters import printable
+
+
+def numbers(values: Iterable[float]) -> str:
+    """Numbers with all their digits, apart by spaces."""
+    return " ".join(f"{float(value) + 0.0:.17g}" for value in values)
+
+
+def seconds(motion: Motion) -> float:
+    """Duration of the motion, s; 1 s where there is none."""
+    if motion.positions.period:
+        return float(motion.positions.period)
+    return float(np.ptp(motion.time)) or 1.0
+
+
+def written(root: ET.Element) -> bytes:
+    """The indented XML document."""
+    ET.indent(root)
+    for element in root.iter():
+        for name, value in element.attrib.items():
+            element.attrib[name] = printable(value)
+    return (
+        b'<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode").encode() + b"\n"
+    )
+
+
+#: Mass and inertia of links without any, as a share of the largest mass.
+LEAST = 1e-3
+#: Inertia of a driver against all that it moves; a heavy driver keeps its speed.
+HEAVY = 1000.0
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """A joint of the model: its ``name``, value and rate at the start, and the driver that moves it."""
+
+    name: str
+    value: float
+    rate: float
+    driver: str | None
+
+
+class Bodies:
+    """Bodies at one position; ``coordinates`` are in MuJoCo's order once ``world`` was called."""
+
+    def __init__(self, results: Results, index: int, reflected: dict[str, float]) -> None:
+        self.motion: Motion = results.motion
+        self.mechanism = results.mechanism
+        self.structure = results.structure
+        self.index = index
+        self.reflected = reflected
+        self.coordinates: list[Coordinate] = []
+        self.joint_of: dict[str, str] = {}
+        self.named: dict[str, str] = {}
+        self.placed = placements(self.motion)
+        self.hung = {step.child: step for group in self.structure.groups for step in group.tree}
+        self.riders: dict[str, list[Connection]] = {}
+        for group in self.structure.groups:
+            for cut in group.cuts:
+                if cut.slides:
+                    self.riders.setdefault(cut.a, []).append(cut)
+        masses = [link.mass for link in self.mechanism.links.values()]
+        self.least_mass = LEAST * (max(masses, default=0.0) or 1.0)
+        spans = [span(link) for link in self.mechanism.links.values()]
+        self.size = max([*spans, span(self.mechanism.frame)], default=0.0) or 1.0
+
+    def world(self) -> ET.Element:
+        """The world with all bodies."""
+        world = ET.Element("worldbody")
+        ET.SubElement(world, "light", pos=numbers((0, 0, 5 * self.size)), dir="0 0 -1", directional="true")
+        self._sites(world, self.mechanism.frame)
+        self._riders(world, "frame")
+        for child, step in self.hung.items():
+            if step.parent == "frame":
+                world.append(self._body(child, step))
+        return world
+
+    def pose(self, link: str) -> tuple[float, float, float]:
+        """Place and angle of a link's axes."""
+        placed = self.placed[link]
+        (x, y), (c, s) = placed.origin[self.index], placed.direction[self.index]
+        return float(x), float(y), math.atan2(s, c)
+
+    def _body(self, name: str, step: TreeJoint) -> ET.Element:
+        body = self._placed(name, self.pose(step.parent), self.pose(name))
+        self._joint(body, step)
+        link = self.mechanism.links[name]
+        mass = max(link.mass, self.least_mass)
+        inertia = max(link.inertia, self.least_mass * (span(link) or 0.1 * self.size) ** 2 / 12)
+        _inertial(body, link.centre, mass, inertia)
+        self._sites(body, link)
+        self._shape(body, link)
+        self._riders(body, name)
+        for child, below in self.hung.items():
+            if below.parent == name:
+                body.append(self._body(child, below))
+        return body
+
+    def _placed(
+        self, name: str, base: tuple[float, float, float], pose: tuple[float, float, float]
+    ) -> ET.Element:
+        c, s = math.cos(base[2]), math.sin(base[2])
+        dx, dy, turn = pose[0] - base[0], pose[1] - base[1], pose[2] - base[2]
+        place = numbers((c * dx + s * dy, c * dy - s * dx, 0.0))
+        return ET.Element(
+            "body", name=name, pos=place, quat=numbers((math.cos(turn / 2), 0, 0, math.sin(turn / 2)))
+        )
+
+    def _joint(self, body: ET.Element, step: TreeJoint) -> None:
+        if not (step.turns or step.slides):
+            return
+        pin = step.turns
+        link = self.mechanism.links[step.child]
+        if pin:
+            place, axis = link.points[step.joint], (0.0, 0.0, self._sense(step))
+        else:
+            place, axis = link.centre, self._slide_axis(step)
+        coordinate = self._coordinate(step)
+        kind, value = "hinge" if pin else "slide", numbers([coordinate.value])
+        attributes = {"name": coordinate.name, "type": kind, "ref": value, "pos": numbers((*place, 0.0)),
+                      "axis": numbers(axis)}  # fmt: skip
+        if coordinate.driver is not None:
+            attributes["armature"] = numbers([HEAVY * self.reflected[coordinate.driver]])
+        ET.SubElement(body, "joint", attributes)
+        self.coordinates.append(coordinate)
+        self.named[step.child] = coordinate.name
+        if coordinate.driver is not None:
+            self.joint_of[coordinate.driver] = coordinate.name
+
+    def turned(self, rotations: Mapping[str, float]) -> dict[str, float]:
+        """A sum of links' rotations as one of the model's joint coordinates: factors by name."""
+        found: dict[str, float] = {}
+        for link, factor in rotations.items():
+            while link in self.hung:
+                step = self.hung[link]
+                if step.turns:
+                    name = self.named[link]
+                    found[name] = found.get(name, 0.0) + factor * self._sense(step)
+                link = step.parent
+        return found
+
+    def _sense(self, step: TreeJoint) -> float:
+        """+1 where the child turns with the coordinate, -1 where it turns against it."""
+        moved, _ = self._pair(step)
+        return 1.0 if step.child == moved else -1.0
+
+    def _pair(self, step: TreeJoint) -> tuple[str, str]:
+        """Link that turns, and link against which the angle is measured."""
+        if step.driver is not None:
+            driver = self.mechanism.drivers[step.driver]
+            return driver.link, driver.relative_to
+        return step.connection.b, step.connection.a
+
+    def _slide_axis(self, step: TreeJoint) -> tuple[float, float, float]:
+        joint = self.mechanism.guides[step.joint]
+        if step.child == joint.block:
+            return math.cos(joint.block_angle), math.sin(joint.block_angle), 0.0
+        angle = joint.direction
+        return -math.cos(angle), -math.sin(angle), 0.0
+
+    def _coordinate(self, step: TreeJoint) -> Coordinate:
+        names = [each.name for each in self.coordinates]
+        name = step.joint if step.joint not in names else f"{step.joint}.{step.child}"
+        if step.slides:
+            slide = self.motion.joint(step.joint)
+            return Coordinate(name, slide.displacement[self.index], slide.velocity[self.index], step.driver)
+        moved, base = (self.motion.link(link) for link in self._pair(step))
+        rate = moved.angular_velocity[self.index] - base.angular_velocity[self.index]
+        if step.driver is not None:
+            return Coordinate(name, self.motion.inputs[step.driver][self.index], rate, step.driver)
+        return Coordinate(name, moved.angle[self.index] - base.angle[self.index], rate, None)
+
+    def _sites(self, body: ET.Element, link: Link) -> None:
+        for point, place in link.points.items():
+            size = numbers([0.008 * self.size])
+            ET.SubElement(body, "site", name=f"{link.name}.{point}", pos=numbers((*place, 0.0)), size=size)
+
+    def _shape(self, body: ET.Element, link: Link) -> None:
+        places = list(link.points.values())
+        pairs = zip(places, places[1:] + (places[:1] if len(places) > 2 else []), strict=False)
+        for a, b in pairs:
+            if math.dist(a, b) > 1e-3 * self.size:
+                ends = numbers((*a, 0.0, *b, 0.0))
+                ET.SubElement(body, "geom", type="capsule", fromto=ends, size=numbers([0.012 * self.size]))
+        if len(places) == 1:
+            half = (0.04 * self.size, 0.025 * self.size, 0.012 * self.size)
+            ET.SubElement(body, "geom", type="box", pos=numbers((*places[0], 0.0)), size=numbers(half))
+
+    def _riders(self, body: ET.Element, guide: str) -> None:
+        """A small body on each guide of this link that is cut: the block is held to it."""
+        for cut in self.riders.get(guide, ()):
+            joint = self.mechanism.guides[cut.joint]
+            rider = self._placed(f"{cut.joint}.rider", self.pose(guide), self.pose(cut.b))
+            slide = self.motion.joint(cut.joint)
+            found = Coordinate(cut.joint, slide.displacement[self.index], slide.velocity[self.index], None)
+            axis = numbers((math.cos(joint.block_angle), math.sin(joint.block_angle), 0.0))
+            ET.SubElement(
+                rider, "joint", name=found.name, type="slide", axis=axis, ref=numbers([found.value])
+            )
+            _inertial(rider, (0.0, 0.0), self.least_mass, self.least_mass * self.size**2 / 12)
+            self.coordinates.append(found)
+            body.append(rider)
+
+
+def _inertial(body: ET.Element, centre: tuple[float, float], mass: float, inertia: float) -> None:
+    ET.SubElement(
+        body,
+        "inertial",
+        pos=numbers((*centre, 0.0)),
+        mass=numbers([mass]),
+        diaginertia=numbers([inertia] * 3),
+    )
+
+
+def span(link: Link) -> float:
+    """Largest distance between two points of a link, m."""
+    places = np.array(list(link.points.values()))
+    return float(np.hypot(*(places[:, None] - places[None]).T).max())
+
+
+def loops(results: Results, bodies: Bodies) -> ET.Element:
+    """A ``connect`` for each cut pin, a ``weld`` to the rider of each cut guide and for each cut weld."""
+    equality = ET.Element("equality")
+    for group in results.structure.groups:
+        for cut in group.cuts:
+            name = f"{cut.joint}.{cut.b}"
+            if cut.turns:
+                ET.SubElement(
+                    equality, "connect", name=name, site1=f"{cut.a}.{cut.joint}", site2=f"{cut.b}.{cut.joint}"
+                )
+            elif cut.slides:
+                ET.SubElement(equality, "weld", name=name, body1=f"{cut.joint}.rider", body2=cut.b)
+            elif cut.higher:
+                ET.SubElement(equality, "tendon", name=name, tendon1=cut.joint, polycoef="0 0 0 0 0")
+            else:
+                a, b = (link if link != "frame" else "world" for link in (cut.a, cut.b))
+                ET.SubElement(equality, "weld", name=name, body1=a, body2=b)
+    return equality
+
+
+def tendons(results: Results, bodies: Bodies) -> ET.Element:
+    """For each higher pair the sum of joint coordinates that it keeps, as a tendon of fixed factors."""
+    found = ET.Element("tendon")
+    for group in results.structure.groups:
+        for cut in group.cuts:
+            if not cut.higher:
+                continue
+            rotations, slides, _ = results.mechanism.joints[cut.joint].sums(results.mechanism)
+            factors = bodies.turned(rotations)
+            for name, factor in slides.items():
+                factors[name] = factors.get(name, 0.0) + factor
+            tendon = ET.SubElement(found, "fixed", name=cut.joint)
+            for name, factor in factors.items():
+                if factor:
+                    ET.SubElement(tendon, "joint", joint=name, coef=numbers([factor]))
+    return found

@@ -1,0 +1,207 @@
+"""Unknowns and equations of a mechanism in Modelica: places and angles of links, points, joints, drivers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import field
+
+from linkwright.core.dataclass import dataclass
+from linkwright.exporters.modelica.laws import Names, law_text, number, quoted
+from linkwright.exporters.results import Results
+from linkwright.joints.base import Joint
+from linkwright.joints.lower import RigidJoint, SlidingJoint
+from linkwright.kinematics.names import canonical
+from linkwright.kinematics.placement import placements
+
+
+@dataclass
+class Text:
+    """Lines of a model's three parts."""
+
+    parameters: list[str] = field(default_factory=list)
+    unknowns: list[str] = field(default_factory=list)
+    equations: list[str] = field(default_factory=list)
+
+
+class Equations:
+    """The model's text, part by part; starting values are those of the position ``index``."""
+
+    def __init__(self, results: Results, index: int, *, accelerations: bool) -> None:
+        self.results, self.index, self.accelerations = results, index, accelerations
+        self.motion, self.mechanism = results.motion, results.mechanism
+        self.names, self.text = Names(), Text()
+        self.known: set[str] = set()
+        self.links = {name: self.names.of("link", name) for name in self.mechanism.links}
+        self.placed = placements(self.motion)
+        self.pins = self.mechanism.pins
+
+    def write(self) -> Text:
+        """All lines."""
+        for name in self.links:
+            self._link(name)
+        for name in self.pins:
+            self._pin(name)
+        for name in self.links:
+            self.plain_points(name)
+        for guide in self.mechanism.guides.values():
+            self._guide(guide)
+        for weld in self.mechanism.welds.values():
+            self._weld(weld)
+        for joint in self.mechanism.joints.values():
+            if joint.higher and joint.name not in self.results.structure.redundant:
+                self.text.equations.append(f"{self.rolled(joint)} = 0.0;")
+        for name in self.mechanism.drivers:
+            self._driver(name)
+        return self.text
+
+    def unknown(self, name: str, unit: str, start: float, meaning: str) -> None:
+        self.text.unknowns.append(f'Real {name}(unit="{unit}", start={number(start)}) {quoted(meaning)};')
+
+    def parameter(self, name: str, unit: str, value: float, meaning: str) -> str:
+        self.text.parameters.append(
+            f'parameter Real {name}(unit="{unit}") = {number(value)} {quoted(meaning)};'
+        )
+        return name
+
+    def _rates(self, name: str, of: str, units: tuple[str, str], meaning: str) -> None:
+        """First and, if asked for, second derivative of an unknown."""
+        kinds = (("w", "velocity", units[0]), ("a", "acceleration", units[1]))
+        for kind, word, unit in kinds[: 2 if self.accelerations else 1]:
+            self.text.unknowns.append(f'Real {name}_{kind}(unit="{unit}") {quoted(f"{word} of {meaning}")};')
+            self.text.equations.append(f"{name}_{kind} = der({of});")
+            of = f"{name}_{kind}"
+
+    def _link(self, name: str) -> None:
+        me = self.links[name]
+        x, y = self.placed[name].origin[self.index]
+        self.unknown(f"{me}_x", "m", x, f"origin of link {name}, x")
+        self.unknown(f"{me}_y", "m", y, f"origin of link {name}, y")
+        self.unknown(f"{me}_phi", "rad", self.motion.link(name).angle[self.index], f"angle of link {name}")
+        self._rates(me, f"{me}_phi", ("rad/s", "rad/s2"), f"link {name} (angular)")
+
+    def _pin(self, name: str) -> None:
+        me = self.names.of("pin", name)
+        self.point(me, name, f"pin {name}")
+        for link in self.pins[name].links:
+            self._place(link, name, f"{me}_x", f"{me}_y")
+
+    def plain_points(self, link: str) -> None:
+        for point in self.mechanism.links[link].points:
+            if point in self.pins and link in self.pins[point].links:
+                continue
+            me = self.names.of("point", f"{link}.{point}")
+            self.point(me, canonical(self.mechanism, link, point), f"point {point} of link {link}")
+            self._place(link, point, f"{me}_x", f"{me}_y")
+
+    def point(self, me: str, key: str, meaning: str) -> None:
+        held = self._fixed(key)
+        x, y = self.mechanism.frame.points[key] if held else self.motion.point_of(key).position[self.index]
+        self.unknown(f"{me}_x", "m", x, f"{meaning}, x")
+        self.unknown(f"{me}_y", "m", y, f"{meaning}, y")
+
+    def _fixed(self, key: str) -> bool:
+        return key in self.pins and "frame" in self.pins[key].links
+
+    def _place(self, link: str, point: str, x: str, y: str) -> None:
+        """The point's coordinates from the place of the link."""
+        right = self.world(link, point)
+        self.text.equations += [f"{x} = {right[0]};", f"{y} = {right[1]};"]
+
+    def world(self, link: str, point: str) -> tuple[str, str]:
+        px, py = self.mechanism.link(link).points[point]
+        base, meaning = self.names.of("local", f"{link}.{point}"), f"{point} in the axes of {link}"
+        a, b = f"{base}_u", f"{base}_v"
+        if base not in self.known:
+            self.known.add(base)
+            self.parameter(a, "m", px, f"{meaning}, x")
+            self.parameter(b, "m", py, f"{meaning}, y")
+        if link == "frame":
+            return a, b
+        me = self.links[link]
+        return (
+            f"{me}_x + cos({me}_phi)*{a} - sin({me}_phi)*{b}",
+            f"{me}_y + sin({me}_phi)*{a} + cos({me}_phi)*{b}",
+        )
+
+    def angle(self, link: str) -> str:
+        return "0.0" if link == "frame" else f"{self.links[link]}_phi"
+
+    def _guide(self, joint: SlidingJoint) -> None:
+        me = self.names.of("guide", joint.name)
+        slide = self.motion.joint(joint.name)
+        self.unknown(
+            f"{me}_s", "m", slide.displacement[self.index], f"displacement of the block on {joint.name}"
+        )
+        self._rates(f"{me}_s", f"{me}_s", ("m/s", "m/s2"), f"the block on {joint.name}")
+        turn = self.parameter(f"{me}_direction", "rad", joint.direction, f"direction of {joint.name}")
+        offset = self.parameter(f"{me}_offset", "m", joint.offset, "normal distance, left positive")
+        block = self.parameter(
+            f"{me}_block_angle", "rad", joint.block_angle, "direction in the axes of the block"
+        )
+        along = f"({self.angle(joint.guide)} + {turn})"
+        (bx, by), (gx, gy) = self.world(joint.block, joint.at), self.world(joint.guide, joint.through)
+        self.text.equations += [
+            f"{bx} = {gx} + {me}_s*cos{along} - {offset}*sin{along};",
+            f"{by} = {gy} + {me}_s*sin{along} + {offset}*cos{along};",
+        ]
+        if joint.name not in self.results.structure.redundant:
+            angles = [self.motion.link(link).angle[self.index] for link in (joint.block, joint.guide)]
+            gap = angles[0] + joint.block_angle - angles[1] - joint.direction
+            self.text.equations.append(f"{self.angle(joint.block)} + {block} = {along}{turns(gap)};")
+
+    def rolled(self, joint: Joint) -> str:
+        """The sum of rotations and displacements that a higher pair keeps, less its value at the start."""
+        rotations, slides, _ = joint.sums(self.mechanism)
+        terms = [
+            (factor, self.angle(link), self.motion.link(link).angle[self.index])
+            for link, factor in rotations.items()
+        ]
+        terms += [
+            (factor, f"{self.names.of('guide', name)}_s", self.motion.joint(name).displacement[self.index])
+            for name, factor in slides.items()
+        ]
+        start = sum(factor * float(value) for factor, _, value in terms)
+        return (
+            " + ".join(f"({number(factor)})*{name}" for factor, name, _ in terms) + f" + ({number(-start)})"
+        )
+
+    def _weld(self, joint: RigidJoint) -> None:
+        a, b = joint.links
+        for left, right in zip(self.world(a, joint.at), self.world(b, joint.at), strict=True):
+            self.text.equations.append(f"{left} = {right};")
+        first, second = (self.motion.link(link).angle[self.index] for link in (a, b))
+        turn = self.parameter(
+            f"{self.names.of('weld', joint.name)}_angle", "rad", joint.angle, f"angle of {joint.name}"
+        )
+        self.text.equations.append(
+            f"{self.angle(b)} = {self.angle(a)} + {turn}{turns(second - first - joint.angle)};"
+        )
+
+    def _driver(self, name: str) -> None:
+        driver = self.mechanism.drivers[name]
+        begin, end = float(self.motion.time.min()), float(self.motion.time.max())
+        me = self.names.of("driver", name)
+        rotary = self.motion.positions.rotary[name]
+        start = self.motion.inputs[name][self.index]
+        self.unknown(f"{me}_q", "rad" if rotary else "m", start, f"coordinate of the driver {name}")
+        self.text.equations.append(f"{me}_q = {law_text(driver.law, begin, end)};")
+        if not rotary:
+            self.text.equations.append(f"{self.names.of('guide', driver.joint)}_s = {me}_q;")
+            return
+        moved, base = (self.motion.link(link).angle[self.index] for link in (driver.link, driver.relative_to))
+        against = "" if driver.relative_to == "frame" else f" - {self.angle(driver.relative_to)}"
+        self.text.equations.append(
+            f"{self.angle(driver.link)}{against} = {me}_q{turns(moved - base - start)};"
+        )
+
+
+def turns(angle: float) -> str:
+    """Whole turns that an equation of angles has to add, as text; nothing where there is none."""
+    count = round(angle / (2 * math.pi))
+    return f" + {number(2 * math.pi * count)}" if count else ""
+
+
+def indented(lines: list[str]) -> Iterator[str]:
+    """Lines of a part."""
+    return (f"  {line}" for line in lines)

@@ -1,0 +1,353 @@
+"""The kinematic drawing of a mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from linkwright.core.given import DRAWING_STEPS, one_or_more, real, require, whole
+from linkwright.errors import LinkwrightError, RequestError, require_language
+from linkwright.events.limit_positions import limits_of
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.labels import Label
+from linkwright.pictures.sketch import Sketch
+from linkwright.pictures.svg.element import group
+from linkwright.plotting.drawing.dimensions import Dimension, dimension_lines
+from linkwright.plotting.drawing.legend import Legend
+from linkwright.plotting.drawing.loads import load_labels, load_marks, unmarked
+from linkwright.plotting.drawing.machine import DIAGONAL
+from linkwright.plotting.drawing.positions import At, Shown, at_input, at_time, with_limits
+from linkwright.plotting.drawing.scene import Scene, laid_out, link_labels, point_labels
+from linkwright.plotting.drawing.vectors import (
+    Arrows,
+    all_points,
+    force_vectors,
+    point_vectors,
+    same_motion,
+    scale_of,
+)
+from linkwright.words import _, pgettext
+from linkwright.words.sentence import in_language
+
+if TYPE_CHECKING:
+    from linkwright.kinetostatics.forces import Forces
+
+Names = Sequence[str] | bool
+MOST_FADED = 60
+#: What is said where there is nothing to draw.
+NO_FORCES = _("no forces: the links have no mass and there are no loads (mass: 5 kg, loads: …)")
+ZERO = {
+    "force": _("all forces are zero at this position"),
+    "velocity": _("all velocities are zero at this position"),
+    "acceleration": _("all accelerations are zero at this position"),
+}
+
+
+def draw(
+    source: Motion | Mechanism,
+    *,
+    position: int | None = None,
+    at: At | None = None,
+    time: float | None = None,
+    overlay: Sequence[int] | str = (),
+    paths: Sequence[str] = (),
+    velocities: Names = (),
+    accelerations: Names = (),
+    forces: Forces | bool | None = None,
+    reactions_of: Sequence[str] | None = None,
+    dimensions: Sequence[Dimension] | bool = (),
+    centres: bool = False,
+    inputs: bool = True,
+    labels: bool | str = True,
+    size: float | None = None,
+    diagonal: float = DIAGONAL,
+    language: str = "en",
+) -> Drawing:
+    """Draw a mechanism in the standard symbols.
+
+    Args:
+        source: a motion, or a mechanism whose cycle is solved first.
+        position: index of the position drawn in full; default the first that was reached.
+        at: instead, the first driver's coordinate (rad or m), or those of drivers by name.
+        time: instead, a time (s).
+        overlay: positions drawn faded under it; ``"faded:8"`` as many over the motion; ``"limits"`` dashes the
+            exact limit positions of the last output, ``"limits:jaw"`` those of a link or a guide.
+        paths: points whose paths over the motion are drawn.
+        velocities: points whose velocities are drawn; True for all points.
+        accelerations: the same for accelerations.
+        forces: forces of this motion (True: solve them), drawn as vectors at the joints and loads.
+        reactions_of: joints of which forces are drawn (``"B"``: on the joint's last link; ``"rocker.B"``: on that
+            link); default all.
+        dimensions: links (``frame`` among them) with the lengths and angles that place their points, or pairs of
+            points with their distance; True for all links.
+        centres: mark the mass centres.
+        inputs: show by arrows what is driven and which way.
+        labels: names of points, links and loads; ``"points"``: of points only. Vectors always have theirs.
+        size: longer side in pixels; default natural size.
+        diagonal: of the machine, in units of which letters have 12: smaller for a picture that is shown small.
+        language: ``en`` or ``zh``.
+
+    Returns:
+        The drawing. x is to the right, y up; sizes of symbols go with the machine's diagonal.
+
+    Raises:
+        LinkwrightError: an unknown name, a position that does not exist or was not reached.
+    """
+    require(source, Motion, Mechanism)
+    require_language(language)
+    if not real("diagonal", diagonal) > 0:
+        raise RequestError(
+            _(
+                "a machine cannot be drawn {diagonal} large; give a diagonal above zero",
+                code="picture.bad_diagonal",
+                diagonal=diagonal,
+            )
+        )
+    motion = (
+        source if isinstance(source, Motion) else solve_motion(source, steps=DRAWING_STEPS, failures="mark")
+    )
+    shown = _shown(motion, position, at, time)
+    ghosts, style = _overlay(motion, overlay)
+    scene, index, others = laid_out_beside(
+        motion, shown, ghosts, inputs=inputs, centres=centres, diagonal=diagonal
+    )
+    sketch = MachineSketch(scene, index, shown.index)
+    sketch.ghosts(others, style)
+    paths = one_or_more(paths)
+    sketch.draw(scene.traces(paths), [scene.trace(name) for name in paths])
+    known = _forces_shown(motion, shown, forces)
+    arrows = all_arrows(shown.motion, velocities, accelerations, known, reactions_of)
+    sketch.machine(pushes=known is None)
+    sketch.vectors(arrows)
+    sketch.dimensions(dimensions)
+    sketch.write_wanted_names(labels)
+    sketch.legend(arrows, language)
+    return sketch.drawing(
+        _("Kinematic drawing of {name}", name=in_language(motion.mechanism.name, language)).translate(
+            language
+        ),
+        size,
+    )
+
+
+class MachineSketch(Sketch):
+    """The drawing of a machine in the making, with vectors to their scales.
+
+    ``index``: the position in the scene; ``shown``: the same position in the motion of the vectors.
+    """
+
+    def __init__(self, scene: Scene, index: int, shown: int) -> None:
+        super().__init__()
+        self.scene, self.index, self.shown = scene, index, shown
+        self.load_labels: list[Label] = []
+
+    def ghosts(self, indices: Sequence[int], style: str) -> None:
+        """The moving links at other positions."""
+        for index in indices:
+            ghost = group(self.scene.at(index, moving_only=True), style)
+            self.draw([ghost], self.scene.ink(index, moving_only=True))
+
+    def machine(self, *, pushes: bool) -> None:
+        """The mechanism itself, with the symbols of its loads; ``pushes``: forces and torques among them."""
+        marks = load_marks(self.scene.machine, self.index, forces=pushes)
+        self.draw(self.scene.at(self.index), self.scene.ink(self.index))
+        self.add(marks)
+        self.load_labels = load_labels(self.scene.machine, self.index, forces=pushes)
+
+    def vectors(self, arrows: Sequence[Arrows]) -> None:
+        """Vectors and arcs of torques with their names."""
+        view = self.scene.machine.view
+        for each in arrows:
+            scale = scale_of(each.vectors, [self.shown])
+            self.add(each.shape(self.shown, view, scale))
+            self.labels += each.labels(self.shown, view, scale)
+
+    def dimensions(self, wanted: Sequence[Dimension] | bool) -> None:
+        """Dimension lines; their values become labels."""
+        for each in dimension_lines(self.scene.machine, wanted, self.index, self.ink):
+            self.add(each.shape)
+            self.labels.append(each.label)
+
+    def write_wanted_names(self, wanted: bool | str) -> None:
+        """Names, placed clear of all ink so far."""
+        if wanted:
+            self.labels += point_labels(self.scene.machine, self.index)
+        if wanted is True or wanted == "all":
+            self.labels += [*link_labels(self.scene, self.index), *self.load_labels]
+        self.write_names()
+
+    def legend(self, arrows: Sequence[Arrows], language: str) -> None:
+        """Scales, sizes and names of the vectors, below everything; what was asked for and is nothing, as a note."""
+        mechanism = self.scene.machine.motion.mechanism
+        below = Legend(self.box)
+        below.scales(arrows, [self.shown], language)
+        below.values(arrows, self.shown)
+        if any(each.kind == "force" and not each.empty([self.shown]) for each in arrows):
+            below.numbers(mechanism, language)
+        if missing := unmarked(self.scene.machine, self.index):
+            self.notes.append(
+                _("not drawn, as they name neither a point nor a link: {loads}", loads=tuple(missing)).say(
+                    language
+                )
+            )
+        for each in arrows:
+            if each.empty([self.shown]):
+                nothing = each.kind == "force" and not mechanism.has_loads
+                self.notes.append((NO_FORCES if nothing else ZERO[each.kind]).translate(language))
+        for note in self.notes:
+            below.sentence(note)
+        self.content += below.content
+        self.extent += below.extent
+
+
+def laid_out_beside(
+    motion: Motion,
+    shown: Shown,
+    ghosts: Sequence[Shown],
+    *,
+    inputs: bool,
+    centres: bool,
+    diagonal: float = DIAGONAL,
+) -> tuple[Scene, int, list[int]]:
+    """The scene of a motion with positions beside it; their indices in the scene."""
+    beside = [each for each in (shown, *ghosts) if each.motion is not motion]
+    places = {(id(each.motion), each.index): motion.steps + k for k, each in enumerate(beside)}
+
+    def place(each: Shown) -> int:
+        return places.get((id(each.motion), each.index), each.index)
+
+    scene = laid_out(
+        motion,
+        place(shown),
+        inputs=inputs,
+        centres=centres,
+        beside=[(each.motion, each.index) for each in beside],
+        diagonal=diagonal,
+    )
+    return scene, place(shown), [place(each) for each in ghosts]
+
+
+def _shown(motion: Motion, position: int | None, at: At | None, time: float | None) -> Shown:
+    if sum(each is not None for each in (position, at, time)) > 1:
+        raise RequestError(
+            _("a drawing shows one position; give one of position, at and time", code="picture.one_position")
+        )
+    if at is not None:
+        return at_input(motion, at).checked()
+    if time is not None:
+        return at_time(motion, real("time", time)).checked()
+    if position is None:
+        return Shown(motion, int(np.argmax(motion.ok))).checked()
+    return Shown(motion, _index(motion, position))
+
+
+def _index(motion: Motion, position: int) -> int:
+    position = whole("position", position)
+    if not -motion.steps <= position < motion.steps:
+        raise RequestError(
+            _(
+                'position {position} does not exist; the motion of "{name}" has the positions 0 to {last}',
+                code="picture.no_position",
+                position=position,
+                name=motion.mechanism.name,
+                last=motion.steps - 1,
+            )
+        )
+    index = int(position) % motion.steps
+    if not motion.ok[index]:
+        raise LinkwrightError(
+            pgettext(
+                "picture",
+                "position {position} cannot be drawn: {sentence}",
+                code="picture.not_drawn",
+                position=index,
+                sentence=motion.outcomes[index].sentence,
+            )
+        )
+    return index
+
+
+def _overlay(motion: Motion, overlay: Sequence[int] | str) -> tuple[list[Shown], str]:
+    if not isinstance(overlay, str):
+        positions = overlay if isinstance(overlay, Iterable) else [overlay]
+        return [Shown(motion, _index(motion, each)) for each in positions], "lw-faded"
+    word, _unused, rest = overlay.partition(":")
+    if word == "limits":
+        denser, indices = with_limits(motion, limits_of(motion, rest or None))
+        return [Shown(denser, each) for each in indices], "lw-dashed"
+    if word == "faded" and rest.isdecimal() and 1 <= int(rest) <= MOST_FADED:
+        return [Shown(motion, each) for each in _spread(motion, int(rest))], "lw-faded"
+    raise RequestError(
+        _(
+            'overlay "{overlay}" is unknown; give positions, "limits", "limits:LINK" or '
+            '"faded:8" (1 to {most} positions)',
+            code="picture.bad_overlay",
+            overlay=overlay,
+            most=MOST_FADED,
+        )
+    )
+
+
+def _spread(motion: Motion, count: int) -> list[int]:
+    """Positions over the motion, as many as asked for or reached."""
+    reached = np.flatnonzero(motion.ok)
+    whole = motion.positions.closed and len(reached) == motion.steps
+    places = np.linspace(0, len(reached) - (0 if whole else 1), count, endpoint=not whole)
+    return [int(each) for each in np.unique(reached[places.round().astype(int) % max(len(reached), 1)])]
+
+
+def all_arrows(
+    motion: Motion,
+    velocities: Names,
+    accelerations: Names,
+    forces: Forces | None,
+    of: Sequence[str] | None,
+) -> list[Arrows]:
+    """All vectors that a drawing shows; each entry has a scale of its own."""
+    found: list[Arrows] = []
+    for kind, wanted in (("velocity", velocities), ("acceleration", accelerations)):
+        names = all_points(motion.mechanism) if wanted is True else one_or_more(wanted or ())
+        if names:
+            found.append(point_vectors(motion, names, kind))
+    if forces is not None:
+        found.append(force_vectors(forces, None if of is None else one_or_more(of)))
+    return found
+
+
+def _forces_shown(motion: Motion, shown: Shown, forces: Forces | bool | None) -> Forces | None:
+    """Forces of the motion that has the shown position."""
+    if shown.motion is motion or not forces:
+        return solved(motion, forces)
+    from linkwright.kinetostatics.run import solve_forces
+
+    known = None if forces is True else solved(motion, forces)
+    return solve_forces(shown.motion, static=known is not None and known.static)
+
+
+def solved(motion: Motion, forces: Forces | bool | None) -> Forces | None:
+    """The forces of this motion: given, solved now (True), or none."""
+    if forces is None or forces is False:
+        return None
+    if forces is True:
+        from linkwright.kinetostatics.run import solve_forces
+
+        return solve_forces(motion)
+    same_motion(motion, forces)
+    return forces
+
+
+def picture_of(shown: Mechanism | Motion | Forces) -> str | None:
+    """The drawing at the first position that was reached, as SVG text; None where there is none."""
+    from linkwright.kinetostatics.forces import Forces
+
+    try:
+        if isinstance(shown, Forces):
+            return draw(shown.motion, forces=shown).svg
+        return draw(shown).svg
+    except LinkwrightError:
+        return None

@@ -1,0 +1,24 @@
+"""The cover of a report: what the settings say of it, with the words of its rows."""
+
+from __future__ import annotations
+
+from linkwright.reports.document import Cover, Document
+from linkwright.reports.settings import COVER_ROWS, Settings
+from linkwright.words import _
+
+
+def cover(own: Settings, document: Document) -> Cover | None:
+    """The page before all others, None where the file asks for none."""
+    given, say = own.cover, document.say
+    if given is None:
+        return None
+    rows = [(say(COVER_ROWS[key]), value) for key, value in given.rows]
+    above = tuple(filter(None, (given.school, own.course)))
+    return Cover(
+        given.kind or say(_("Course design report")),
+        document.title,
+        above,
+        (*rows, *given.fields),
+        given.date,
+        given.logo,
+    )

@@ -1,0 +1,142 @@
+"""The machine in the subprograms of the teaching texts: numbers of points and links, formal and actual arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from linkwright.core.table import Table
+from linkwright.dyads.calls import FORMAL, Call, Calls, NumberedLink, NumberedPoint, calls, length
+from linkwright.dyads.plan import plan
+from linkwright.reports.document import Block, Code, Heading, Paragraph, literal, printed
+from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.numbers import typeset
+from linkwright.reports.section import section
+from linkwright.words import _, pgettext
+
+#: Why steps have no call of their own.
+KINDS = {
+    "weld": _("it is fixed to a link solved before"),
+    "slider": _(
+        "its displacement along the guide is given, so p, vp and ap of its points are written at once"
+    ),
+}
+
+
+@section("calls", _("Calls of the teaching subprograms"), 14.0, optional=True)
+def blocks(case: Case) -> Iterator[Block]:
+    """Numbering, the calls in solving order, a table of formal and actual arguments for every subprogram."""
+    say = case.say
+    numbered = case.numbered
+    forces = case.mechanism.has_loads
+    made = calls(plan(numbered.motion, numbered.rows), case.heads.numbers, forces=forces)
+    if not made.motion:
+        raise Missing(_("no group of this machine has a subprogram of these texts", code="calls.none"))
+    yield Paragraph(
+        say(
+            _(
+                "The machine in the subprograms of the teaching texts (bark for a bar, rrrk to rppk "
+                "for the motion of the five dyads, barf and rrrf to rppf for their joint forces). "
+                "Points have the numbers n and links the numbers k of the tables below; $p$, $v_p$, "
+                "$a_p$ are the motion of the points, $t$, $w$, $e$ the directions of the links with "
+                "their rates. Lengths in m, angles in rad, 0: not used.",
+            )
+        )
+    )
+    yield _points(case, made.points)
+    yield _links(case, made)
+    yield from _others(case, made)
+    for title, program, group in (
+        (_("Motion, in solving order"), _("calls for the motion"), made.motion),
+        (_("Joint forces, from the last group to the first"), _("calls for the joint forces"), made.forces),
+    ):
+        if group:
+            yield Heading(say(title), 2)
+            yield Code(_program(group), "", say(program))
+            yield from _tables(case, group)
+    for note in dict.fromkeys(map(str, made.notes)):
+        said = next(each for each in made.notes if str(each) == note)
+        yield Paragraph(literal(case.sentence(said)), "note")
+
+
+def _points(case: Case, points: Sequence[NumberedPoint]) -> Block:
+    say = case.say
+    rows = []
+    for point in points:
+        links = ", ".join(say(_("frame")) if link == "frame" else link for link in point.links)
+        place = "–" if point.place is None else f"({length(point.place.real)}, {length(point.place.imag)})"
+        rows.append((point.number, case.sentence(point.name), links, place))
+    head = (_("n"), _("point"), pgettext("calls", "on"), _("fixed place / m"))
+    return printed(Table(head, rows, "><<<", _("Numbers of the points")), case.language)
+
+
+def _links(case: Case, made: Calls) -> Block:
+    """Links, and guides that need a direction of their own; masses where forces are found."""
+    say, width = case.say, 5 if made.forces else 3
+    rows = []
+    for link in sorted(made.links, key=lambda each: each.number):
+        part = case.mechanism.links.get(link.name)
+        mass, inertia = (length(part.mass), length(part.inertia)) if part else ("–", "–")
+        name = link.name if part else say(_("direction of guide {guide}", guide=link.name))
+        cells = (str(link.number), name, _direction(case, link), mass, inertia)
+        rows.append(tuple(map(typeset, cells[:width])))
+    head = (_("k"), _("link"), _("t(k)"), _("mass / kg"), _("moment of inertia / kg·m²"))[:width]
+    return printed(Table(head, rows, "><<>>"[:width], _("Numbers of the links")), case.language)
+
+
+def _direction(case: Case, link: NumberedLink) -> str:
+    """What t(k) of a link is."""
+    say = case.say
+    if link.line is not None:
+        return say(_("from point {first} to {second}", first=link.line[0], second=link.line[1]))
+    if link.along:
+        return say(_("along guide {guide}", guide=link.along))
+    if link.name in case.mechanism.links:
+        return say(_("x axis of the link"))
+    if not link.against:
+        return say(_("{angle} rad, constant", angle=length(link.angle)))
+    return say(_("t({link}) + {angle} rad", angle=length(link.angle), link=link.against))
+
+
+def _others(case: Case, made: Calls) -> Iterator[Paragraph]:
+    """Which steps have no call, and why; once for each reason."""
+    say = case.say
+    groups: dict[str, list[str]] = {}
+    for step in made.others:
+        reason: str = say(KINDS[step.kind]) if step.kind else case.sentence(step.reason)
+        groups.setdefault(reason, []).append(
+            say(_("{signature} ({links})", signature=step.group.signature, links=", ".join(step.group.links)))
+        )
+    for reason, named in groups.items():
+        said = say(
+            _(
+                "No subprogram of these texts for {groups}: {reason}.",
+                groups=say(_(", ")).join(named),
+                reason=reason,
+            )
+        )
+        yield Paragraph(literal(said), "note")
+    if made.forces and any(not step.kind for step in made.others):
+        yield Paragraph(
+            say(
+                _(
+                    "What groups without a subprogram exert on the links of the others is not in the "
+                    "calls for the joint forces; it is added as a force at a point (nn).",
+                )
+            ),
+            "note",
+        )
+
+
+def _program(group: Sequence[Call]) -> str:
+    return "\n".join(f"Call {call.text}" for call in group)
+
+
+def _tables(case: Case, group: Sequence[Call]) -> Iterator[Block]:
+    """A table for every subprogram, a row for every call."""
+    for name in FORMAL:
+        mine = [call for call in group if call.name == name]
+        if mine:
+            head = (_("formal:"), *FORMAL[name])
+            rows = [(", ".join(call.links), *map(typeset, call.actual)) for call in mine]
+            title = _("{name}: formal arguments (head) and actual ones", name=name)
+            yield printed(Table(head, rows, "<" + "^" * len(FORMAL[name]), title), case.language)

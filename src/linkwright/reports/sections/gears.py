@@ -1,0 +1,191 @@
+"""The gears of the machine: sizes, ratios with the carrier stopped, geometry of the teeth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from linkwright.core.quantity import number
+from linkwright.core.table import Amount, Cell, Table
+from linkwright.equations.notation import Fraction, Row, row, sign
+from linkwright.equations.reading import read, read_name
+from linkwright.errors import LinkwrightError
+from linkwright.gears.gear import Gear
+from linkwright.gears.pair import GearPair, gear_pair
+from linkwright.mechanism.wheel_sizes import WheelSizes, wheel_sizes
+from linkwright.reports.document import Block, Figure, Formula, Heading, Paragraph, literal, printed
+from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.section import section
+from linkwright.topology.trains import GearTrain, written
+from linkwright.words import _, pgettext
+from linkwright.words.sentence import link_said
+
+
+@section("gears", _("Gears, racks and belts"), 8.5, optional=True)
+def blocks(case: Case) -> Iterator[Block]:
+    """Pairs of wheels and racks with their sizes, ratios of trains, teeth where module and numbers are given."""
+    mechanism = case.mechanism
+    found = {joint.name: wheel_sizes(joint, mechanism) for joint in mechanism.joints.values()}
+    pairs = {name: sizes for name, sizes in found.items() if sizes is not None}
+    if not pairs:
+        raise Missing(_("there are no gears, racks or belts", code="report.no_gears"))
+    yield Paragraph(
+        case.say(
+            _(
+                "$z$: numbers of teeth, $m$: module, $r$: pitch radii, $a$: centre distance, "
+                "$\\alpha$: pressure angle, $i$: ratio of the second wheel to the first with the "
+                "carrier stopped.",
+            )
+        )
+    )
+    yield _sizes(case, pairs)
+    for train in case.structure.trains:
+        yield from _train(case, train)
+    for names in _alike(pairs):
+        yield from _teeth(case, names, pairs[names[0]])
+
+
+def _sizes(case: Case, pairs: Mapping[str, WheelSizes]) -> Block:
+    rows = [_row(case, name, sizes) for name, sizes in pairs.items()]
+    head = (
+        _("joint"),
+        _("kind"),
+        _("wheels"),
+        "$z$",
+        "$m$ / mm",
+        "$r$ / mm",
+        "$a$ / mm",
+        r"$\alpha$ / °",
+        "$i$",
+    )
+    table = Table(head, rows, "<<<>>>>>>", _("Pairs of wheels and racks"))
+    return printed(table, case.language, "wheels")
+
+
+def _row(case: Case, name: str, sizes: WheelSizes) -> tuple[str, ...]:
+    """Name, kind, wheels, teeth, module, pitch radii, centre distance, pressure angle, ratio."""
+    return (
+        name, case.sentence(case.mechanism.joints[name].word()), ", ".join(sizes.links),
+        _listed(sizes.teeth), _listed(sizes.module, 1e3), _listed(sizes.radii, 1e3), _listed(sizes.distance, 1e3),
+        _listed(sizes.pressure_angle, 180.0 / math.pi), "–" if sizes.ratio is None else written(sizes.ratio),
+    )  # fmt: skip
+
+
+def _listed(values: float | Sequence[float] | None, factor: float = 1.0) -> str:
+    """Numbers times a factor, or a dash where there are none."""
+    if values is None:
+        return "–"
+    several = [values] if isinstance(values, float) else values
+    return ", ".join(f"{factor * each:.6g}" for each in several)
+
+
+def _train(case: Case, train: GearTrain) -> Iterator[Block]:
+    """The table of the stopped carrier, and the equations that follow from it."""
+    say, wheels = case.say, list(train.ratios)
+    carrier = [train.carrier] if train.planetary else []
+    held, frame = (link_said(name, case.language) for name in (train.carrier, "frame"))
+    stopped = [say(_("{carrier} stopped", carrier=held)), *map(written, train.ratios.values())]
+    rows = [(*stopped, "0") if carrier else tuple(stopped)]
+    if carrier:
+        rows.append((say(_("all as one")), *["1"] * (len(wheels) + 1)))
+    if speeds := train.speeds:
+        rows.append((say(_("{carrier} stopped", carrier=frame)), *map(written, speeds.values())))
+    caption = say(
+        _(
+            "Speeds of the train {pairs} with the carrier ({carrier}) stopped, as shares of the first one",
+            pairs=", ".join(train.pairs),
+            carrier=held,
+        )
+    )
+    head = (pgettext("report", "motion"), *map(literal, (*wheels, *carrier)))
+    yield printed(Table(head, rows, title=literal(caption)), case.language)
+    omega = {name: read_name(f"ω{number}") for name, number in case.heads.numbers.items()}
+    first = omega[train.first]
+    for wheel, ratio in list(train.ratios.items())[1:]:
+        own = omega[wheel]
+        if train.planetary:
+            less = (sign("-"), omega[train.carrier])
+            yield Formula((Row((Fraction(row((own, *less)), row((first, *less))),)), read(written(ratio))))
+        else:
+            yield Formula((read_name(f"i_{wheel}"), Row((Fraction(own, first),)), read(written(ratio))))
+    if train.blocked:
+        yield Paragraph(
+            literal(
+                say(
+                    _(
+                        "{pairs} would give a wheel another ratio: the wheels cannot turn against the "
+                        "carrier.",
+                        pairs=", ".join(train.blocked),
+                    )
+                )
+            ),
+            "note",
+        )
+
+
+def _alike(pairs: Mapping[str, WheelSizes]) -> list[list[str]]:
+    """Names of gears whose module and whole numbers of teeth are given, those with equal ones together."""
+    found: dict[tuple[object, ...], list[str]] = {}
+    for name, sizes in pairs.items():
+        if sizes.involute and all(z == int(z) for z in sizes.teeth or ()):
+            own = (sizes.teeth, sizes.module, sizes.pressure_angle, _internal(sizes))
+            found.setdefault(own, []).append(name)
+    return list(found.values())
+
+
+def _internal(sizes: WheelSizes) -> bool:
+    return sizes.ratio is not None and sizes.ratio > 0
+
+
+def _teeth(case: Case, same: Sequence[str], sizes: WheelSizes) -> Iterator[Block]:
+    """Diameters and contact of equal pairs of gears."""
+    say, internal = case.say, _internal(sizes)
+    assert sizes.teeth is not None and sizes.module is not None and sizes.pressure_angle is not None
+    ends = list(zip(sizes.teeth, sizes.links, strict=True))
+    (first, a), (second, b) = sorted(ends) if internal else ends
+    joints = case.mechanism.joints
+    title = "; ".join(f"{name} ({', '.join(joints[name].joined)})" for name in same)
+    yield Heading(literal(title), 2)
+    teeth, names = (int(first), int(second)), [a, b]
+    try:
+        mesh = gear_pair(teeth, sizes.module, pressure_angle=sizes.pressure_angle, internal=internal)
+    except LinkwrightError as error:
+        yield Paragraph(literal(case.told(error)), "missing")
+        return
+    yield Paragraph(
+        say(
+            _(
+                "Standard involute teeth (addendum 1 module, dedendum 1.25 modules), no profile "
+                "shift; $d$, $d_{b}$, $d_{a}$, $d_{f}$: diameters of the pitch, base, tip and root "
+                "circles, $s$: thickness of a tooth (of a ring: of a space) on the pitch circle.",
+            )
+        )
+    )
+    yield _diameters(case, mesh, names)
+    yield Paragraph(
+        say(_(
+"Contact ratio {ratio}, centre distance {distance} mm, pressure angle in mesh "
+"{angle}°.",
+ratio=f"{mesh.contact_ratio:.4g}",
+distance=number(mesh.centre_distance, "length"),
+angle=number(mesh.working_pressure_angle, "angle"),
+))
+    )  # fmt: skip
+    for sentence in mesh.findings:
+        yield Paragraph(literal(case.sentence(sentence)), "note")
+    yield Figure(say(_("Teeth of {pair} in mesh", pair=literal(", ".join(same)))),
+                 ((mesh.draw(language=case.language).svg, 0.7),), tallest=110.0)  # fmt: skip
+
+
+def _diameters(case: Case, mesh: GearPair, names: list[str]) -> Block:
+    rows: list[list[Cell]] = [
+        [name, gear.teeth, *(Amount(each, "length", bare=True) for each in _circles(gear))]
+        for name, gear in zip(names, (mesh.pinion, mesh.wheel), strict=True)
+    ]
+    head = (_("link"), "$z$", "$d$ / mm", "$d_{b}$ / mm", "$d_{a}$ / mm", "$d_{f}$ / mm", "$s$ / mm")
+    return printed(Table(head, rows, title=_("Circles and teeth")), case.language)
+
+
+def _circles(gear: Gear) -> tuple[float, ...]:
+    """Diameters of pitch, base, tip and root circle, and the thickness of a tooth on the pitch circle, m."""
+    return gear.pitch_diameter, gear.base_diameter, gear.tip_diameter, gear.root_diameter, gear.thickness

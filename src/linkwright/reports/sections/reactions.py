@@ -1,0 +1,108 @@
+"""Joint forces over the cycle and their hodographs."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+import numpy as np
+
+from linkwright.core.table import Amount, Cell, Table
+from linkwright.errors import LinkwrightError
+from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
+from linkwright.plotting.diagrams.base import title_of
+from linkwright.reports.document import Block, Figure, Paragraph, literal, printed
+from linkwright.reports.machine_results import Case
+from linkwright.reports.numbers import ROUNDING, faded
+from linkwright.reports.section import section
+from linkwright.reports.sections.curves import SHARE
+from linkwright.reports.sections.curves import TALLEST as SHORT
+from linkwright.words import _
+from linkwright.words.sentence import in_words
+
+#: Joint forces in one figure; hodographs in one where there are more, two rows, of which a page has room for two
+#: figures; the height of one of hodographs, mm.
+MOST, IN_ROWS, TALLEST = 12, 6, 225.0
+#: Captions of diagrams of the joint forces.
+CAPTIONS = {
+    "reactions": _("Sizes of the joint forces over the input"),
+    "hodographs": _("Hodographs of the joint forces, in the axes of the frame"),
+}
+
+
+@section("reactions", _("Joint forces"), 8.0, optional=True)
+def blocks(case: Case) -> Iterator[Block]:
+    """Sizes of all joint forces, the largest of each, and their hodographs."""
+    say, _unused = case.say, case.forces
+    yield Paragraph(
+        say(
+            _(
+                "The force of every joint, found group by group in reverse order; the other link "
+                "feels the reverse.",
+            )
+        )
+    )
+    peaks = [row for row in case.metrics if row.metric == "peak_reaction"]
+    rows: list[list[Cell]] = [
+        [in_words(row.subject, case.language), Amount(row.value, row.dimension),
+         None if row.at is None else Amount(faded(row.at), row.at_dimension)] for row in peaks
+    ]  # fmt: skip
+    if rows:
+        head = (_("joint"), _("largest force"), _("at the input"))
+        yield printed(Table(head, rows, "<>>", _("Largest force in every joint")), case.language, "peaks")
+    if rubbing := rubbing_guides(case.mechanism):
+        yield Paragraph(
+            literal(
+                say(
+                    _(
+                        "The force in a guide is what presses its parts together; its friction, μ times "
+                        "that, along the guide, comes on top: {names}",
+                        names=", ".join(rubbing),
+                    )
+                )
+            )
+        )
+    for note in case.forces.notes:
+        yield Paragraph(literal(case.sentence(note)), "note")
+    if not case.mechanism.drivers:
+        return
+    parts = _parts(case, MOST)
+    yield from _figures(case, "reactions", parts, [SHARE] * len(parts), SHORT)
+    parts = parts if len(parts) == 1 else _parts(case, IN_ROWS)
+    panels = [sum(joint in part for joint, _unused in loaded_joints(case)) for part in parts]
+    yield from _figures(case, "hodographs", parts, [min(1.0, 0.34 * min(3, n)) for n in panels], TALLEST)
+
+
+def _parts(case: Case, most: int) -> list[list[str]]:
+    """The joints that carry something, as many together as have no more forces than ``most``."""
+    forces = Counter(joint for joint, _unused in loaded_joints(case))
+    parts: list[list[str]] = [[]] if forces else []
+    for joint, count in forces.items():
+        if parts[-1] and sum(forces[each] for each in parts[-1]) + count > most:
+            parts.append([])
+        parts[-1].append(joint)
+    return parts
+
+
+def loaded_joints(case: Case) -> list[tuple[str, str]]:
+    """The joint forces, those of joints that carry nothing left out."""
+    peaks = {pair: float(np.nanmax(np.abs(case.forces.reaction(pair[0], on=pair[1])), initial=0.0))
+             for pair in reaction_pairs(case.mechanism)}  # fmt: skip
+    least = ROUNDING * max(peaks.values(), default=0.0)
+    carrying = {joint for (joint, _unused), peak in peaks.items() if peak > least}
+    return [pair for pair in peaks if pair[0] in carrying]
+
+
+def _figures(
+    case: Case, kind: str, parts: list[list[str]], shares: list[float], tallest: float
+) -> Iterator[Block]:
+    """A figure of some joints each, or why there is none."""
+    caption = case.say(CAPTIONS[kind])
+    for number, (joints, share) in enumerate(zip(parts, shares, strict=True)):
+        try:
+            picture = case.diagram(kind, of=joints)
+        except LinkwrightError as error:
+            yield Paragraph(f"{case.say(title_of(kind))}: {literal(case.told(error))}", "missing")
+            continue
+        title = case.say(_("{caption} (continued)", caption=caption)) if number else caption
+        yield Figure(title, ((picture, share),), "" if number else kind, tallest)

@@ -1,0 +1,205 @@
+"""Forces that are known before the joints': weight, inertia, loads, friction."""
+
+from __future__ import annotations
+
+import math
+
+from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import owners_of
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, cosine, sine, symbol
+from linkwright.kinetostatics.applied_wrenches import AppliedWrench, applied_wrenches
+from linkwright.kinetostatics.forces import Forces
+from linkwright.words import _
+from linkwright.worked_solutions.load_formulas import LoadFormulas, turns_with, worked_couple, worked_force
+from linkwright.worked_solutions.symbols import Book, Spot
+
+
+@dataclass(frozen=True)
+class Known:
+    """A known force on a link, at a place, and a couple; ``velocity`` of the point where it acts."""
+
+    force: Pair
+    place: Pair
+    velocity: Pair
+    couple: Term = ZERO
+
+    def moment(self, about: Pair) -> Term:
+        """Moment about a point."""
+        arm = NOWHERE if self.place == about else self.place - about
+        return arm.cross(self.force) + self.couple
+
+
+class KnownForces:
+    """The known forces of every link at one position."""
+
+    def __init__(self, forces: Forces, book: Book) -> None:
+        self.forces = forces
+        self.book = book
+        self.formulas = LoadFormulas(book)
+        self.on: dict[str, list[Known]] = {name: [] for name in book.mechanism.links}
+        self._found: list[AppliedWrench] = []
+
+    def steps(self, number: int) -> list[Step]:
+        """The steps that find them."""
+        say = self.book.say
+        head = Step(str(number), say(_("Forces")))
+        head.say(
+            say(
+                _(
+                    "F_A,2: force that joint A exerts on link 2 (F_A,1→2: that link 1 exerts on link 2 "
+                    "at A); K, M_J: weight and inertia force at the mass centre, inertia couple. The "
+                    "other link of a joint feels the reverse. Groups in reverse order."
+                )
+            )
+        )
+        inertia = Step(
+            f"{number}.1",
+            say(_("Weights") if self.forces.static else _("Weight and inertia: K = m (g - a_G), M_J = -J α")),
+        )
+        for link in self.book.mechanism.links:
+            self._own(inertia, link)
+        loads = Step(f"{number}.2", say(_("Loads")))
+        self._loads(loads)
+        return [head, inertia, loads]
+
+    def _own(self, step: Step, link: str) -> None:
+        """Weight and inertia force at the mass centre, inertia couple."""
+        book, part = self.book, self.book.mechanism.links[link]
+        n = book.numbers[link]
+        moving = not self.forces.static and bool(book.mechanism.drivers)
+        mass, inertia = symbol(f"m{n}", part.mass), symbol(f"J{n}", part.inertia)
+        alpha = book.alpha(link) if moving else ZERO
+        if part.mass:
+            spot = book.spot(link, "@centre")
+            parts = []
+            for c, pull, rush in zip(
+                "xy", self._gravity(), (spot.acceleration.x, spot.acceleration.y), strict=True
+            ):
+                formula = mass * (pull - rush) if moving else mass * pull
+                parts.append(self._named(step, f"K_{n}{c}", formula, "N"))
+            self.on[link].append(Known(Pair(*parts), spot.place, spot.velocity))
+        if part.inertia and not alpha.is_zero:
+            couple = self._named(step, f"M_J{n}", -(inertia * alpha), "N·m")
+            self.on[link].append(Known(NOWHERE, NOWHERE, NOWHERE, couple))
+
+    def _named(self, step: Step, name: str, formula: Term, unit: str) -> Term:
+        if formula.is_zero:
+            return ZERO
+        return step.define(name, formula, unit)
+
+    def _gravity(self) -> list[Term]:
+        named = zip("xy", self.book.mechanism.gravity, strict=True)
+        return [symbol(f"g_{c}", value) if value else ZERO for c, value in named]
+
+    def _loads(self, step: Step) -> None:
+        self._found = applied_wrenches(self.forces, self.book.index)
+        for each in self._found:
+            name, link, torque = each.name, each.link, each.torque
+            (fx, fy), (px, py) = each.force, each.place
+            label = self._label(name, link)
+            if not (fx or fy or torque):
+                if link in self.on:
+                    self._announce(step, name, link, idle=True)
+                continue
+            if link not in self.on:
+                continue
+            self._announce(step, name, link)
+            known = Known(NOWHERE, NOWHERE, NOWHERE)
+            if fx or fy:
+                known = self._force(step, name, label, link, complex(fx, fy), complex(px, py))
+            if torque:
+                couple = self._couple(step, name, label, link, torque)
+                known = Known(known.force, known.place, known.velocity, couple)
+            self.on[link].append(known)
+
+    def _announce(self, step: Step, name: str, link: str, *, idle: bool = False) -> None:
+        joint = self._rubbing(name)
+        if joint:
+            text = self.book.say(
+                _(
+                    "friction in {joint}, on link {link} (coefficient times the joint's force, found by "
+                    "iteration):",
+                    joint=joint,
+                    link=link,
+                )
+            )
+        else:
+            text = self.book.say(
+                (
+                    _("{name}: does not act in this position.") if idle else _("{name}, on link {link}:")
+                ).format(name=name, link=link)
+            )
+        if not (idle and joint):
+            step.say(text)
+
+    def _couple(self, step: Step, name: str, label: str, link: str, torque: float) -> Term:
+        couple = symbol(f"M_{label}", torque)
+        load = self.book.mechanism.loads.get(name)
+        formula = None if load is None else worked_couple(load, self.formulas, step, link, torque)
+        if formula is None:
+            return step.give(couple, "N·m")
+        if formula.op == "symbol" and formula.plain == couple.plain:
+            return formula
+        return step.find(couple, formula, "N·m")
+
+    def _force(self, step: Step, name: str, label: str, link: str, force: complex, place: complex) -> Known:
+        book = self.book
+        spot = self._spot(link, place)
+        if spot is None:
+            at = [
+                step.give(symbol(f"{c}_{label}", v), "m") for c, v in (("x", place.real), ("y", place.imag))
+            ]
+            where = Pair(*at)
+            base = next(book.spot(link, point) for point in book.mechanism.links[link].points)
+            velocity = base.velocity + (where - base.place).perp.times(book.omega(link))
+        else:
+            where, velocity = spot.place, spot.velocity
+        formula = self._formula(step, name, label, link, force)
+        parts = [
+            ZERO if part.is_zero else step.find(symbol(f"F_{label},{c}", v), part, "N")
+            for c, v, part in (("x", force.real, formula.x), ("y", force.imag, formula.y))
+        ]
+        return Known(Pair(*parts), where, velocity)
+
+    def _formula(self, step: Step, name: str, label: str, link: str, force: complex) -> Pair:
+        """Components of a load: from the formula of its kind, or from magnitude and direction."""
+        load = self.book.mechanism.loads.get(name)
+        found = None if load is None else worked_force(load, self.formulas, step, link, force)
+        if found is not None:
+            return found
+        size = step.give(symbol(f"F_{label}", abs(force)), "N")
+        way = math.degrees(math.atan2(force.imag, force.real))
+        angle = symbol(f"θ_{label}", way, degrees=True)
+        self._direction(step, name, link, angle)
+        return Pair(size * cosine(angle), size * sine(angle))
+
+    def _direction(self, step: Step, name: str, link: str, angle: Term) -> None:
+        """The angle of a load; for one normal to a line of its link, from the angle of the link."""
+        load = self.book.mechanism.loads.get(name)
+        if load is not None and link == turns_with(load):
+            lean = angle.amount - self.book.turn(link).amount
+            own = self.book.degrees(math.radians((lean + 180.0) % 360.0 - 180.0))
+            formula = self.book.turn(link) + own
+            if abs(formula.value - angle.amount) < 1e-9:
+                step.find(angle, formula, "°")
+                return
+        step.give(angle, "°")
+
+    def _rubbing(self, name: str) -> str:
+        """The joint whose friction goes by a name; empty where a load does."""
+        return "" if name in self.book.mechanism.loads else "".join(owners_of("friction", [name]))
+
+    def _label(self, name: str, link: str) -> str:
+        if joint := self._rubbing(name):
+            return f"f{joint}{self.book.numbers[link]}"
+        several = sum(1 for each in self._found if each.name == name and each.link in self.on) > 1
+        return f"{name}{self.book.numbers[link]}" if several else name
+
+    def _spot(self, link: str, place: complex) -> Spot | None:
+        """The point of the link at which a force acts, if it has one there."""
+        for point in self.book.mechanism.links[link].points:
+            spot = self.book.spot(link, point)
+            if abs(complex(spot.place.x.value, spot.place.y.value) - place) < 1e-12 * max(1.0, abs(place)):
+                return spot
+        return None

@@ -1,0 +1,214 @@
+"""Velocities and accelerations of a group: the closure differentiated, a linear system for the unknown rates."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from linkwright.core.dataclass import dataclass
+from linkwright.core.outputs import Output
+from linkwright.elements.topology import Connection, Group
+from linkwright.equations.steps import Step
+from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, symbol, total
+from linkwright.words import _
+from linkwright.worked_solutions.chains import ChainClosure, Closure, Drift, bends, matrix, unknown_names
+from linkwright.worked_solutions.higher_pairs import PairClosure
+from linkwright.worked_solutions.symbols import Book
+
+#: Marks of parts of an acceleration as they are printed above its letter.
+RAISED = {"n": "ⁿ", "t": "ᵗ", "k": "ᵏ", "d": "ᵈ"}
+#: What both ends at cut joints have in common: by whether of accelerations, and whether across a guide.
+CLOSURES = {
+    (False, False): _("Both ends at {joints} have the same velocity:"),
+    (False, True): _("Both ends at {joints} have the same velocity (for a guide: across it):"),
+    (True, False): _("Both ends at {joints} have the same acceleration:"),
+    (True, True): _(
+        "Both ends at {joints} have the same acceleration (for a guide: across it, with Coriolis' part):",
+    ),
+}
+#: Parts of an acceleration that are known.
+PARTS = {
+    "tangential": _("Tangential part α × r of {label}:"),
+    "centripetal": _("Centripetal part -ω² r of {label}:"),
+    "coriolis": _("Coriolis' part 2 ω s' n⊥ of {label}:"),
+    "driven_turn": _("Part of the driver's angular acceleration at {label}:"),
+    "driven_slide": _("Part of the driver's acceleration along {label}:"),
+}
+
+
+@dataclass
+class System:
+    """The matrix of a group, as symbols with values, with its determinant if it is small."""
+
+    entries: list[list[Term]]
+    determinant: Term | None
+
+
+def name_matrix(step: Step, group: Group, cuts: Sequence[Closure]) -> System:
+    """Notes every entry of the group's matrix J and, for two unknowns, the determinant."""
+    formulas = matrix(group, cuts)
+    entries = []
+    for i, row in enumerate(formulas, 1):
+        named = []
+        for j, entry in enumerate(row, 1):
+            unit = "m" if group.unknowns[j - 1].turns else ""
+            named.append(ZERO if entry.is_zero else step.define(f"J{i}{j}", entry, unit))
+        entries.append(named)
+    if len(entries) != 2:
+        return System(entries, None)
+    (a, b), (c, d) = entries
+    turning = sum(each.turns for each in group.unknowns)
+    return System(entries, step.define("det J", a * d - b * c, ("", "m", "m²")[turning]))
+
+
+def solve(
+    step: Step, book: Book, system: System, unknowns: list[Term], right: list[Term],
+    outputs: Sequence[str | Output], *, transposed: bool = False,
+) -> None:  # fmt: skip
+    """Notes the solution of J q = right (or Jᵀ q = right): Cramer's rule, or for more unknowns each row put in."""
+    rows = [list(r) for r in zip(*system.entries, strict=True)] if transposed else system.entries
+    if len(rows) == 1:
+        step.find(unknowns[0], right[0] / rows[0][0], outputs[0])
+        return
+    if system.determinant is not None:
+        (a, b), (c, d) = rows
+        found = (right[0] * d - b * right[1], a * right[1] - right[0] * c)
+        for term, above, output in zip(unknowns, found, outputs, strict=True):
+            step.find(term, above / system.determinant, output)
+        return
+    step.say(book.say(_("Solution of the {count} linear equations (by elimination):", count=len(rows))))
+    for term, output in zip(unknowns, outputs, strict=True):
+        step.give(term, output)
+    step.say(book.say(_("Put into the left sides, row by row:")))
+    for row, goal in zip(rows, right, strict=True):
+        left = total([entry * term for entry, term in zip(row, unknowns, strict=True)])
+        if goal.is_zero:
+            goal = symbol("0", 0.0)
+        step.find(goal, left, "")
+
+
+class RateWriter:
+    """Writes the rates of a group's unknowns and links."""
+
+    def __init__(self, book: Book) -> None:
+        self.book = book
+        self.written: set[str] = set()
+
+    def velocities(self, step: Step, group: Group, cuts: Sequence[Closure]) -> System | None:
+        """The matrix, the right sides, and the unknown velocities."""
+        book, system = self.book, None
+        self.links(step, group, second=False, before=True)
+        if group.unknowns:
+            names = unknown_names(book, group, 1)
+            self._relations(step, group, cuts, names, second=False)
+            system = name_matrix(step, group, cuts)
+            gaps = [-row for closure in cuts for row in closure.known_rates(book)]
+            right = self._right(step, gaps, "b", "m/s")
+            solve(step, book, system, names, right, self._outputs(group, second=False))
+        self.links(step, group, second=False, before=False)
+        return system
+
+    def accelerations(self, step: Step, group: Group, cuts: Sequence[Closure], system: System | None) -> None:
+        """The known parts one by one, the right sides, and the unknown accelerations."""
+        book = self.book
+        self.links(step, group, second=True, before=True)
+        if group.unknowns:
+            assert system is not None
+            names = unknown_names(book, group, 2)
+            self._relations(step, group, cuts, names, second=True)
+            noted: dict[Connection, Pair] = {}
+
+            def bend(closure: ChainClosure) -> Pair:
+                if closure.cut not in noted:
+                    noted[closure.cut] = self._bend(step, closure)
+                return noted[closure.cut]
+
+            gaps = [-row for closure in cuts for row in closure.known_seconds(book, bend)]
+            right = self._right(step, gaps, "c", "m/s²")
+            solve(step, book, system, names, right, self._outputs(group, second=True))
+        self.links(step, group, second=True, before=False)
+
+    def _relations(
+        self, step: Step, group: Group, cuts: Sequence[Closure], names: list[Term], *, second: bool
+    ) -> None:
+        joints = ", ".join(dict.fromkeys(c.cut.joint for c in cuts if not c.cut.higher))
+        pairs = ", ".join(c.cut.joint for c in cuts if c.cut.higher)
+        across = any(closure.cut.slides for closure in cuts)
+        if joints:
+            step.say(self.book.say(CLOSURES[second, across].format(joints=joints)))
+        if pairs:
+            step.say(
+                self.book.say(
+                    _("The rows of {joints}, differentiated (r: lever arms of the rotations):", joints=pairs)
+                )
+            )
+            for closure in cuts:
+                if isinstance(closure, PairClosure):
+                    closure.give(step, None)
+        letter = "c" if second else "b"
+        for i, row in enumerate(matrix(group, cuts), 1):
+            entries = [ZERO if entry.is_zero else symbol(f"J{i}{j}", 0.0) for j, entry in enumerate(row, 1)]
+            left = total([entry * name for entry, name in zip(entries, names, strict=True)])
+            step.relate(left, symbol(f"{letter}{i}", 0.0))
+
+    def _right(self, step: Step, gaps: list[Term], letter: str, unit: str) -> list[Term]:
+        found = []
+        step.say(self.book.say(_("Right sides:")))
+        for i, gap in enumerate(gaps, 1):
+            term = step.define(f"{letter}{i}", gap, unit)
+            found.append(ZERO if gap.is_zero else term)
+        return found
+
+    def _bend(self, step: Step, closure: ChainClosure) -> Pair:
+        """Notes the known parts of the accelerations of both ends; gives their difference."""
+        ends = []
+        for chain in closure.chains:
+            whole = NOWHERE
+            for part in bends(chain, self.book):
+                whole = whole + (part.vector if part.kind == "base" else self._part(step, part))
+            ends.append(whole)
+        return closure.joined(ends)
+
+    def _part(self, step: Step, part: Drift) -> Pair:
+        """Notes one known part of an acceleration, unless the other cut has noted it already."""
+        mark = {"centripetal": "n", "tangential": "t", "coriolis": "k"}.get(part.kind, "d")
+        noted = {equation.symbol for equation in step.equations}
+        begun = False
+        found = []
+        for c, formula in (("x", part.vector.x), ("y", part.vector.y)):
+            plain, look = (f"a{each}_{part.label},{c}" for each in (mark, RAISED[mark]))
+            term = ZERO if formula.is_zero else symbol(plain, formula.value, look=look)
+            if not term.is_zero and plain not in noted:
+                if not begun:
+                    step.say(self.book.say(PARTS[part.kind].format(label=part.label)))
+                begun = True
+                step.find(term, formula, "m/s²")
+            found.append(term)
+        return Pair(found[0], found[1])
+
+    def _outputs(self, group: Group, *, second: bool) -> list[Output]:
+        """What the unknowns' rates are; links that turn count as written."""
+        self.written.update(f"{joint.child}{second}" for joint in group.unknowns if not joint.slides)
+        places = (
+            Output("displacement", joint.joint) if joint.slides else Output("angle", joint.child)
+            for joint in group.unknowns
+        )
+        return [place.course[1 + second] for place in places]
+
+    def links(self, step: Step, group: Group, *, second: bool, before: bool) -> None:
+        """Rotation of links that turn with another one; ``before``: those that depend on no unknown."""
+        book = self.book
+        for joint in group.tree:
+            key = f"{joint.child}{second}"
+            free = {each.child for each in group.unknowns if each.turns}
+            waits = any(each.child in free for each in group.path(joint.child))
+            if key in self.written or joint.child in free or (before and waits):
+                continue
+            self.written.add(key)
+            rate = book.alpha if second else book.omega
+            formula = rate(joint.parent)
+            if joint.turns and joint.driver is not None:
+                own = joint.child == book.mechanism.drivers[joint.driver].link
+                given = book.drive(joint.driver)[2 if second else 1]
+                formula = formula + given if own else formula - given
+            if not rate(joint.child).is_zero:
+                step.find(rate(joint.child), formula, Output("angle", joint.child).course[1 + second])
