@@ -8,12 +8,19 @@ from pathlib import Path
 from tests.contract.sources import MODULES, imports_of
 from tests.every import every
 
+import linkwright as lw
+
 PROJECT = Path(__file__).parents[2] / "pyproject.toml"
+HOOKS = PROJECT.with_name(".pre-commit-config.yaml")
 #: Names of distributions by what they are imported as, where the two differ.
 DISTRIBUTIONS = {
-    "yaml": "pyyaml", "PIL": "pillow", "resvg_py": "resvg-py", "docx": "python-docx", "markdown_it": "markdown-it-py",
+    "yaml": "pyyaml",
+    "PIL": "pillow",
+    "resvg_py": "resvg-py",
+    "docx": "python-docx",
+    "markdown_it": "markdown-it-py",
     "mdit_py_plugins": "mdit-py-plugins",
-}  # fmt: skip
+}
 
 
 def declared(requirements: list[str]) -> set[str]:
@@ -43,3 +50,21 @@ def test_the_lock_file_holds_every_requirement_from_the_public_index() -> None:
     assert declared(project["dependencies"]) == {each["name"] for each in own["dependencies"]}
     registries = {each["source"].get("registry") for each in lock["package"] if each["name"] != "linkwright"}
     assert registries == {"https://pypi.org/simple"}
+
+
+def test_every_file_states_the_same_version() -> None:
+    root = PROJECT.parent
+    version = tomllib.loads(PROJECT.read_text("utf-8"))["project"]["version"]
+    assert lw.__version__ == version
+    assert f"\nversion: {version}\n" in (root / "CITATION.cff").read_text("utf-8")
+    assert f"\n## [{version}] - " in (root / "CHANGELOG.md").read_text("utf-8")
+    for catalogue in every(root.glob("src/linkwright/locale/*/LC_MESSAGES/*.po")):
+        assert f'"Project-Id-Version: Linkwright {version}\\n"' in catalogue.read_text("utf-8")
+
+
+def test_hooks_run_tools_of_the_development_group() -> None:
+    group = tomllib.loads(PROJECT.read_text("utf-8"))["dependency-groups"]["dev"]
+    tools = {line.split()[1] for line in HOOKS.read_text("utf-8").splitlines() if "entry:" in line}
+    assert (
+        tools == {"ruff", "mypy", "codespell"} <= declared([each for each in group if isinstance(each, str)])
+    )

@@ -1,4 +1,4 @@
 """Mathematics that knows nothing of mechanisms."""
 
 #: The package's version.
-VERSION = "0.2.0"
+VERSION = "0.3.0"
