@@ -284,7 +284,6 @@ function notes(page: Page, session: Session): string[] {
   if (model.solver.doubtful) found.push(page.say("doubtful"));
   if (model.solver.iterated) found.push(page.say("followed", { value: digits(model.solver.margin ?? 0, 2) }));
   if (session.data.undrawn.length) found.push(page.say("undrawn", { names: session.data.undrawn.join(", ") }));
-  if (session.data.module === null) found.push(page.say("text_kernel"));
   return found;
 }
 

@@ -173,7 +173,7 @@ export interface ModelData {
   source: Record<Language, string>;
   text: string;
   /** The module in base64, its length while a page is unpacked, or its bytes. */
-  module: string | number | Uint8Array<ArrayBuffer> | null;
+  module: string | number | Uint8Array<ArrayBuffer>;
   program: Program;
   values: Record<string, number>;
   tables: Record<string, number[]>;

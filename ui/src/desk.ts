@@ -287,8 +287,8 @@ export class Desk {
     if (!solved.model && this.moved?.text === text) return this.refuse(this.moved.before, solved);
     if (solved.picture && this.solved.value.picture) hold(solved.picture, this.solved.value.picture);
     this.solved.value = { ...solved, text };
-    if (!solved.model?.module) return;
-    const session = new Session(solved.model, await code(solved.model, 0), 0), old = this.session.value;
+    if (!solved.model) return;
+    const session = new Session(solved.model, await code(solved.model), 0), old = this.session.value;
     while (old?.held) await new Promise((go) => setTimeout(go, HELD));
     if (text !== this.text.value) return;
     if (old) session.inherit(old);
@@ -350,8 +350,8 @@ export class Desk {
   async compare(asked: { name?: string; gallery?: string } | null): Promise<void> {
     const found = asked && (await this.ask<{ text: string }>("read", asked));
     const solved = found && (await this.ask<Solved>("solve", { text: found.text, name: asked.name ?? "" }));
-    if (solved && !solved.model?.module) this.page.note.value = solved.sentence || this.errors(solved);
-    this.beside.value = solved?.model?.module ? new Session(solved.model, await code(solved.model, 1), 1) : null;
+    if (solved && !solved.model) this.page.note.value = solved.sentence || this.errors(solved);
+    this.beside.value = solved?.model ? new Session(solved.model, await code(solved.model), 1) : null;
     this.side();
   }
 
@@ -410,7 +410,7 @@ export class Desk {
     await this.queue;
     await this.solve();
     const { model, sentence } = this.solved.value, reason = this.errors() || sentence;
-    if (model?.module) this.drawing.value = false;
+    if (model) this.drawing.value = false;
     else if (!this.gone.value) this.page.note.value = this.say("cannot_run", { reason: reason || this.say("no_machine") });
   }
 

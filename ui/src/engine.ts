@@ -1,4 +1,4 @@
-// Traced programs in the browser: kernels of WebAssembly modules or of JavaScript text.
+// Traced programs in the browser: kernels of WebAssembly modules.
 
 export interface Program {
   outputs: string[];
@@ -9,42 +9,16 @@ export interface Program {
 }
 
 type Rows = Float64Array[];
-type Plain = (
-  parameters: Float64Array, positions: Rows, fields: Rows, tables: Rows,
-  out: Float64Array, n: number,
-) => void;
-export type Code = { module: WebAssembly.Module } | { run: Plain };
+type Imports = Record<string, WebAssembly.ImportValue>;
+/** Makes of memory and functions a kernel, which takes the address of a call block. */
+export type Code = (env: Imports) => (block: number) => void;
 
-const HEAD = 5;
 const PAGE = 65536;
 // Places of the call block, 64 bits each.
 const BLOCK = { designs: 0, length: 1, count: 2, fullEnd: 3, tailStart: 4, tailLow: 5, tailHigh: 6, parameters: 7, out: 8 };
 const INPUTS = 9;
 // Positions that a kernel takes at a time.
 const LANES = 4;
-
-/** Value or derivative of a piecewise cubic; the numbers of a table: pieces, start, span, periodic, drift, breaks, rows. */
-export function look(table: Float64Array, x: number, order: number): number {
-  const pieces = table[0], rows = HEAD + pieces + 1;
-  const whole = Math.floor((x - table[1]) / table[2]);
-  const y = table[3] !== 0 ? x - whole * table[2] : x;
-  let piece = 0;
-  for (let left = pieces; left > 1; ) {
-    const half = left >> 1;
-    if (table[HEAD + piece + half] <= y) piece += half;
-    left -= half;
-  }
-  const u = y - table[HEAD + piece], at = rows + 4 * piece;
-  const [c0, c1, c2, c3] = [table[at], table[at + 1], table[at + 2], table[at + 3]];
-  if (order === 0) {
-    const value = c0 + u * (c1 + u * (c2 + u * c3));
-    return table[3] !== 0 ? value + whole * table[4] : value;
-  }
-  if (order === 1) return c1 + u * (2 * c2 + u * (3 * c3));
-  if (order === 2) return 2 * c2 + u * (6 * c3);
-  // oxlint-disable-next-line oxc/erasing-op -- a place that is no number gives none
-  return 6 * c3 + 0 * u;
-}
 
 /** One program bound to arrays for n positions: fill them, run, read. Rows of `out` are `stride` numbers apart. */
 export class Call {
@@ -62,7 +36,7 @@ export class Call {
     for (const name of program.fields) this.fields[name] = room.floats(this.stride);
     this.out = room.floats(program.outputs.length * this.stride);
     const inputs = [...Object.values(this.positions), ...Object.values(this.fields), ...tables];
-    this.run = room.caller(this, inputs, tables);
+    this.run = room.caller(this, inputs);
     program.outputs.forEach((name, k) => (this.rows[name] = this.out.subarray(k * this.stride, k * this.stride + n)));
   }
 
@@ -92,8 +66,12 @@ export class Call {
 
 interface Room {
   floats(count: number): Float64Array;
-  caller(call: Call, inputs: Rows, tables: Rows): () => void;
+  caller(call: Call, inputs: Rows): () => void;
 }
+
+/** The code of a module. */
+export const moduleCode = (module: WebAssembly.Module): Code => (env) =>
+  new WebAssembly.Instance(module, { env }).exports.kernel as (block: number) => void;
 
 /** A program with its kernel; makes calls. */
 export class Kernel {
@@ -101,7 +79,7 @@ export class Kernel {
   private readonly tables: Rows;
 
   constructor(readonly program: Program, code: Code, tables: Record<string, number[]> = {}, megabytes = 16) {
-    this.room = "run" in code ? texts(code.run) : compiled(code.module, megabytes);
+    this.room = roomFor(code, megabytes);
     this.tables = program.tables.map((name) => {
       const kept = this.room.floats(tables[name].length);
       kept.set(tables[name]);
@@ -114,20 +92,12 @@ export class Kernel {
   }
 }
 
-function texts(run: Plain): Room {
-  return {
-    floats: (count) => new Float64Array(count),
-    caller: (call, _inputs, tables) => () =>
-      run(call.parameters, Object.values(call.positions), Object.values(call.fields), tables, call.out, call.stride),
-  };
-}
-
-function compiled(module: WebAssembly.Module, megabytes: number): Room {
+function roomFor(code: Code, megabytes: number): Room {
   const memory = new WebAssembly.Memory({ initial: (megabytes * 1048576) / PAGE });
-  const env: Record<string, WebAssembly.ImportValue> = { __linear_memory: memory };
+  const env: Imports = { __linear_memory: memory };
   for (const name of ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "log", "pow"] as const)
     env[`linkwright_${name}`] = Math[name] as WebAssembly.ImportValue;
-  const { kernel } = new WebAssembly.Instance(module, { env }).exports as { kernel: (block: number) => void };
+  const kernel = code(env);
   let free = 1024;
   const floats = (count: number) => {
     const bytes = (8 * Math.max(count, 1) + 63) & ~63;

@@ -8,7 +8,7 @@ import { Session } from "./session";
 
 async function open(): Promise<void> {
   const data = (globalThis as unknown as { packed: PageData }).packed;
-  const sessions = await Promise.all(data.models.map(async (each, k) => new Session(each, await code(each, k), k)));
+  const sessions = await Promise.all(data.models.map(async (each, k) => new Session(each, await code(each), k)));
   const page = new Page(data, sessions);
   const host = document.getElementById("page")!;
   host.textContent = "";

@@ -1,6 +1,6 @@
 // One machine solved at all its positions by its programs, and what is in the way where it cannot be.
 import { bytes, floats, type Group, type ModelData } from "./data";
-import { type Call, Kernel, type Code } from "./engine";
+import { type Call, type Code, Kernel, moduleCode } from "./engine";
 import { Drive } from "./drive";
 import { corners, type Cycle } from "./events";
 import { settle } from "./friction";
@@ -389,9 +389,6 @@ function size(data: ModelData): number {
   return Math.ceil((3 * 8 * rows * (data.positions.count + 16)) / 1048576) + 2;
 }
 
-export async function code(data: ModelData, number: number): Promise<Code> {
-  const { module } = data;
-  if (typeof module === "string") return { module: await WebAssembly.compile(bytes(module)) };
-  if (module instanceof Uint8Array) return { module: await WebAssembly.compile(module) };
-  return { run: (globalThis as unknown as { kernels: never[] }).kernels[number] };
+export async function code({ module }: ModelData): Promise<Code> {
+  return moduleCode(await WebAssembly.compile(typeof module === "string" ? bytes(module) : (module as Uint8Array<ArrayBuffer>)));
 }

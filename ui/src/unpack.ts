@@ -3,7 +3,7 @@ import type { PageData } from "./data";
 
 export interface Packed {
   style: string;
-  scripts: string[];
+  script: string;
   data: PageData;
 }
 
@@ -29,8 +29,7 @@ async function unpack(): Promise<void> {
   const found = JSON.parse(new TextDecoder().decode(new Uint8Array(whole, 4, length))) as Packed;
   let place = 4 + length;
   for (const model of found.data.models) {
-    if (typeof model.module !== "number") continue;
-    const size = model.module;
+    const size = model.module as number;
     model.module = new Uint8Array(whole, place, size);
     place += size;
   }
@@ -41,7 +40,7 @@ async function unpack(): Promise<void> {
     document.head.append(made);
   };
   add("style", found.style);
-  for (const script of found.scripts) add("script", script);
+  add("script", found.script);
 }
 
 void unpack();

@@ -3,6 +3,7 @@ import test from "node:test";
 import type { Phase } from "../src/data";
 import { Kernel } from "../src/engine";
 import { follow } from "../src/loads";
+import { asCode } from "./machine";
 import { near } from "./near";
 
 const TURN = 2 * Math.PI, SPEED = 4;
@@ -12,15 +13,13 @@ type Formula = (q: number) => [value: number, rate: number, second: number];
 /** An output by its formulas over the input at so many positions of a turn, and a load that follows it by a phase. */
 function loaded(formula: Formula, phase: Partial<Phase>, { n = 24, speed = SPEED, values = {}, wobble = 0, corners = [] as number[] } = {}) {
   const program = { outputs: ["x", "v", "a", "moving"], parameters: [], positions: ["q"], fields: ["acts:push", "share:push"], tables: [] };
-  const kernel = new Kernel(program, {
-    run: (_parameters, [q], _fields, _tables, out, length) => {
-      for (let i = 0; i < length; i++) {
-        const [x, v, a] = formula(q[i]);
-        [out[i], out[length + i], out[2 * length + i]] = [x, speed * v, speed * speed * a];
-        out[3 * length + i] = Math.abs(speed * v) > 1e-13 ? speed * v : 0;
-      }
-    },
-  });
+  const kernel = new Kernel(program, asCode(program, (_parameters, [q], _fields, out, length) => {
+    for (let i = 0; i < length; i++) {
+      const [x, v, a] = formula(q[i]);
+      [out[i], out[length + i], out[2 * length + i]] = [x, speed * v, speed * speed * a];
+      out[3 * length + i] = Math.abs(speed * v) > 1e-13 ? speed * v : 0;
+    }
+  }));
   const call = kernel.call(n), one = kernel.call(1), step = (Math.sign(speed) * TURN) / n;
   const input = (place: number) => place * step + wobble * Math.sin(place * step);
   call.give({ q: Array.from({ length: n }, (_, i) => input(i)) });

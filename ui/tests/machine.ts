@@ -20,24 +20,36 @@ const program: Program = {
   positions: ["cos:driver", "sin:driver"], fields: [], tables: [],
 };
 
-const formulas: Code = {
-  run: ([r, l, e, w], [cos, sin], _fields, _tables, out, n) => {
-    for (let i = 0; i < n; i++) {
-      const [x, y] = [r * cos[i], r * sin[i]], height = y - e, along = Math.sqrt(l * l - height * height);
-      const apart = Number(Math.abs(height) > l), rate = -y * w - (height * x * w) / along;
-      // Of along² = l² − height² twice the rate.
-      const grown = (-height * x * w) / along, second = -x * w * w - ((x * w) ** 2 - height * y * w * w + grown ** 2) / along;
-      [1 - apart, apart, 1 - (height / l) ** 2, height, l * l, x, y, x + along, e, x + along, rate, second, cos[i], sin[i]]
-        .forEach((value, k) => (out[k * n + i] = value));
-    }
-  },
+type Rows = Float64Array[];
+export type Formulas = (parameters: Float64Array, positions: Rows, fields: Rows, out: Float64Array, n: number) => void;
+
+/** Formulas as the code of a program: they read the call block as a module does. */
+export function asCode({ parameters, positions, fields, outputs }: Program, run: Formulas): Code {
+  const inputs = 9;
+  return ({ __linear_memory: memory }) => (address) => {
+    const { buffer } = memory as WebAssembly.Memory, block = new BigInt64Array(buffer, address), n = Number(block[1]);
+    const row = (place: number, count: number) => new Float64Array(buffer, Number(block[place]), count);
+    const rows = [...positions, ...fields].map((_, k) => row(inputs + k, n));
+    run(row(7, parameters.length), rows.slice(0, positions.length), rows.slice(positions.length), row(8, outputs.length * n), n);
+  };
+}
+
+export const formulas: Formulas = ([r, l, e, w], [cos, sin], _fields, out, n) => {
+  for (let i = 0; i < n; i++) {
+    const [x, y] = [r * cos[i], r * sin[i]], height = y - e, along = Math.sqrt(l * l - height * height);
+    const apart = Number(Math.abs(height) > l), rate = -y * w - (height * x * w) / along;
+    // Of along² = l² − height² twice the rate.
+    const grown = (-height * x * w) / along, second = -x * w * w - ((x * w) ** 2 - height * y * w * w + grown ** 2) / along;
+    [1 - apart, apart, 1 - (height / l) ** 2, height, l * l, x, y, x + along, e, x + along, rate, second, cos[i], sin[i]]
+      .forEach((value, k) => (out[k * n + i] = value));
+  }
 };
 
 /** The machine at so many positions of a turn. */
 export function sliderCrank(count: number): { data: ModelData; code: Code } {
   const step = (2 * Math.PI) / count, said = (text: string) => ({ en: text, zh: text });
   const data: ModelData = {
-    name: said("slider-crank"), purpose: said(""), source: said(""), text: "", module: null,
+    name: said("slider-crank"), purpose: said(""), source: said(""), text: "", module: "",
     program, tables: {}, sizes: "", drawing: { input: null, at: 0, places: [] },
     values: { "crank.length": CRANK, "rod.length": ROD, "guide.offset": OFFSET, "driver.speed": SPEED },
     dimensions: [
@@ -70,7 +82,7 @@ export function sliderCrank(count: number): { data: ModelData; code: Code } {
     ],
     glyphs: [], masses: [], undrawn: [],
   };
-  return { data, code: formulas };
+  return { data, code: asCode(program, formulas) };
 }
 
 /** Where the slider is by the theorem of Pythagoras. */

@@ -5,7 +5,7 @@ import { Kernel } from "../src/engine";
 import { nearest, unwrap } from "../src/loads";
 import { Model } from "../src/model";
 import { mixed, Solver } from "../src/solver";
-import { CRANK, OFFSET, ROD, slider, sliderCrank } from "./machine";
+import { CRANK, OFFSET, ROD, asCode, formulas, slider, sliderCrank } from "./machine";
 import { allNear, near } from "./near";
 
 function machine(count: number) {
@@ -63,15 +63,14 @@ test("a drag with all dimensions free takes the point there by a change that is 
 });
 
 test("loads of the original are found even where the page cannot follow it, those of no other machine are", () => {
-  const { data, code } = sliderCrank(36), { run } = code as { run: (...given: unknown[]) => void };
+  const { data } = sliderCrank(36);
   data.program = { ...data.program, fields: ["acts:push", "share:push"] };
   data.phases = [{ load: "push", kind: "stroke", ramp: false, rows: ["s:guide"], rate: "sv:guide", second: "sa:guide", moving: "sv:guide", ends: ["max", "min"], part: null }];
-  const lost = (...given: unknown[]) => {
-    run(...given);
-    const [out, n] = given.slice(4) as [Float64Array, number];
+  const lost = asCode(data.program, (parameters, positions, fields, out, n) => {
+    formulas(parameters, positions, fields, out, n);
     if (n > 4) out[5] = 0;
-  };
-  const solver = new Solver(data, { run: lost }), acting = () => solver.main.fields["acts:push"].reduce((sum, x) => sum + x);
+  });
+  const solver = new Solver(data, lost), acting = () => solver.main.fields["acts:push"].reduce((sum, x) => sum + x);
   assert.equal(solver.evaluate({ ...data.values, "rod.length": 0.21 })?.kind, "lost");
   assert.equal(acting(), 0);
   assert.equal(solver.evaluate({ ...data.values })?.kind, "lost");
@@ -104,11 +103,9 @@ test("angles near others, and rows without jumps", () => {
 /** A program that an arm's friction f acts on: the reaction is 10 N and its share. */
 function rubbing(share: number, pace: number) {
   const program = { outputs: ["r:J|b.x", "r:J|b.y", "rate"], parameters: ["k", "rate"], positions: [], fields: ["f"], tables: [] };
-  const kernel = new Kernel(program, {
-    run: ([k, rate], _positions, [f], _tables, out, n) => {
-      for (let i = 0; i < n; i++) [out[i], out[n + i], out[2 * n + i]] = [10 + k * f[i], 0, rate];
-    },
-  });
+  const kernel = new Kernel(program, asCode(program, ([k, rate], _positions, [f], out, n) => {
+    for (let i = 0; i < n; i++) [out[i], out[n + i], out[2 * n + i]] = [10 + k * f[i], 0, rate];
+  }));
   const call = kernel.call(3), term = { field: "f", rate: "rate", joint: "J", a: "a", b: "b", arm: 0.2, slides: false, on: ["b"] };
   call.set({ k: share, rate: pace });
   call.run();

@@ -1,6 +1,5 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { look } from "../src/engine";
 import { Model } from "../src/model";
 import { digits, quantity, unitFor, Words } from "../src/words";
 import { written } from "../src/written";
@@ -85,16 +84,4 @@ test("sentences of the language that is chosen, with their values", () => {
   assert.equal(words.say("a", { x: "1", y: "2" }), "1 of 2");
   words.language = "zh";
   assert.equal(words.say("a", { x: "1", y: "2" }), "2 的 1");
-});
-
-test("a table's values and slopes are those of its cubics, and go on by its drift", () => {
-  // x³ on [0, 1], then 1 + 3u − u² on [1, 3]; periodic by 3, rising by 6 each time.
-  const table = Float64Array.of(2, 0, 3, 1, 6, 0, 1, 3, 0, 0, 0, 1, 1, 3, -1, 0);
-  const pieces = [(x: number) => (x < 1 ? x ** 3 : 1 + 3 * (x - 1) - (x - 1) ** 2), (x: number) => (x < 1 ? 3 * x * x : 3 - 2 * (x - 1)), (x: number) => (x < 1 ? 6 * x : -2)];
-  for (const x of [0, 0.4, 1, 1.9, 2.99]) {
-    pieces.forEach((of, order) => near(look(table, x, order), of(x)));
-    near(look(table, x + 6, 0), pieces[0](x) + 12, 1e-12);
-    near(look(table, x - 3, 1), pieces[1](x), 1e-12);
-  }
-  assert.ok(Number.isNaN(look(table, NaN, 3)));
 });

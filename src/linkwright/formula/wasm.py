@@ -9,17 +9,18 @@ addresses below 2³²).
 
 from __future__ import annotations
 
-import importlib.util
 import re
 from functools import cache
 from typing import Any
 
+from linkwright.errors import RequestError
 from linkwright.formula.ir_kernel import kernel
 from linkwright.formula.ir_module import ENTRY
 from linkwright.formula.lines import Lines
 from linkwright.formula.machine_code import module_for
 from linkwright.formula.program import Program
 from linkwright.formula.wasm_module import linked
+from linkwright.words import _
 
 _TRIPLE = "wasm32-unknown-unknown"
 #: Positions in one step of a loop.
@@ -28,11 +29,9 @@ WIDTH = 4
 _INTERNAL = re.compile(r"(?m)^(define internal .*) nounwind \{$")
 
 
-def wasm_module(program: Program) -> bytes | None:
-    """The module of a program, every output stored; None where llvmlite or its WebAssembly target is missing."""
-    machine = _machines() if importlib.util.find_spec("llvmlite") else None
-    if machine is None:
-        return None
+def wasm_module(program: Program) -> bytes:
+    """The module of a program, every output stored. Raises RequestError where llvmlite lacks the target."""
+    machine = _machines()
     text, level = kernel(Lines.of(program), WIDTH, None, library=True)
     text = _INTERNAL.sub(r"\1 alwaysinline nounwind {", text.replace(f"@{ENTRY}(", "@kernel("))
     return linked(_object(text, machine[level]), {"kernel": 0})
@@ -51,17 +50,21 @@ def _object(text: str, machine: Any) -> bytes:
 
 
 @cache
-def _machines() -> dict[int, Any] | None:
+def _machines() -> dict[int, Any]:
     """The compilers for WebAssembly by how much they optimise."""
-    try:
-        import llvmlite.binding as binding
+    import llvmlite.binding as binding
 
-        binding.initialize_all_targets()
-        binding.initialize_all_asmprinters()
+    binding.initialize_all_targets()
+    binding.initialize_all_asmprinters()
+    try:
         target = binding.Target.from_triple(_TRIPLE)
-        return {
-            level: target.create_target_machine(opt=level, features="+simd128,+bulk-memory")
-            for level in (0, 3)
-        }
-    except (ImportError, OSError, RuntimeError):
-        return None
+    except RuntimeError:
+        raise RequestError(
+            _(
+                "living pages need WebAssembly, which the LLVM of this llvmlite cannot make; "
+                "install the llvmlite of the package index"
+            )
+        ) from None
+    return {
+        level: target.create_target_machine(opt=level, features="+simd128,+bulk-memory") for level in (0, 3)
+    }

@@ -22,7 +22,6 @@ from linkwright.core.outputs import row_name
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.files.write import dump
-from linkwright.formula.javascript import javascript
 from linkwright.formula.wasm import wasm_module
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
@@ -52,36 +51,30 @@ def solved(machine: Mechanism | Document, steps: int) -> tuple[Motion, str | Non
 
 def page(models: Sequence[tuple[Motion, str | None]], language: str = "en") -> str:
     """The text of a page with machines side by side, each with its motion and the text of its file."""
-    data, text = page_data(models, language)
     name = ", ".join(
         dict.fromkeys(in_language(motion.mechanism.name, language) for motion, _unused in models)
     )
-    return document(data, text, _("{name}: living page", name=name).translate(language), language)
+    title = _("{name}: living page", name=name).translate(language)
+    return document(page_data(models, language), title, language)
 
 
-def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> tuple[Plain, str]:
-    """What a page is made of as plain data, and the kernels' JavaScript text where there is no module."""
-    found = [_model(motion, text, number) for number, (motion, text) in enumerate(models)]
+def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> Plain:
+    """What a page is made of as plain data."""
     words = {each: {key: text.translate(each) for key, text in TEXTS.items()} for each in LANGUAGES}
-    data = {"language": language, "words": words, "models": [each for each, _unused in found]}
-    return data, "\n".join(text for _unused, text in found)
+    return {"language": language, "words": words, "models": [_model(*each) for each in models]}
 
 
-def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
+def _model(motion: Motion, text: str | None) -> Plain:
     text = dump(motion.mechanism) if text is None else text
     programs = PagePrograms(motion)
-    module, name = wasm_module(programs.main), f"kernel{number}"
-    script = ""
-    if module is None:
-        script = f"{javascript(programs.main, name)}\n(globalThis.kernels??=[])[{number}]={name};"
     values = programs.values()
     known = signals(programs)
     machine = _machine(motion)
     document = Document(text, "model", read_text)
     changeable = dimensions(document, set(values))
-    data = {
+    return {
         **_said(motion.mechanism, text),
-        "module": None if module is None else base64.b64encode(module).decode(),
+        "module": base64.b64encode(wasm_module(programs.main)).decode(),
         "program": programs.main.names,
         "values": values,
         "tables": {name: table.numbers.tolist() for name, table in programs.tables.items()},
@@ -105,7 +98,6 @@ def _model(motion: Motion, text: str | None, number: int) -> tuple[Plain, str]:
         "undrawn": undrawn(machine),
         "masses": [name for name, link in motion.mechanism.links.items() if link.mass],
     }
-    return data, script
 
 
 def _said(mechanism: Mechanism, text: str) -> Plain:
@@ -141,20 +133,16 @@ def _wheels(programs: PagePrograms, links: Sequence[str]) -> list[str]:
     ]
 
 
-def document(data: Plain, kernels: str, title: str, language: str) -> str:
+def document(data: Plain, title: str, language: str) -> str:
     """The page's text; its own scripts and styles are the only ones that may run, by their hashes.
 
     All but the script that unpacks the rest is compressed: the length of a JSON text (4 bytes, little-endian), that
     text, and the modules of the models one after the other.
     """
-    style = _built("page.css")
-    scripts = [each for each in (kernels, _built("page.js")) if each]
-    modules = [base64.b64decode(each["module"] or "") for each in data["models"]]
-    models = [
-        {**each, "module": each["module"] and len(module)}
-        for each, module in zip(data["models"], modules, strict=True)
-    ]
-    content = {"style": style, "scripts": scripts, "data": {**data, "models": models}}
+    style, script = _built("page.css"), _built("page.js")
+    modules = [base64.b64decode(each["module"]) for each in data["models"]]
+    models = [{**each, "module": len(module)} for each, module in zip(data["models"], modules, strict=True)]
+    content = {"style": style, "script": script, "data": {**data, "models": models}}
     text = json.dumps(content, ensure_ascii=False, separators=(",", ":")).encode()
     # Scripts, numbers and modules differ: with little memory they come in blocks with codes of their own.
     packer = zlib.compressobj(9, memLevel=6)
@@ -162,7 +150,7 @@ def document(data: Plain, kernels: str, title: str, language: str) -> str:
     # Four bytes in five characters; none of them opens a tag.
     written = base64.b85encode(packed).replace(b"<", b",").decode()
     unpack = _built("unpack.js")
-    hashes = " ".join(f"'sha256-{_hash(each)}'" for each in (unpack, *scripts))
+    hashes = " ".join(f"'sha256-{_hash(each)}'" for each in (unpack, script))
     policy = (
         f"default-src 'none'; script-src {hashes} 'wasm-unsafe-eval'; style-src 'sha256-{_hash(style)}'; "
         "img-src data: blob:; base-uri 'none'; form-action 'none'"

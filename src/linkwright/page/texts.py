@@ -81,7 +81,6 @@ TEXTS = {
         "solve --prove` says whether that is proved.",
     ),
     "page.undrawn": _("Not drawn here, but part of all numbers: {names}."),
-    "page.text_kernel": _("This page evaluates JavaScript text, as no WebAssembly module could be made."),
     "page.made": _(
         "Everything on this page is found by the formulas of Linkwright itself, in your "
         "browser; nothing is sent.",

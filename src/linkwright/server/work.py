@@ -188,8 +188,7 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
             found["optimize"] = dict(mechanism.optimize)
             motion = solve_motion(mechanism)
             found["picture"] = completed(found["picture"], motion)
-            data, _unused = page_data([(motion, text)], language)
-            found["model"] = data["models"][0]
+            found["model"] = page_data([(motion, text)], language)["models"][0]
     except LinkwrightError as error:
         found["sentence"] = error.say(language)
     return found

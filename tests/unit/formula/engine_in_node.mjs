@@ -3,12 +3,13 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 
 const [engine, job, result] = process.argv.slice(2);
-const { Kernel, look } = await import(pathToFileURL(engine).href);
+const { Kernel, moduleCode } = await import(pathToFileURL(engine).href);
 const { works } = JSON.parse(readFileSync(job, "utf8"));
 const number = (row) => Float64Array.from(row, (x) => (x === null ? NaN : x));
 const arrays = (given) => Object.fromEntries(Object.entries(given).map(([name, row]) => [name, number(row)]));
 
-function run(work, code) {
+function run(work) {
+  const code = moduleCode(new WebAssembly.Module(Buffer.from(work.module, "base64")));
   const call = new Kernel(work.program, code, work.tables).call(work.n);
   call.set(work.values);
   call.give(arrays({ ...work.positions, ...work.fields }));
@@ -16,8 +17,4 @@ function run(work, code) {
   return Object.fromEntries(call.program.outputs.map((name) => [name, [...call.row(name)]]));
 }
 
-const found = works.map((work) => ({
-  wasm: work.module && run(work, { module: new WebAssembly.Module(Buffer.from(work.module, "base64")) }),
-  text: run(work, { run: new Function("look", `${work.text}\nreturn kernel;`)(look) }),
-}));
-writeFileSync(result, JSON.stringify(found));
+writeFileSync(result, JSON.stringify(works.map(run)));

@@ -33,7 +33,7 @@ from linkwright.kinetostatics.solver import ForceSolver
 
 ROUNDS, CALLS, STEPS = 40, 400, 360
 _TIMER = """
-  const code = {module: new WebAssembly.Module(Uint8Array.from(atob(work.module), c => c.charCodeAt(0)))};
+  const code = engine.moduleCode(new WebAssembly.Module(Uint8Array.from(atob(work.module), c => c.charCodeAt(0))));
   const call = new engine.Kernel(work.program, code, work.tables).call(work.n);
   call.set(work.values);
   call.give(Object.fromEntries(Object.entries(work.positions).map(([name, row]) => [name, Float64Array.from(row)])));

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkwright.formula.javascript import javascript
 from linkwright.formula.program import Program
 from linkwright.formula.table import Tables
 from linkwright.formula.wasm import wasm_module
@@ -33,11 +32,9 @@ def work(
     tables: Tables | None = None,
 ) -> dict[str, Any]:
     """One evaluation of one design as plain data."""
-    module = wasm_module(program)
     return {
         "program": program.names,
-        "module": module and base64.b64encode(module).decode(),
-        "text": javascript(program, "kernel"),
+        "module": base64.b64encode(wasm_module(program)).decode(),
         "values": dict(values),
         "positions": {name: _plain(row) for name, row in positions.items()},
         "fields": {name: _plain(row) for name, row in (fields or {}).items()},
@@ -50,13 +47,13 @@ def _plain(row: Any) -> list[float | None]:
     return [None if np.isnan(x) else float(x) for x in np.asarray(row, dtype=float)]
 
 
-def in_node(works: Sequence[dict[str, Any]], folder: Path) -> list[dict[str, dict[str, Any]]]:
-    """Results of the works, by ``wasm`` and ``text``, by the names of the outputs."""
+def in_node(works: Sequence[dict[str, Any]], folder: Path) -> list[dict[str, Any]]:
+    """Results of the works, by the names of the outputs."""
     assert NODE is not None
     engine = files("linkwright") / "page" / "built" / "engine.mjs"
     job, result = folder / "job.json", folder / "result.json"
     job.write_text(json.dumps({"works": list(works)}))
     runner = Path(__file__).with_name("engine_in_node.mjs")
     subprocess.run([NODE, str(runner), str(engine), str(job), str(result)], check=True, timeout=120)
-    found: list[dict[str, dict[str, Any]]] = json.loads(result.read_text())
+    found: list[dict[str, Any]] = json.loads(result.read_text())
     return found

@@ -1,4 +1,4 @@
-"""WebAssembly and JavaScript evaluated by Node, against NumPy: gallery files, functions, look-ups."""
+"""WebAssembly evaluated by Node, against NumPy: gallery files, functions, look-ups."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ import pytest
 from tests.unit.formula.node import in_node, needs_node, work
 
 import linkwright as lw
+from linkwright.errors import RequestError
+from linkwright.formula import wasm
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.table import Table
@@ -72,8 +74,7 @@ def test_every_gallery_file_gives_the_numbers_of_numpy(tmp_path: Path) -> None:
     assert len(found) > 30
     results = in_node([made for made, _ in found.values()], tmp_path)
     for (name, (_, want)), got in zip(found.items(), results, strict=True):
-        agree(got["wasm"], want, f"{name} in WebAssembly")
-        agree(got["text"], want, f"{name} in JavaScript")
+        agree(got, want, name)
 
 
 def test_functions_and_look_ups(tmp_path: Path) -> None:
@@ -98,8 +99,17 @@ def test_functions_and_look_ups(tmp_path: Path) -> None:
     want = NumpyProgram(program).run([0.7], positions, fields, tables={"table": table})
     job = work(program, {"a": 0.7}, positions, n, fields=fields, tables={"table": table})
     (got,) = in_node([job], tmp_path)
-    for kind in ("wasm", "text"):
-        agree(got[kind], dict(zip(program.output_names, want, strict=True)), kind)
+    agree(got, dict(zip(program.output_names, want, strict=True)), "functions")
+
+
+def test_without_the_target_a_sentence_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing(triple: str) -> None:
+        raise RuntimeError(f"no target {triple}")
+
+    monkeypatch.setattr("llvmlite.binding.Target.from_triple", missing)
+    wasm._machines.cache_clear()
+    with pytest.raises(RequestError, match="WebAssembly"):
+        wasm_module(Program.of(Trace(), {}))
 
 
 def test_a_module_is_small() -> None:
@@ -107,6 +117,5 @@ def test_a_module_is_small() -> None:
     solver = ForceSolver(lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar")).solver)
     program = solver.program(solver.outputs.standard).program
     module = wasm_module(program)
-    assert module is not None
     assert module[:8] == b"\0asm\1\0\0\0"
     assert len(module) < 6000

@@ -9,26 +9,7 @@ var e = {
 	tailHigh: 6,
 	parameters: 7,
 	out: 8
-}, t = 9, n = 4;
-function r(e, t, n) {
-	let r = e[0], i = 5 + r + 1, a = Math.floor((t - e[1]) / e[2]), o = e[3] === 0 ? t : t - a * e[2], s = 0;
-	for (let t = r; t > 1;) {
-		let n = t >> 1;
-		e[5 + s + n] <= o && (s += n), t -= n;
-	}
-	let c = o - e[5 + s], l = i + 4 * s, [u, d, f, p] = [
-		e[l],
-		e[l + 1],
-		e[l + 2],
-		e[l + 3]
-	];
-	if (n === 0) {
-		let t = u + c * (d + c * (f + c * p));
-		return e[3] === 0 ? t : t + a * e[4];
-	}
-	return n === 1 ? d + c * (2 * f + 3 * p * c) : n === 2 ? 2 * f + 6 * p * c : 6 * p + 0 * c;
-}
-var i = class {
+}, t = 9, n = 4, r = class {
 	program;
 	n;
 	parameters;
@@ -47,7 +28,7 @@ var i = class {
 			...Object.values(this.fields),
 			...i
 		];
-		this.run = r.caller(this, a, i), e.outputs.forEach((e, n) => this.rows[e] = this.out.subarray(n * this.stride, n * this.stride + t));
+		this.run = r.caller(this, a), e.outputs.forEach((e, n) => this.rows[e] = this.out.subarray(n * this.stride, n * this.stride + t));
 	}
 	run;
 	row(e) {
@@ -65,27 +46,21 @@ var i = class {
 			if (r) for (let e = 0; e < this.stride; e++) t[n][e] = r[Math.min(e, r.length - 1)];
 		}
 	}
-}, a = class {
+}, i = (e) => (t) => new WebAssembly.Instance(e, { env: t }).exports.kernel, a = class {
 	program;
 	room;
 	tables;
 	constructor(e, t, n = {}, r = 16) {
-		this.program = e, this.room = "run" in t ? o(t.run) : s(t.module, r), this.tables = e.tables.map((e) => {
+		this.program = e, this.room = o(t, r), this.tables = e.tables.map((e) => {
 			let t = this.room.floats(n[e].length);
 			return t.set(n[e]), t;
 		});
 	}
 	call(e) {
-		return new i(this.program, e, this.room, this.tables);
+		return new r(this.program, e, this.room, this.tables);
 	}
 };
-function o(e) {
-	return {
-		floats: (e) => new Float64Array(e),
-		caller: (t, n, r) => () => e(t.parameters, Object.values(t.positions), Object.values(t.fields), r, t.out, t.stride)
-	};
-}
-function s(e, n) {
+function o(e, n) {
 	let r = new WebAssembly.Memory({ initial: n * 1048576 / 65536 }), i = { __linear_memory: r };
 	for (let e of [
 		"sin",
@@ -99,22 +74,22 @@ function s(e, n) {
 		"log",
 		"pow"
 	]) i[`linkwright_${e}`] = Math[e];
-	let { kernel: a } = new WebAssembly.Instance(e, { env: i }).exports, o = 1024, s = (e) => {
+	let a = e(i), o = 1024, c = (e) => {
 		let t = 8 * Math.max(e, 1) + 63 & -64;
 		if (o + t > r.buffer.byteLength) throw RangeError("the page's memory is too small for this model");
 		return o += t, new Float64Array(r.buffer, o - t, e);
 	};
 	return {
-		floats: s,
+		floats: c,
 		caller: (e, n) => {
-			let i = new BigInt64Array(r.buffer, s(t + n.length).byteOffset, t + n.length);
-			c(i, e, n);
+			let i = new BigInt64Array(r.buffer, c(t + n.length).byteOffset, t + n.length);
+			s(i, e, n);
 			let o = i.byteOffset;
 			return () => a(o);
 		}
 	};
 }
-function c(r, i, a) {
+function s(r, i, a) {
 	let o = (e, t) => r[e] = BigInt(t), s = i.n, c = s % n, l = s - c;
 	o(e.designs, 1), o(e.length, i.stride), o(e.count, s), o(e.fullEnd, l);
 	let [u, d, f] = l ? c ? [
@@ -132,4 +107,4 @@ function c(r, i, a) {
 	];
 	o(e.tailStart, u), o(e.tailLow, d), o(e.tailHigh, f), o(e.parameters, i.parameters.byteOffset), o(e.out, i.out.byteOffset), a.forEach((e, n) => o(t + n, e.byteOffset));
 }
-export { i as Call, a as Kernel, r as look };
+export { r as Call, a as Kernel, i as moduleCode };
