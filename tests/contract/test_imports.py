@@ -17,7 +17,7 @@ STAGES = (
         "units",
         "registry",
         "lazy",
-        "whole_files",
+        "filesystem",
         "words",
         "gallery",
         "core",

@@ -120,7 +120,7 @@ def test_components_of_forces_in_a_sweep_are_those_of_a_solution() -> None:
         (lambda: lw.solve_motion(six(), at={}), "motion.no_inputs", {"driver": "driver"}),
         (lambda: lw.solve_motion(six(), at=[np.nan]), "motion.bad_input", {"name": "driver"}),
         (lambda: lw.solve_motion(six(), times=[0.0, np.inf]), "motion.bad_time", {}),
-        (lambda: lw.solve_motion(six(), steps=0), "given_instead.no_whole_from", {"given": "0"}),
+        (lambda: lw.solve_motion(six(), steps=0), "given_instead.no_whole_from", {"value": "0"}),
         (
             lambda: measured(["peak_reaction"], sampling="lattice"),
             "study.no_sampling",

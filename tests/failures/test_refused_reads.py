@@ -94,7 +94,7 @@ def model(name: str = "crank_rocker") -> lw.Mechanism:
         (
             lambda: lw.solve_motion(model(), steps=0),
             "given_instead.no_whole_from",
-            {"option": "steps", "given": "0", "least": 1},
+            {"option": "steps", "value": "0", "minimum": 1},
         ),
         (
             lambda: lw.solve_motion(model("truss"), at=[0.0]),

@@ -78,7 +78,7 @@ HEAD = "format: 1\nkind: tolerance\nmechanism: gallery:crank_rocker\n"
             "dimensions: {crank.length: 1 mm}\nof: [rocker.angle range]\nsamples: 3",
             "samples",
             "range",
-            {"message": '"{text}" is not a whole number from {least} to {most}', "least": 64},
+            {"message": '"{text}" is not an integer from {minimum} to {maximum}', "minimum": 64},
         ),
         (
             "dimensions: {crank.length: 3 m}\nof: [rocker.angle range]\nlimits: {B.x max: {lower: 1 m}}",

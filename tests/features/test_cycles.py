@@ -124,7 +124,7 @@ def test_a_cycle_that_cannot_be_laid_out_is_refused() -> None:
         time_span(machine(STILL.replace(" m", " rad"), STILL.replace(" m", " rad"), "speed: 1 m/s"))
     with refused("motion.law_without_end", CycleError, driver="first"):
         time_span(machine(STILL.replace(" m", " rad"), STILL.replace(" m", " rad")))
-    with refused("given_instead.no_whole_from", option="steps", given="0"):
+    with refused("given_instead.no_whole_from", option="steps", value="0"):
         lw.solve_motion(machine(), steps=0)
     with refused("choice", lw.ModelError):
         machine(STILL.replace(" m", " rad"), cycle="turns: 1")

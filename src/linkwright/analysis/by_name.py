@@ -15,7 +15,7 @@ from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Metric, MetricValue, Number
 from linkwright.analysis.of_output import OWN, Asked, own_metric
 from linkwright.analysis.outputs import turns_fully
-from linkwright.core.given import one_or_more
+from linkwright.core.arguments import one_or_more
 from linkwright.core.search import first_largest
 from linkwright.cycle.summary import KINDS, Summary, SummaryValue
 from linkwright.errors import LinkwrightError, RequestError

@@ -10,8 +10,8 @@ from linkwright.analysis.analysis import Analysis, Result
 from linkwright.analysis.base import METRICS, Metric, MetricValue
 from linkwright.analysis.table import MetricsTable
 from linkwright.applied_loads.strokes import NEAR
+from linkwright.core.arguments import one_or_more, require
 from linkwright.core.arrays import Flags
-from linkwright.core.given import one_or_more, require
 from linkwright.core.quantity import NOTHING
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion

@@ -13,8 +13,8 @@ from linkwright.analysis.base import Number
 from linkwright.analysis.by_name import metric_named, needs_forces, number_named
 from linkwright.analysis.of_output import Asked
 from linkwright.analysis.true_speed import EFFORT, INERTIA, TrueSpeedSummary
+from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.given import STEPS
 from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine, NotTogether

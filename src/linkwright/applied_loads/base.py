@@ -33,7 +33,7 @@ from linkwright.fields.base import (
     Quantity,
     Schema,
     Word,
-    given,
+    file_key,
     table_schema,
 )
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -270,7 +270,7 @@ def _declares(kind: type[Field]) -> Callable[..., Any]:
     a file must give it."""
 
     def declare(*arguments: Any, default: Any = REQUIRED, **options: Any) -> Any:
-        return given(kind(*arguments, **options), default)
+        return file_key(kind(*arguments, **options), default)
 
     return declare
 
@@ -291,12 +291,12 @@ output = _declares(OutputName)
 
 def joint(*coordinates: str, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """The name of a joint with one of the coordinates ``turn`` and ``slide`` (default: either)."""
-    return given(JointName(coordinates or ("turn", "slide"), doc=doc, key=key), default)
+    return file_key(JointName(coordinates or ("turn", "slide"), doc=doc, key=key), default)
 
 
 def word(*choices: str, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:
     """One of a few words."""
-    return given(Word(choices, doc=doc, key=key), default)
+    return file_key(Word(choices, doc=doc, key=key), default)
 
 
 def magnitude(dimension: str, *, word: str = _("magnitude")) -> Any:

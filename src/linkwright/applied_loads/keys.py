@@ -65,7 +65,7 @@ class SizeField(_Part):
     dimension: str
 
     def read(
-        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
     ) -> Constant | Formula | None:
         found = reader.magnitude(node, place, self.dimension)
         if isinstance(found, Expression):
@@ -85,9 +85,9 @@ class RampField(_Part, Quantities):
     """Two quantities, at the beginning and at the end of the phase."""
 
     def read(  # type: ignore[override]
-        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
     ) -> Ramp | None:
-        found = super().read(reader, node, place, given)
+        found = super().read(reader, node, place, siblings)
         return None if found is None else Ramp(*found)
 
     def written(self, value: Any) -> Any:
@@ -100,7 +100,7 @@ class TableField(_Part):
 
     dimension: str
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Table | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Table | None:
         over: Literal["input", "time"] | Output | None = "input"
         across = "angle"
         if isinstance(node, MappingNode):
@@ -166,7 +166,7 @@ class PhaseField(_Part):
     """``{input: [a, b]}``, ``{moving: OUTPUT, direction: increasing}`` or ``{of: OUTPUT, from: max, to: min}``,
     the last with ``first``, ``last`` or ``free`` for a part of the stroke."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Phase | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Phase | None:
         mapping = reader.mapping(node, place)
         if mapping is None:
             return None
@@ -269,8 +269,10 @@ class StrokePartField(Field):
 
     word: PartWord
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> StrokePart | None:
-        output = given.get("of")
+    def read(
+        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
+    ) -> StrokePart | None:
+        output = siblings.get("of")
         if output is None:
             return None
         nodes = [node]

@@ -32,7 +32,7 @@ class Limit:
 
 
 @dataclass(frozen=True)
-class Whole:
+class FullCycle:
     """The cycle over which limits are found: if it closes, its ``period`` (s) and the input's ``drift`` in it."""
 
     period: float | None
@@ -63,7 +63,7 @@ class Signals(Protocol):
     @property
     def closes(self) -> tuple[float, float] | None: ...
     @property
-    def whole(self) -> Whole: ...
+    def whole(self) -> FullCycle: ...
 
     def output(self, output: Output) -> tuple[Floats, Floats]:
         """Value and rate of an output; angles are continuous over the cycle, rates of rounding size zero."""

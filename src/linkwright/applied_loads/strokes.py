@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, Protocol
 
-from linkwright.applied_loads.signals import BetweenLimits, Limit, Signals, Whole, input_dimension
+from linkwright.applied_loads.signals import BetweenLimits, FullCycle, Limit, Signals, input_dimension
 from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import shown
@@ -129,7 +129,7 @@ def outermost(limits: Sequence[Limit]) -> list[Limit]:
     ]
 
 
-def stretches(limits: Sequence[Limit], start: str, end: str, whole: Whole) -> list[Stretch]:
+def stretches(limits: Sequence[Limit], start: str, end: str, whole: FullCycle) -> list[Stretch]:
     """From each limit of one kind to the other kind's next one, across the end of a cycle that closes."""
     found = []
     for index, last in enumerate(limits):

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from linkwright.cams.compensation import BEYOND, BEYOND_ANGLES, compensating_lift
+from linkwright.core.arguments import require
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
 from linkwright.core.outputs import NAMED, PLACES, Output
 from linkwright.core.quantity import SHOWN, shown
 from linkwright.core.table import Amount, Table, Tabular

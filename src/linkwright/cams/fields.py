@@ -10,10 +10,10 @@ from linkwright.cams.follower import Follower, LiftQuantity, lift_of
 from linkwright.cams.loading import CamLoading, CamMaterial, CamSpring
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError, fault
-from linkwright.fields.base import Field, Quantities, Quantity, Word, given
+from linkwright.fields.base import Field, Quantities, Quantity, Word, file_key
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
-from linkwright.fields.tables import Listed, Table, Whole
+from linkwright.fields.tables import Integer, Listed, Table
 from linkwright.laws.program_fields import RATES, ProgramField
 from linkwright.laws.smoothest import ORDERS, FoundProgram, Window
 from linkwright.words import _
@@ -23,17 +23,21 @@ from linkwright.words import _
 class CamChoice:
     """What may be chosen: offsets between two bounds (m), roller radii of a list (m)."""
 
-    offset: tuple[float, float] | None = given(Quantities("length", count=2, doc="offsets from and to"), None)
-    roller_radii: tuple[float, ...] = given(Quantities("length", doc="radii of rollers that can be had"), ())
+    offset: tuple[float, float] | None = file_key(
+        Quantities("length", count=2, doc="offsets from and to"), None
+    )
+    roller_radii: tuple[float, ...] = file_key(
+        Quantities("length", doc="radii of rollers that can be had"), ()
+    )
 
 
 @dataclass(frozen=True)
 class WithLift(Table):
     """A table whose quantities depend on the follower of the table around it."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        fields = {key: _settled(each, lift_of(given)) for key, each in self.fields.items()}
-        return Table(fields, self.make).read(reader, node, place, given)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        fields = {key: _settled(each, lift_of(siblings)) for key, each in self.fields.items()}
+        return Table(fields, self.make).read(reader, node, place, siblings)
 
 
 def _settled(each: Field, lift: str) -> Field:
@@ -72,7 +76,7 @@ _FIND: Mapping[str, Field] = {
     ),
     "velocity": LiftQuantity(RATES["length", "angle"][0], RATES["angle", "angle"][0], minimum=0.0, doc="limit"),
     "acceleration": LiftQuantity(RATES["length", "angle"][1], RATES["angle", "angle"][1], minimum=0.0, doc="limit"),
-    "pieces": Whole(12, doc="pieces of the spline, 90 unless given"),
+    "pieces": Integer(12, doc="pieces of the spline, 90 unless given"),
 }  # fmt: skip
 
 
@@ -83,19 +87,19 @@ class CamLimits:
     Hertz's pressure (Pa), and the least effort (N or N·m along the follower's coordinate) that a spring must leave.
     """
 
-    pressure_angle: float | None = given(
+    pressure_angle: float | None = file_key(
         Quantity("angle", above=0.0, doc="largest pressure angle while the follower rises"), None
     )
-    pressure_angle_fall: float | None = given(
+    pressure_angle_fall: float | None = file_key(
         Quantity("angle", above=0.0, doc="while it falls (default: the same)"), None
     )
-    curvature_radius: float | None = given(
+    curvature_radius: float | None = file_key(
         Quantity("length", minimum=0.0, doc="smallest radius of curvature of the profile"), None
     )
-    contact_pressure: float | None = given(
+    contact_pressure: float | None = file_key(
         Quantity("pressure", above=0.0, doc="largest Hertzian pressure"), None
     )
-    contact_force: float = given(
+    contact_force: float = file_key(
         LiftQuantity("force", "torque", minimum=0.0, doc="least effort that the spring leaves"), 0.0
     )
 
@@ -110,29 +114,29 @@ class CamLimits:
 class CamConjugate:
     """The second cam of a pair: its base circle (m), and the offset or arm of the second roller (m)."""
 
-    base_radius: float = given(Quantity("length", above=0.0, doc="base circle of the second cam"))
-    offset: float = given(Quantity("length", doc="offset of the second roller"), 0.0)
-    arm: float | None = given(Quantity("length", above=0.0, doc="arm of the second roller"), None)
+    base_radius: float = file_key(Quantity("length", above=0.0, doc="base circle of the second cam"))
+    offset: float = file_key(Quantity("length", doc="offset of the second roller"), 0.0)
+    arm: float | None = file_key(Quantity("length", above=0.0, doc="arm of the second roller"), None)
 
 
 @dataclass(frozen=True)
 class CamElasticity:
     """Stiffness (N/m or N·m/rad) between cam and the follower's mass, and its damping ratio."""
 
-    stiffness: float = given(
+    stiffness: float = file_key(
         LiftQuantity("stiffness", "torsional_stiffness", above=0.0, doc="stiffness between cam and mass")
     )
-    damping_ratio: float = given(Quantity("dimensionless", minimum=0.0, doc="damping ratio, 0"), 0.0)
+    damping_ratio: float = file_key(Quantity("dimensionless", minimum=0.0, doc="damping ratio, 0"), 0.0)
 
 
 @dataclass(frozen=True)
 class FollowerMass(LiftQuantity):
     """The mass of a follower; the moment of inertia of an oscillating one, as files had it before, is a warning."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        if lift_of(given) == "angle":
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        if lift_of(siblings) == "angle":
             reader.old_key(node, place, "mass", "inertia")
-        return super().read(reader, node, place, given)
+        return super().read(reader, node, place, siblings)
 
 
 CAM_FIELDS: Mapping[str, Field] = {

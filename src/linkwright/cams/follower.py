@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Quantity, Schema, Word, given
+from linkwright.fields.base import Field, Quantity, Schema, Word, file_key
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Flag
@@ -28,22 +28,22 @@ class Follower:
     from the pivot towards the cam.
     """
 
-    kind: str = given(Word(KINDS, required=True, doc=_("what touches the cam")), "roller")
-    motion: str = given(Word(MOTIONS, doc="translating unless given"), "translating")
-    roller_radius: float = given(Quantity("length", above=0.0, doc=_("radius of the roller")), 0.0)
-    offset: float = given(
+    kind: str = file_key(Word(KINDS, required=True, doc=_("what touches the cam")), "roller")
+    motion: str = file_key(Word(MOTIONS, doc="translating unless given"), "translating")
+    roller_radius: float = file_key(Quantity("length", above=0.0, doc=_("radius of the roller")), 0.0)
+    offset: float = file_key(
         Quantity("length", doc="distance of a translating follower's line to the right of the centre, 0"), 0.0
     )
-    pivot_distance: float | None = given(
+    pivot_distance: float | None = file_key(
         Quantity("length", above=0.0, doc="from the cam's centre to the pivot"), None
     )
-    arm: float | None = given(
+    arm: float | None = file_key(
         Quantity("length", above=0.0, doc="from the pivot to the roller's centre or the edge"), None
     )
-    face_offset: float = given(
+    face_offset: float = file_key(
         Quantity("length", doc="of a flat oscillating face: from the pivot towards the cam, 0"), 0.0
     )
-    below: bool = given(Flag(doc="the arm points under the cam"), False)
+    below: bool = file_key(Flag(doc="the arm points under the cam"), False)
 
     @property
     def oscillating(self) -> bool:
@@ -98,9 +98,9 @@ class LiftQuantity(Field):
     minimum: float | None = None
     above: float | None = None
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        dimension = self.turning if lift_of(given) == "angle" else self.straight
-        return Quantity(dimension, minimum=self.minimum, above=self.above).read(reader, node, place, given)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        dimension = self.turning if lift_of(siblings) == "angle" else self.straight
+        return Quantity(dimension, minimum=self.minimum, above=self.above).read(reader, node, place, siblings)
 
     def shape(self) -> Schema:
         return {"anyOf": [Quantity(each).shape() for each in (self.straight, self.turning)]}

@@ -12,7 +12,7 @@ from linkwright.cams.follower import Follower, LiftQuantity
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.curves.curve import Curve, Extreme
-from linkwright.fields.base import Quantity, given
+from linkwright.fields.base import Quantity, file_key
 from linkwright.laws.program import Program
 
 
@@ -20,10 +20,10 @@ from linkwright.laws.program import Program
 class CamSpring:
     """Presses the follower on the cam: ``stiffness`` (N/m or N·m/rad), ``preload`` (N or N·m) at zero lift."""
 
-    stiffness: float | None = given(
+    stiffness: float | None = file_key(
         LiftQuantity("stiffness", "torsional_stiffness", minimum=0.0, doc="chosen unless given"), None
     )
-    preload: float | None = given(
+    preload: float | None = file_key(
         LiftQuantity("force", "torque", minimum=0.0, doc="at zero lift; chosen unless given"), None
     )
 
@@ -32,14 +32,14 @@ class CamSpring:
 class CamMaterial:
     """Young's moduli (Pa) and Poisson's ratios of cam and follower."""
 
-    modulus: float = given(
+    modulus: float = file_key(
         Quantity("pressure", above=0.0, required=True, doc="Young's modulus of the cam"), 210e9
     )
-    poisson: float = given(Quantity("dimensionless", minimum=0.0, doc="Poisson's ratio, 0.3"), 0.3)
-    follower_modulus: float | None = given(
+    poisson: float = file_key(Quantity("dimensionless", minimum=0.0, doc="Poisson's ratio, 0.3"), 0.3)
+    follower_modulus: float | None = file_key(
         Quantity("pressure", above=0.0, doc="of the follower (default: the same)"), None
     )
-    follower_poisson: float | None = given(
+    follower_poisson: float | None = file_key(
         Quantity("dimensionless", minimum=0.0, doc="of the follower"), None
     )
 

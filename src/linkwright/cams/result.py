@@ -13,10 +13,10 @@ import numpy as np
 from linkwright.cams.curves import RollerCurve
 from linkwright.cams.loading import contact_pressure, leverage
 from linkwright.cams.vibration import residual_amplitude, steady_deviation
+from linkwright.core.arguments import PROFILE_POINTS
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import PROFILE_POINTS
 from linkwright.core.quantity import number
 from linkwright.core.rows import Block
 from linkwright.core.search import ends, first_largest

@@ -16,7 +16,7 @@ from linkwright.cams.loading import CamLoading, CamMaterial
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, fault
-from linkwright.fields.base import GivenByFile
+from linkwright.fields.base import FileKeys
 from linkwright.laws.program import Program
 from linkwright.parts.base import Problem
 from linkwright.words import _
@@ -51,7 +51,7 @@ class CamShape(Problem):
     """What is given of a cam: see ``Cam``."""
 
     kind: ClassVar[str] = "cam"
-    fields = GivenByFile(CAM_FIELDS)
+    fields = FileKeys(CAM_FIELDS)
     program: Program
     follower: Follower = field(default_factory=Follower)
     base_radius: float | None = None

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from linkwright import whole_files
+from linkwright import filesystem
 from linkwright.cli.errors import UsageError
 from linkwright.cli.session import Session
 from linkwright.words import _
@@ -27,13 +27,13 @@ ENDING_SAYS = _('"{path}": the ending says what is written; end the name in {end
 
 def refuse_existing(path: Path, *, force: bool) -> None:
     """Raises RequestError where a file could not be written later, before any work is done."""
-    whole_files.refuse_target(path, force=force, remedy="--force")
+    filesystem.refuse_target(path, force=force, remedy="--force")
 
 
-def write_whole(path: Path, content: str | bytes, *, force: bool) -> None:
+def atomic_write(path: Path, content: str | bytes, *, force: bool) -> None:
     """Writes a file by way of a temporary one beside it, so that a broken one is never seen."""
     encoded = content.encode() if isinstance(content, str) else content
-    whole_files.write_whole(path, encoded, force=force, remedy="--force")
+    filesystem.atomic_write(path, encoded, force=force, remedy="--force")
 
 
 def write_diagram(
@@ -49,7 +49,7 @@ def write_diagram(
         return
     path = Path(name)
     content = found.plot(kind=kind, language=session.language).content(path.suffix.lower())
-    write_whole(path, content, force=force)
+    atomic_write(path, content, force=force)
 
 
 def refuse_output(name: str | None, endings: Sequence[str], *, force: bool) -> None:
@@ -70,7 +70,7 @@ def write_table(name: str | None, table: Callable[[], str], data: Callable[[], A
 
     path = Path(name)
     text = table() if path.suffix.lower() == ".csv" else json_text(data()) + "\n"
-    write_whole(path, text, force=force)
+    atomic_write(path, text, force=force)
 
 
 def write_result(name: str | None, found: Tabular, session: Session, *, force: bool) -> None:
@@ -80,7 +80,7 @@ def write_result(name: str | None, found: Tabular, session: Session, *, force: b
     from linkwright.exporters.export import chosen_format, content_of
 
     path = Path(name)
-    write_whole(path, content_of(found, chosen_format(path, None), session.language), force=force)
+    atomic_write(path, content_of(found, chosen_format(path, None), session.language), force=force)
 
 
 def curve_columns(found: Comparison) -> dict[str, Any]:

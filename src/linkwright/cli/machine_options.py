@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from linkwright import units
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
-from linkwright.fields.base import Field, Number, Quantity, Text, given
+from linkwright.fields.base import Field, Number, Quantity, Text, file_key
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Table
@@ -51,8 +51,8 @@ class Scale(Text):
     """Torque scale, N·m per mm, and angle scale, rad per mm, of ``5 N·m/mm, 1 deg/mm``; the work of a mm² and 1 of
     ``20 J/mm²``."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        text = super().read(reader, node, place, given)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        text = super().read(reader, node, place, siblings)
         try:
             found = None if text is None else _scales(text)
         except QuantityError as error:
@@ -65,12 +65,12 @@ class Scale(Text):
 class Areas(Text):
     """Areas of a torque diagram in mm² with its scales, if they are given, or works in J with scales of 1."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        text = super().read(reader, node, place, given)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        text = super().read(reader, node, place, siblings)
         if text is None:
             return None
         parts = [part.strip() for part in text.replace("−", "-").split(",")]
-        works = "scale" not in given and all(part.endswith("J") for part in parts)
+        works = "scale" not in siblings and all(part.endswith("J") for part in parts)
         found = []
         for part in parts:
             plain = part.removesuffix("J") if works else part.replace("mm²", "").replace("mm2", "")
@@ -80,23 +80,23 @@ class Areas(Text):
                 found.append(math.nan)
             if not math.isfinite(found[-1]):
                 return _refused(reader, node, place, _BAD_AREA, part)
-        return found, ((1.0, 1.0) if works else given.get("scale"))
+        return found, ((1.0, 1.0) if works else siblings.get("scale"))
 
 
 @dataclass(frozen=True)
 class Torque(Text):
     """A torque as an expression of theta over the period: its text, and the curve."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         import numpy as np
 
         from linkwright.machine.torque_curve import TURN, TorqueCurve
 
-        text = super().read(reader, node, place, given)
+        text = super().read(reader, node, place, siblings)
         if text is None:
             return None
         try:
-            found = TorqueCurve.from_function(text, period=given.get("period") or TURN)
+            found = TorqueCurve.from_function(text, period=siblings.get("period") or TURN)
             with np.errstate(all="ignore"):
                 values = found.function(np.linspace(0.0, found.period, TRIED))
         except QuantityError as error:
@@ -111,18 +111,18 @@ class Torque(Text):
 class Wanted:
     """What is asked of motor and flywheel, and a torque diagram with the inertia that is on its shaft already, SI."""
 
-    fluctuation: float | None = given(
+    fluctuation: float | None = file_key(
         replace(
             COEFFICIENT,
             doc=_("required coefficient of speed fluctuation (of a machine: 0.02 where left out)"),
         ),
         None,
     )
-    ratio: float = given(
+    ratio: float = file_key(
         Number(nonzero=True, doc=_("speed of the flywheel's shaft over that of the crank (default 1)")),
         1.0,
     )
-    efficiency: float = given(
+    efficiency: float = file_key(
         Number(
             above=0.0,
             maximum=1.0,
@@ -130,10 +130,10 @@ class Wanted:
         ),
         1.0,
     )
-    margin: float = given(
+    margin: float = file_key(
         Number(minimum=1.0, doc=_("factor on the motor's power, 1 or more (default 1)")), 1.0
     )
-    disk: Callable[[float], FlywheelSize] | None = given(
+    disk: Callable[[float], FlywheelSize] | None = file_key(
         Table(
             DISK,
             partial(partial, disk),
@@ -141,7 +141,7 @@ class Wanted:
         ),
         None,
     )
-    rim: Callable[[float], FlywheelSize] | None = given(
+    rim: Callable[[float], FlywheelSize] | None = file_key(
         Table(
             RIM,
             partial(partial, rim),
@@ -149,10 +149,10 @@ class Wanted:
         ),
         None,
     )
-    scale: tuple[float, float] | None = given(
+    scale: tuple[float, float] | None = file_key(
         Scale(doc=_('scales of the diagram: "5 N·m/mm, 1 deg/mm", or the work of an area: "20 J/mm²"')), None
     )
-    areas: tuple[list[float], tuple[float, float] | None] | None = given(
+    areas: tuple[list[float], tuple[float, float] | None] | None = file_key(
         Areas(
             doc=_(
                 'areas between torque curve and mean line in mm², in turn: "+295, -685, …"; needs '
@@ -161,26 +161,26 @@ class Wanted:
         ),
         None,
     )
-    period: float | None = given(
+    period: float | None = file_key(
         Quantity("angle", above=0.0, doc=_("angle of a cycle (default 360deg; four-stroke engines 720deg)")),
         None,
     )
-    torque: tuple[str, TorqueCurve] | None = given(
+    torque: tuple[str, TorqueCurve] | None = file_key(
         Torque(doc=_('driving torque in N·m over theta in rad: "5000 + 600*sin(2*theta)"')), None
     )
-    load: tuple[str, TorqueCurve] | None = given(
+    load: tuple[str, TorqueCurve] | None = file_key(
         Torque(doc=_("resisting torque in N·m over theta (default: constant, the mean of --torque)")), None
     )
-    speed: float | None = given(
+    speed: float | None = file_key(
         Quantity("angular_velocity", above=0.0, doc=_("mean speed of the shaft: 180rpm")), None
     )
-    inertia: float | None = given(
+    inertia: float | None = file_key(
         Quantity("inertia", above=0.0, doc=_('moment of inertia that is on the shaft: "0.81 kg·m²"')), None
     )
-    mass: float | None = given(
+    mass: float | None = file_key(
         Quantity("mass", above=0.0, doc=_("mass of the flywheel that is there, with --gyration: 36kg")), None
     )
-    gyration: float | None = given(
+    gyration: float | None = file_key(
         Quantity("length", above=0.0, doc=_("its radius of gyration: 150mm")), None
     )
 

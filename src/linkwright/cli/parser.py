@@ -10,7 +10,7 @@ from typing import Any, cast
 from linkwright.cli.reading import read
 from linkwright.errors import with_remedy
 from linkwright.fields.base import Field
-from linkwright.fields.tables import PAIRS, ByAddress, Listed, Table, Whole
+from linkwright.fields.tables import PAIRS, ByAddress, Integer, Listed, Table
 from linkwright.words import Message, Say, _
 
 #: Options that every command has, or the program without a command, and what they do.
@@ -127,7 +127,7 @@ class Options:
 
     def count(self, name: str, usual: int | None = None, *, help: Message) -> None:
         """An option with a whole number, 1 or more."""
-        self(name, "N", of=Whole(1), default=usual, help=help)
+        self(name, "N", of=Integer(1), default=usual, help=help)
 
     def model(self) -> None:
         """The model file that a command takes."""

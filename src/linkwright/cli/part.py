@@ -9,7 +9,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.tables import Whole
+from linkwright.fields.tables import Integer
 from linkwright.words import Message, _
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ def part_arguments(option: Options) -> None:
     option(
         "--digits",
         "N",
-        of=Whole(3, 15),
+        of=Integer(3, 15),
         choices=tuple(map(str, range(3, 16))),
         default=6,
         help=_("significant digits of the numbers (3 to 15; default: 6)"),

@@ -11,7 +11,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.errors import LinkwrightError, about
-from linkwright.fields.tables import Whole
+from linkwright.fields.tables import Integer
 from linkwright.words import Message, _
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def file_arguments(option: Options, output: Message) -> None:
     group = option.group(_("file"))
     group("--output", "FILE", required=True, help=output)
     group.force()
-    group("--width", "PIXELS", of=Whole(1), help=_("pixels across (SVG and PDF: of the longer side)"))
+    group("--width", "PIXELS", of=Integer(1), help=_("pixels across (SVG and PDF: of the longer side)"))
     group.fonts()
 
 

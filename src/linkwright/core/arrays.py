@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
-Whole = NDArray[np.int64]
+Integers = NDArray[np.int64]
 Indices = NDArray[np.intp]
 Flags = NDArray[np.bool_]
 #: Share of the largest size of some values within which two of them are equal: which is larger is rounding.

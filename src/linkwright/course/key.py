@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from linkwright.core.given import told
+from linkwright.core.arguments import describe
 from linkwright.course.mistakes import MISTAKES
 from linkwright.course.variants import FORMAT
 from linkwright.errors import RequestError
@@ -45,7 +45,7 @@ def read_key(given: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
 
 def _read(path: str | Path) -> Any:
     if not isinstance(path, str | PathLike):
-        raise RequestError(_NO_KEY.format(path=told(path)))
+        raise RequestError(_NO_KEY.format(path=describe(path)))
     try:
         return json.loads(Path(path).read_text("utf-8"))
     except (OSError, ValueError, RecursionError) as error:

@@ -31,8 +31,8 @@ from linkwright.words import _
 class ShareOfAnswer(Value):
     """How far an answer may be off: a share up to 0.2."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        value = super().read(reader, node, place, given)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        value = super().read(reader, node, place, siblings)
         found = None if value is None else _share(value)
         if found is None or 0.0 < found <= 0.2:
             return found

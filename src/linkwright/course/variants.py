@@ -15,10 +15,10 @@ import numpy as np
 
 from linkwright.analysis import metrics
 from linkwright.analysis.transmission_angle import TransmissionAngle
+from linkwright.core.arguments import integer, require
 from linkwright.core.attached import attached
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require, whole
 from linkwright.core.progress import Progress, current_progress
 from linkwright.course.mistakes import Consequence, Sheet
 from linkwright.course.task import Question, Task, task
@@ -160,13 +160,13 @@ class Variants:
 
         Raises LinkwrightError, and writes none, where one cannot be written or is there already unless ``force``.
         """
-        from linkwright.whole_files import make_folder, refuse_target, write_whole
+        from linkwright.filesystem import atomic_write, make_folder, refuse_target
 
         contents = {Path(folder) / name: content for name, content in self.files(forms, language).items()}
         for path in contents:
             make_folder(path.parent)
             refuse_target(path, force=force)
-        return [write_whole(path, content, force=force) for path, content in contents.items()]
+        return [atomic_write(path, content, force=force) for path, content in contents.items()]
 
     def key_text(self) -> str:
         """The answer key as JSON."""
@@ -199,7 +199,7 @@ def variants(
         LinkwrightError: settings that make no sense; fewer variants than asked for within the limits.
     """
     require(machine, Mechanism, str, PathLike)
-    count, seed = whole("count", count), whole("seed", seed)
+    count, seed = integer("count", count), integer("seed", seed)
     if not 1 <= count <= MOST:
         raise RequestError(
             _("{count} variants cannot be made; give 1 to 1000", code="course.bad_count", count=count)

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Whole
+from linkwright.core.arrays import Floats, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.formula.reductions import Reduction
@@ -103,7 +103,7 @@ def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity])
 def finished(
     summary: Summary,
     quantity: Quantity,
-    results: Mapping[str, Floats | Whole],
+    results: Mapping[str, Floats | Integers],
     input_: Floats,
 ) -> Floats:
     """The summary (designs,) from its reductions; NaN where no position counts."""

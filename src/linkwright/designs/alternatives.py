@@ -14,9 +14,9 @@ import numpy as np
 from linkwright.analysis import Analysis
 from linkwright.analysis.of_output import Asked, pivot
 from linkwright.analysis.outputs import mechanism_outputs
+from linkwright.core.arguments import require
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
 from linkwright.core.outputs import Output
 from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError, RequestError

@@ -9,9 +9,9 @@ from typing import Any, ClassVar
 
 from linkwright.analysis.base import MetricValue
 from linkwright.analysis.by_name import ask
+from linkwright.core.arguments import STEPS, real, require
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS, real, require
 from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, unused

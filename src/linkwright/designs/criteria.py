@@ -9,8 +9,8 @@ from linkwright.analysis import METRICS, Metric, MetricValue
 from linkwright.analysis.by_name import is_summary, measured, metric_named, metric_of, wanted
 from linkwright.analysis.flywheel import SIZED
 from linkwright.analysis.of_output import OWN
+from linkwright.core.arguments import one_or_more
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import one_or_more
 from linkwright.designs.alternatives import Alternative
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.registry import offered

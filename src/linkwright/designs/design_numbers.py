@@ -15,9 +15,9 @@ from linkwright.analysis.hulls_of_designs import hulls_of_designs, swept
 from linkwright.analysis.of_designs import MetricsOfDesigns, numbers_of_designs
 from linkwright.analysis.of_output import Asked
 from linkwright.analysis.ranges_of_designs import ranged, ranges_of_designs
+from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS
 from linkwright.core.progress import Progress, paced, part_of
 from linkwright.designs.finished_parts import identity, once, surrounding
 from linkwright.designs.one_by_one import changes_of

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.analysis.by_name import wanted
-from linkwright.core.arrays import Flags, Floats, Whole
+from linkwright.core.arguments import STEPS, integer, one_of, require
+from linkwright.core.arrays import Flags, Floats, Integers
 from linkwright.core.attached import Plotted
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS, one_of, require, whole
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, columns_table, unused
@@ -38,7 +38,7 @@ from linkwright.words import _
 SHARED = 4096
 #: What a piece finds: positions assembled, designs that pass, summaries, sentences of designs, margins, dimensions of
 #: numbers.
-_Piece = tuple[Whole, Flags, list[Floats], dict[int, str], Floats | None, dict[str, str]]
+_Piece = tuple[Integers, Flags, list[Floats], dict[int, str], Floats | None, dict[str, str]]
 
 
 @dataclass(eq=False)
@@ -60,7 +60,7 @@ class Sweep(Plotted, Tabular, Frozen):
     varied: Mapping[str, Floats]
     positions: int
     steps: int | None
-    assembled: Whole
+    assembled: Integers
     ok: Flags
     summaries: Mapping[Summary, Floats]
     quantities: Mapping[str, Quantity] = field(repr=False)
@@ -97,9 +97,9 @@ class Sweep(Plotted, Tabular, Frozen):
             )
         return self.summaries[found]
 
-    def columns(self) -> dict[str, Floats | Whole]:
+    def columns(self) -> dict[str, Floats | Integers]:
         """Varied dimensions, assembled positions and summaries by name."""
-        found: dict[str, Floats | Whole] = {**self.varied}
+        found: dict[str, Floats | Integers] = {**self.varied}
         found[unused("assembled", found)] = self.assembled
         for summary, values in self.summaries.items():
             found[unused(summary.name, found)] = values
@@ -184,7 +184,7 @@ def sweep(
     """
     require(mechanism, Mechanism)
     one_of("backend", backend, BACKENDS)
-    threads = None if threads is None else whole("threads", threads, 1)
+    threads = None if threads is None else integer("threads", threads, 1)
     positions = over_cycle(mechanism, STEPS if steps is None else steps)
     columns = design_values(mechanism, vary)
     refuse_moved_positions(mechanism, positions, columns)

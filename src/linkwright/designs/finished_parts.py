@@ -21,7 +21,7 @@ import numpy as np
 from linkwright.core import VERSION
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.errors import RequestError
-from linkwright.whole_files import refuse_target, write_new
+from linkwright.filesystem import refuse_target, write_new
 from linkwright.words import Message, _
 
 T = TypeVar("T")

@@ -17,9 +17,9 @@ from linkwright.analysis.of_designs import (
     numbers_of_designs,
     refuse_obstacles,
 )
+from linkwright.core.arguments import STEPS, one_of, require
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS, one_of, require
 from linkwright.core.outputs import Output
 from linkwright.designs.design_numbers import side_by_side
 from linkwright.designs.objective_terms import PathError, Terms, differentiable, number_of_points, weighted

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.analysis.by_name import NO_OUTPUTS, NO_TEXT, wanted
+from linkwright.core.arguments import real
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import real
 from linkwright.cycle.summary import Summary
 from linkwright.errors import RequestError
 from linkwright.words import _

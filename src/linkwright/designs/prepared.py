@@ -9,8 +9,8 @@ from typing import Literal
 import numpy as np
 
 from linkwright.applied_loads.strokes import turned
+from linkwright.core.arguments import STEPS, one_of, require
 from linkwright.core.arrays import Floats
-from linkwright.core.given import STEPS, one_of, require
 from linkwright.core.outputs import Output
 from linkwright.cycle.load_limits import LoadLimits
 from linkwright.cycle.near_limits import NearLimits

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from linkwright.core.arguments import integer
 from linkwright.core.arrays import Floats
-from linkwright.core.given import whole
 from linkwright.designs.ranges import Range
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words import _
@@ -50,7 +50,7 @@ def sobol(ranges: Sequence[Range], samples: int, seed: int, sampling: str) -> di
                 sampling=sampling,
             )
         )
-    samples, seed = whole("samples", samples), whole("seed", seed)
+    samples, seed = integer("samples", samples), integer("seed", seed)
     if not 1 <= samples <= MOST:
         raise RequestError(
             _(

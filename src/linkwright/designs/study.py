@@ -15,10 +15,10 @@ from linkwright.analysis.by_name import ask
 from linkwright.analysis.evaluate import unloaded
 from linkwright.analysis.of_output import Asked
 from linkwright.analysis.outputs import usual_output
+from linkwright.core.arguments import STEPS, require
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS, require
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, csv_text, unused

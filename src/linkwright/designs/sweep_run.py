@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Indices, Whole
+from linkwright.core.arrays import Flags, Floats, Indices, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress, paced
 from linkwright.cycle.load_limits import FoundLimits
@@ -99,7 +99,7 @@ class SweepRun:
         self._programs: dict[tuple[str, ...], tuple[list[Quantity], Program]] = {}
         self.margins = None if self._tracked is None else np.full(self.designs, np.nan)
 
-    def swept(self) -> tuple[Whole, Flags, dict[Summary, Floats]]:
+    def swept(self) -> tuple[Integers, Flags, dict[Summary, Floats]]:
         """Assembled positions (designs,), whether each design passes its cycle, and every summary (designs,)."""
         assembled, passed = np.zeros(self.designs, dtype=np.int64), np.zeros(self.designs, dtype=np.bool_)
         values = {summary: np.empty(self.designs) for summary in self.asked}

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.arguments import one_or_more, require
 from linkwright.core.arrays import Floats
-from linkwright.core.given import one_or_more, require
 from linkwright.designs.ranges import Range, parse_range
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.toothed import Numbers, whole

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.arguments import one_of
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import one_of
 from linkwright.dyads.cell import cell
 from linkwright.dyads.motion import DyadMotion, run
 from linkwright.dyads.values import Line, line_inputs, numbers, pairs, state

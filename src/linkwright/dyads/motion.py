@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.arguments import one_of
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import one_of
 from linkwright.dyads.cell import Cell, cell
 from linkwright.dyads.values import Line, Slide, State, line_inputs, numbers, point_inputs
 from linkwright.errors import RequestError

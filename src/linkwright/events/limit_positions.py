@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from linkwright.applied_loads.signals import Limit, LimitKind
+from linkwright.core.arguments import require
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.search import first_largest
 from linkwright.errors import RequestError

@@ -8,17 +8,17 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from linkwright.core.arguments import STEPS
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS
 from linkwright.core.table import Tabular
 from linkwright.errors import RequestError, require_language
 from linkwright.exporters.results import Results
 from linkwright.files.source import ENDINGS
+from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import Registry, nearest, offered
-from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import Message, _
 
 _ENDING = _(
@@ -103,7 +103,7 @@ def export(
     else:
         check_options(chosen, FORMATS[chosen], options)
         content = FORMATS[chosen].content(Results.of(result, steps, language), **options)
-    return write_whole(target, content, force=force)
+    return atomic_write(target, content, force=force)
 
 
 def content_of(result: Tabular, name: str, language: str) -> bytes:

@@ -6,8 +6,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from linkwright.analysis.table import MetricsTable
+from linkwright.core.arguments import STEPS, require
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS, require
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion

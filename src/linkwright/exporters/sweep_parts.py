@@ -15,10 +15,10 @@ from numpy.typing import ArrayLike
 from linkwright.analysis.base import METRICS
 from linkwright.analysis.by_name import wanted
 from linkwright.core import VERSION
+from linkwright.core.arguments import integer, require
 from linkwright.core.arrays import Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require, whole
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.core.table import Amount, Cell, Table, Tabular
 from linkwright.designs.cluster import connected, current, in_turn
@@ -28,8 +28,8 @@ from linkwright.designs.sampling import BAD_SEED
 from linkwright.designs.varied_dimensions import varied_ranges
 from linkwright.errors import RequestError
 from linkwright.exporters.export import package
+from linkwright.filesystem import atomic_write, make_folder
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.whole_files import make_folder, write_whole
 from linkwright.words import _, pgettext
 from linkwright.words.sentence import in_language
 
@@ -277,7 +277,7 @@ def sweep_parts(
 
     with reporting(None if progress is None else within):
         for number, content in _made(plan, missing, client if client is not None else current(), threads):
-            write_whole(found.path(number), content)
+            atomic_write(found.path(number), content)
             done += plan.rows(number)
             within(0, 1)
     return found
@@ -297,7 +297,7 @@ def _plan(
         )
     ranges = varied_ranges(mechanism, vary, sampled=sampling == "sobol")
     count = samples if sampling == "sobol" else int(np.prod([float(len(each.values)) for each in ranges]))
-    part = whole("part", part)
+    part = integer("part", part)
     if seed < 0:
         raise RequestError(BAD_SEED.format(seed=seed))
     if not 1 <= count <= MOST:
@@ -321,7 +321,7 @@ def _missing(found: SweepParts) -> list[int]:
     note, digest = found.folder / "sweep.json", found.plan.digest
     said = {"plan": digest, "designs": found.designs, "parts": found.parts, "outputs": found.plan.outputs}
     try:
-        write_whole(note, json.dumps(said, indent=1).encode(), force=False)
+        atomic_write(note, json.dumps(said, indent=1).encode(), force=False)
     except RequestError:
         if not note.exists():
             raise

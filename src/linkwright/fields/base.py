@@ -46,8 +46,8 @@ class Field(ABC):
     bare: ClassVar[bool] = False
 
     @abstractmethod
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        """The value at the node, or None after a finding; ``given`` are the table's values read so far."""
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        """The value at the node, or None after a finding; ``siblings`` are the table's values read so far."""
 
     @abstractmethod
     def shape(self) -> Schema:
@@ -78,7 +78,7 @@ class Field(ABC):
 REQUIRED: Any = object()
 
 
-def given(kind: Field, default: Any = REQUIRED) -> Any:
+def file_key(kind: Field, default: Any = REQUIRED) -> Any:
     """An attribute of a dataclass that a file gives; without a default the file must have it.
 
     A default that is a type, such as ``dict``, is called for every object.
@@ -90,19 +90,19 @@ def given(kind: Field, default: Any = REQUIRED) -> Any:
     return field(default=default, metadata={"field": kind})
 
 
-def given_by_file(made: Any) -> dict[str, Field]:
-    """The attributes of a dataclass that :func:`given` declares."""
+def file_keys(made: Any) -> dict[str, Field]:
+    """The attributes of a dataclass that :func:`file_key` declares."""
     return {each.name: each.metadata["field"] for each in fields(made) if "field" in each.metadata}
 
 
-class GivenByFile:
-    """As attribute of a class: what :func:`given` declares in it or the dataclasses below it, and ``more`` keys."""
+class FileKeys:
+    """As attribute of a class: what :func:`file_key` declares in it and in its bases, and ``more`` keys."""
 
     def __init__(self, more: Mapping[str, Field] | None = None) -> None:
         self.more = more or {}
 
     def __get__(self, instance: object, owner: type) -> Mapping[str, Field]:
-        return {**given_by_file(owner), **self.more}
+        return {**file_keys(owner), **self.more}
 
 
 def quantity_schema(dimension: str) -> Schema:
@@ -140,7 +140,7 @@ class Quantity(Field):
     maximum: float | None = field(default=None, kw_only=True)
     nonzero: bool = field(default=False, kw_only=True)
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> float | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> float | None:
         value = self._value(reader, node, place)
         limit = None if value is None else self.limit(value)
         if value is None or limit is None:
@@ -254,13 +254,13 @@ class Quantities(Field):
     form: str = field(default="", kw_only=True)
 
     def read(
-        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
     ) -> tuple[float, ...] | None:
         items = reader.items(node, place, len(self.names) or self.count, self._form)
         if items is None:
             return None
         values = [
-            self._one.read(reader, item, place.child(self._suffix(index)), given)
+            self._one.read(reader, item, place.child(self._suffix(index)), siblings)
             for index, item in enumerate(items)
         ]
         return None if any(value is None for value in values) else tuple(v for v in values if v is not None)
@@ -301,7 +301,7 @@ class Quantities(Field):
 class Text(Field):
     """Any text."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> str | None:
         return reader.text(node, place)
 
     def shape(self) -> Schema:
@@ -312,9 +312,9 @@ class Text(Field):
 class WordedText(Text):
     """Any text, or one in each language: ``{en: Press, zh: 压力机}``."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> str | None:
         if not isinstance(node, MappingNode) or not node.entries:
-            return super().read(reader, node, place, given)
+            return super().read(reader, node, place, siblings)
         texts = reader.table(node, place, _IN_LANGUAGES) or {}
         said = {language: text for language, text in texts.items() if text}
         return Worded(said) if said else None
@@ -342,7 +342,7 @@ class Word(Field):
 
     choices: tuple[str, ...]
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> str | None:
         return reader.word(node, place, self.choices)
 
     def shape(self) -> Schema:
@@ -356,7 +356,7 @@ class Free(Field):
 
     section: str = ""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         mapping = reader.mapping(node, place)
         return None if mapping is None else Section(reader.free(mapping), mapping, reader.source)
 
@@ -370,7 +370,7 @@ class Count(Field):
 
     only: int
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> int | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> int | None:
         text = reader.text(node, place)
         if text is None or text.strip() == str(self.only):
             return self.only
@@ -396,7 +396,9 @@ class Formula(Field):
 
     dimension: str
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Expression | None:
+    def read(
+        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
+    ) -> Expression | None:
         return reader.formula(node, place, self.dimension, {"t": units.DIMENSIONS["time"]})
 
     def shape(self) -> Schema:
@@ -429,7 +431,7 @@ class TimeTable(Field):
         }
 
     def read(
-        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
     ) -> TimeTableValues | None:
         with reader.plain_numbers(_("a driver's table")):
             values = reader.table(node, place, self._fields())

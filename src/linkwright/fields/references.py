@@ -33,7 +33,7 @@ class LinkName(Field):
 
     moving: bool = field(default=False, kw_only=True)
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> str | None:
         name = reader.text(node, place)
         if name is None or not reader.known(node, place, _("link"), name, list(reader.names.links)):
             return None
@@ -52,8 +52,8 @@ class PointName(Field):
 
     of: str
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
-        link = given.get(self.of)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> str | None:
+        link = siblings.get(self.of)
         if isinstance(node, Sequence) and link is not None:
             reader.finding(
                 node,
@@ -77,7 +77,7 @@ class PointName(Field):
 class PointReference(Field):
     """A point of the mechanism: ``link.point``, or only ``point`` where the name leaves no doubt."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> LinkPoint | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> LinkPoint | None:
         text = reader.text(node, place)
         return None if text is None else reader.link_point(node, place, text)
 
@@ -92,10 +92,10 @@ class PointReference(Field):
 class PlaceOrPoint(Quantities):
     """Coordinates in a link's axes, or the name of a point; the reader of the link knows whether it is there."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         if isinstance(node, Scalar) and node.text[:1].isalpha():
             return reader.text(node, place)
-        return super().read(reader, node, place, given)
+        return super().read(reader, node, place, siblings)
 
     def shape(self) -> Schema:
         return {"anyOf": [super().shape(), {"type": "string", "x-reference": "point"}]}
@@ -116,11 +116,11 @@ class Two(Field):
     def one(self) -> Field:
         """The field of each."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         items = reader.items(node, place, 2, self.form)
         if items is None:
             return None
-        a, b = (self.one.read(reader, item, place.child(str(k)), given) for k, item in enumerate(items))
+        a, b = (self.one.read(reader, item, place.child(str(k)), siblings) for k, item in enumerate(items))
         if a is None or b is None or a != b:
             return None if a is None or b is None else (a, b)
         problem, remedy = (
@@ -174,9 +174,9 @@ class Direction(Field):
     dimension: ClassVar[str] = "angle"
     of: str = "guide"
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         if isinstance(node, Sequence):
-            return PointPair(self.of).read(reader, node, place, given)
+            return PointPair(self.of).read(reader, node, place, siblings)
         return reader.quantity(node, place, "angle")
 
     def shape(self) -> Schema:
@@ -196,7 +196,7 @@ class Coordinates(Field):
     """Points with their coordinates: ``{A: [0 m, 0 m], B: …}``, whose addresses leave out the key."""
 
     def read(
-        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
     ) -> dict[str, tuple[float, float] | None] | None:
         mapping = reader.mapping(node, place)
         if mapping is None:
@@ -217,9 +217,9 @@ class Coordinates(Field):
 class LinkPoints(Field):
     """The points of a link: a list of names, or a mapping of names to coordinates in the link's axes."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         if isinstance(node, MappingNode):
-            return Coordinates().read(reader, node, place, given)
+            return Coordinates().read(reader, node, place, siblings)
         if not isinstance(node, Sequence):
             reader.items(node, place, None, "[A, B]")
             return None
@@ -249,7 +249,7 @@ class OutputName(Field):
     """An output: a link's name (its angle), POINT.x or POINT.y, a prismatic joint's name (its
     displacement); or the same as results are named, ``jaw.angle``."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Output | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Output | None:
         text = reader.text(node, place)
         return None if text is None else reader.output(node, place, text)
 

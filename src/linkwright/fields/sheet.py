@@ -9,7 +9,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Free, Quantities, Quantity, Schema, Text, Word, table_schema
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
-from linkwright.fields.tables import ByAddress, Flag, Listed, Table, Whole
+from linkwright.fields.tables import ByAddress, Flag, Integer, Listed, Table
 from linkwright.words import LANGUAGES, _
 
 #: Sizes of paper, and the standards of frames and title blocks.
@@ -50,8 +50,8 @@ SHEET: Mapping[str, Field] = {
     "binding": Flag(doc=_("whether a margin for binding is left (gb); default true")),
     "zones": Flag(doc=_("whether the frame has numbered fields; default false")),
     **WORDS,
-    "sheet": Whole(1, 999, doc=_("number of this sheet")),
-    "sheets": Whole(1, 999, doc=_("how many sheets there are")),
+    "sheet": Integer(1, 999, doc=_("number of this sheet")),
+    "sheets": Integer(1, 999, doc=_("how many sheets there are")),
     "positions": Listed(
         Text(), "[60 deg, 240 deg]", doc=_("inputs of the positions that are worked out, one or two")
     ),
@@ -70,8 +70,10 @@ SHEET: Mapping[str, Field] = {
 class SheetSection(Free):
     """The section ``sheet``: kept as it stands, checked by its keys."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        return None if reader.table(node, place, SHEET) is None else super().read(reader, node, place, given)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        return (
+            None if reader.table(node, place, SHEET) is None else super().read(reader, node, place, siblings)
+        )
 
     def shape(self) -> Schema:
         return table_schema(SHEET)

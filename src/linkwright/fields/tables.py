@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Field, Schema, given_by_file, table_schema
+from linkwright.fields.base import Field, Schema, file_keys, table_schema
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.reading import Place, Reader, Sayings
@@ -31,9 +31,9 @@ class Table(Field):
     @classmethod
     def of(cls, made: type, **settings: Any) -> Table:
         """The table of what :func:`linkwright.fields.base.given` declares in a dataclass."""
-        return cls(given_by_file(made), made, **settings)
+        return cls(file_keys(made), made, **settings)
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         before = reader.error_count
         values = reader.table(node, place, self.fields)
         if values is None or reader.error_count > before:
@@ -51,7 +51,7 @@ class Keys(Table):
 
     own: Sayings = dataclasses.field(default_factory=dict, kw_only=True)
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         if isinstance(node, MappingNode):
             node = dataclasses.replace(node, entries=[each for each in node.entries if self._written(each)])
         with reader.saying(self.own):
@@ -70,7 +70,7 @@ class Named(Field):
     item: Field
     what: Message
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         mapping = reader.mapping(node, place)
         if mapping is None:
             return None
@@ -78,7 +78,7 @@ class Named(Field):
         for entry in mapping.entries:
             child = place.child(entry.key.text)
             if reader.name(entry.key, child, self.what) is not None:
-                found[entry.key.text] = self.item.read(reader, entry.value, child, given)
+                found[entry.key.text] = self.item.read(reader, entry.value, child, siblings)
         return found
 
     def shape(self) -> Schema:
@@ -91,12 +91,12 @@ class ByAddress(Named):
 
     what: Message = _("output")
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         mapping = reader.mapping(node, place)
         if mapping is None:
             return None
         return {
-            entry.key.text: self.item.read(reader, entry.value, place.child(entry.key.text), given)
+            entry.key.text: self.item.read(reader, entry.value, place.child(entry.key.text), siblings)
             for entry in mapping.entries
         }
 
@@ -109,14 +109,15 @@ class Listed(Field):
     form: str = "[…, …]"
     alone: bool = dataclasses.field(default=False, kw_only=True)
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         if self.alone and not isinstance(node, Sequence):
-            return self.item.read(reader, node, place, given)
+            return self.item.read(reader, node, place, siblings)
         items = reader.items(node, place, None, self.form)
         if items is None:
             return None
         return tuple(
-            self.item.read(reader, item, place.child(str(index)), given) for index, item in enumerate(items)
+            self.item.read(reader, item, place.child(str(index)), siblings)
+            for index, item in enumerate(items)
         )
 
     def shape(self) -> Schema:
@@ -131,9 +132,9 @@ class Either(Field):
     short: Field
     table: Field
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         chosen = self.table if isinstance(node, MappingNode) else self.short
-        return chosen.read(reader, node, place, given)
+        return chosen.read(reader, node, place, siblings)
 
     def shape(self) -> Schema:
         return {"anyOf": [self.short.shape(), self.table.shape()]}
@@ -143,7 +144,7 @@ class Either(Field):
 class Line(Field):
     """One line: a text or a number; empty where nothing is written."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> str | None:
         return "" if isinstance(node, Scalar) and node.empty else reader.text(node, place)
 
     def shape(self) -> Schema:
@@ -158,15 +159,15 @@ PAIRS = ByAddress(Line())
 class Value(Line):
     """A text or a number, kept as plain data: a bare number is one in SI."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        return None if super().read(reader, node, place, given) is None else reader.free(node)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        return None if super().read(reader, node, place, siblings) is None else reader.free(node)
 
 
 @dataclass(frozen=True)
 class Flag(Field):
     """``true`` or ``false``."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> bool | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> bool | None:
         word = reader.word(node, place, ("true", "false"))
         return None if word is None else word == "true"
 
@@ -175,27 +176,27 @@ class Flag(Field):
 
 
 @dataclass(frozen=True)
-class Whole(Field):
-    """A whole number from ``least`` to ``most``."""
+class Integer(Field):
+    """An integer from ``minimum`` to ``maximum``."""
 
-    least: int = 0
-    most: int = MOST
+    minimum: int = 0
+    maximum: int = MOST
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> int | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> int | None:
         text = reader.text(node, place)
         if text is None:
             return None
-        if _WHOLE.fullmatch(text.strip()) and self.least <= int(text) <= self.most:
+        if _WHOLE.fullmatch(text.strip()) and self.minimum <= int(text) <= self.maximum:
             return int(text)
         message = _(
-            '"{text}" is not a whole number from {least} to {most}',
+            '"{text}" is not an integer from {minimum} to {maximum}',
             code="part.no_whole",
             text=text,
-            least=self.least,
-            most=self.most,
+            minimum=self.minimum,
+            maximum=self.maximum,
         )
         reader.error(node, place, message, _("write digits only"), "range")
         return None
 
     def shape(self) -> Schema:
-        return {"type": "integer", "minimum": self.least, "maximum": self.most}
+        return {"type": "integer", "minimum": self.minimum, "maximum": self.maximum}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from linkwright.core.given import one_or_more
+from linkwright.core.arguments import one_or_more
 from linkwright.errors import ModelError, RequestError
 from linkwright.fields.nodes import node_of
 from linkwright.files.read_model import read_model

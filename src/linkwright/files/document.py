@@ -11,9 +11,9 @@ from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
 from linkwright.fields.nodes import Entry, Mapping, Node, Scalar, Sequence, located
 from linkwright.files.compose import compose
 from linkwright.files.write import flow
+from linkwright.filesystem import atomic_write
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
-from linkwright.whole_files import write_whole
 from linkwright.words import _
 
 _AXES = {"x": "0", "y": "1"}
@@ -138,7 +138,7 @@ class Document:
 
         Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
         """
-        write_whole(path, self.text.encode(), force=force)
+        atomic_write(path, self.text.encode(), force=force)
 
     def _replaced(self, text: str, node: Node, value: str) -> Edit:
         offset = 1 if text.startswith("\ufeff") else 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from linkwright.core.given import told
+from linkwright.core.arguments import describe
 from linkwright.errors import Finding, ModelError, RequestError
 from linkwright.fields.nodes import Node, Scalar, below
 from linkwright.files.compose import compose
@@ -38,9 +38,9 @@ def loads(text: str, name: str = "<text>") -> Mechanism:
     if not isinstance(text, str):
         raise RequestError(
             _(
-                "the text of a model is needed, not {told}; files are read by lw.load",
+                "the text of a model is needed, not {found}; files are read by lw.load",
                 code="given_instead.no_text",
-                told=told(text),
+                found=describe(text),
             )
         )
     if "\n" not in text.strip() and (text.startswith(GALLERY) or text.endswith(ENDINGS)):

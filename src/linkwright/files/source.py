@@ -7,7 +7,7 @@ import stat
 from typing import TYPE_CHECKING
 
 from linkwright import gallery
-from linkwright.core.given import told
+from linkwright.core.arguments import describe
 from linkwright.errors import Finding, ModelError, RequestError
 from linkwright.registry import nearest
 from linkwright.words import _, pgettext
@@ -36,9 +36,9 @@ def read_source(source: str | Path) -> tuple[str, str]:
     if not isinstance(source, str | os.PathLike):
         raise RequestError(
             _(
-                'the name of a model file is needed, not {told}; write lw.load("machine.yaml")',
+                'the name of a model file is needed, not {found}; write lw.load("machine.yaml")',
                 code="given_instead.no_file_name",
-                told=told(source),
+                found=describe(source),
             )
         )
     from pathlib import Path

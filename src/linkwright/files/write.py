@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from linkwright.core.given import require
+from linkwright.core.arguments import require
 from linkwright.core.json_data import Plain
 from linkwright.drivers.base import Driver
 from linkwright.fields.references import PLACE

@@ -11,7 +11,7 @@ from typing import Any, TypeGuard
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkwright.core.arrays import Floats, Whole
+from linkwright.core.arrays import Floats, Integers
 from linkwright.formula.ir_module import Block
 from linkwright.formula.program import Program
 from linkwright.formula.table import Table
@@ -20,7 +20,7 @@ Arrays = Mapping[str, ArrayLike]
 _LINE = 64  # bytes of a cache line
 
 
-def address_of(array: Floats | Whole) -> int:
+def address_of(array: Floats | Integers) -> int:
     """Where an array's first number lies."""
     return int(array.__array_interface__["data"][0])
 
@@ -107,7 +107,7 @@ class Inputs:
             and all(own is each for own, each in zip(self._tables, tables, strict=True))
         )
 
-    def _unaddressed(self) -> Whole:
+    def _unaddressed(self) -> Integers:
         """What all call blocks have in common."""
         full, rest = divmod(self.length, self.width)
         if full:
@@ -125,7 +125,7 @@ class Inputs:
         block[Block.INPUTS :] = sources
         return block
 
-    def block(self, parameters: int, out: int, first: int = 0, designs: int = 1) -> Whole:
+    def block(self, parameters: int, out: int, first: int = 0, designs: int = 1) -> Integers:
         """The call block for some designs from number ``first`` on; addresses as numbers."""
         block = self._template.copy()
         block[Block.DESIGNS], block[Block.PARAMETERS] = designs, parameters
@@ -134,7 +134,7 @@ class Inputs:
             self.fields_of(block)[:] += 8 * first * self.stride
         return block
 
-    def fields_of(self, block: Whole) -> Whole:
+    def fields_of(self, block: Integers) -> Integers:
         """The addresses of the fields in a call block."""
         place = Block.INPUTS + len(self.positions)
         return block[place : place + len(self.fields)]

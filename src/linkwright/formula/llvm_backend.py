@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkwright.core.arrays import Floats, Whole
+from linkwright.core.arrays import Floats, Integers
 from linkwright.formula import machine_code
 from linkwright.formula.cache import loaded_code
 from linkwright.formula.call_block import Inputs, SingleCall, address_of, aligned
@@ -107,7 +107,7 @@ class CompiledProgram:
         *,
         fields: Arrays = _NONE,
         tables: Tables | None = None,
-    ) -> tuple[int, Whole, Whole]:
+    ) -> tuple[int, Integers, Integers]:
         """For those that call it themselves, kernels among them: the address of the code, the call block of the first
         design, and the addresses of the fields in it.
 

@@ -9,14 +9,14 @@ from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
-from linkwright.core.arrays import EQUAL, Flags, Floats, Whole
+from linkwright.core.arrays import EQUAL, Flags, Floats, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.formula.program import Program
 from linkwright.formula.replay import along_input
 
 Kind = Literal["min", "max", "mean", "sum", "rms", "argmin", "argmax", "count"]
 KINDS: tuple[str, ...] = get_args(Kind)
-Results = dict[str, Floats | Whole]
+Results = dict[str, Floats | Integers]
 
 #: The key of the number of valid positions among the results.
 VALID_COUNT = "valid.count"
@@ -161,7 +161,7 @@ class Accumulation:
 _START = {"min": np.inf, "max": -np.inf, "argmin": -1.0, "argmax": -1.0}
 
 
-def _result(kind: str, accumulated: Floats, valid: Floats) -> Floats | Whole:
+def _result(kind: str, accumulated: Floats, valid: Floats) -> Floats | Integers:
     if kind in ("argmin", "argmax", "count"):
         return accumulated.astype(np.int64)
     if kind in ("mean", "rms"):

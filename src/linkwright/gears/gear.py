@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.arguments import real
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import real
 from linkwright.core.search import ends
 from linkwright.errors import RequestError
 from linkwright.gears.involute import involute, involute_at

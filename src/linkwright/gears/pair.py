@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from linkwright.core.arguments import require_pair
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require_pair
 from linkwright.errors import RequestError
 from linkwright.gears.gear import Gear
 from linkwright.gears.involute import angle_of_involute, involute

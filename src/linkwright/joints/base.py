@@ -355,7 +355,7 @@ class JointName(Field):
         """The kinds that have one."""
         return tuple(kind for kind in JOINTS if JOINTS[kind].coordinate in self.coordinates)
 
-    def read(self, reader: Reader, node: Node, place: Where, given: Mapping[str, Any]) -> str | None:
+    def read(self, reader: Reader, node: Node, place: Where, siblings: Mapping[str, Any]) -> str | None:
         name = reader.text(node, place)
         if name is None or not reader.known(node, place, _("joint"), name, list(reader.names.joints)):
             return None

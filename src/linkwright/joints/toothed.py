@@ -202,7 +202,7 @@ class Numbers(Field):
 
     dimension: ClassVar[str] = "dimensionless"
 
-    def read(self, reader: Reader, node: Any, place: Where, given: Mapping[str, Any]) -> Pair | None:
+    def read(self, reader: Reader, node: Any, place: Where, siblings: Mapping[str, Any]) -> Pair | None:
         items = reader.items(node, place, 2, "[20, 60]")
         if items is None:
             return None

@@ -9,7 +9,7 @@ from itertools import chain
 
 import numpy as np
 
-from linkwright.core.given import whole
+from linkwright.core.arguments import integer
 from linkwright.drivers.base import Driver, Law
 from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.positions import CycleError, Positions, at_times, rotary
@@ -29,7 +29,7 @@ def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Posi
     A closed cycle (whole turns of a driver, or a law that repeats) gives ``steps`` positions, or one more with
     ``endpoint``; an open one always ``steps`` + 1 positions, both ends among them.
     """
-    steps = whole("steps", steps, 1, MOST_POSITIONS)
+    steps = integer("steps", steps, 1, MOST_POSITIONS)
     if not mechanism.drivers:
         return at_times(mechanism, [0.0])
     if mechanism.higher:

@@ -9,9 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
+from linkwright.core.arguments import require
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
 from linkwright.core.inputs import mode_groups
 from linkwright.core.outputs import row_name
 from linkwright.core.quantity import shown

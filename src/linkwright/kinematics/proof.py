@@ -22,9 +22,9 @@ import cmath
 
 import numpy as np
 
+from linkwright.core.arguments import require
 from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
 from linkwright.core.linear_sums import LinearSums
 from linkwright.elements.topology import Connection, TreeJoint
 from linkwright.errors import LinkwrightError

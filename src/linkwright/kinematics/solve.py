@@ -8,8 +8,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from linkwright.core.arguments import STEPS, require
 from linkwright.core.arrays import Floats
-from linkwright.core.given import STEPS, require
 from linkwright.core.inputs import mode_groups
 from linkwright.errors import RequestError
 from linkwright.kinematics.change_points import (

@@ -84,8 +84,8 @@ def guide_state(motion: MotionTrace, joint: str) -> tuple[Vec, Vec, Scalar]:
 
 
 class TracedSite:
-    """One load's view; see :class:`linkwright.applied_loads.site.Site`, :class:`linkwright.applied_loads.signals.Course`
-    and :class:`linkwright.applied_loads.strokes.Turning`.
+    """View of one load; see :class:`linkwright.applied_loads.site.Site`,
+    :class:`linkwright.applied_loads.signals.Course` and :class:`linkwright.applied_loads.strokes.Turning`.
 
     ``along_input``: the magnitude is traced, with ``phase_known`` all but its phase; else one that varies is an input
     of the program per position.

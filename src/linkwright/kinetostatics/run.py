@@ -8,8 +8,8 @@ from functools import partial
 import numpy as np
 
 from linkwright.applied_loads.over_cycle import evaluate
+from linkwright.core.arguments import STEPS, require
 from linkwright.core.arrays import Floats
-from linkwright.core.given import STEPS, require
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.quantity import shown
 from linkwright.core.search import first_largest

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from linkwright.applied_loads.signals import Limit, Whole
+from linkwright.applied_loads.signals import FullCycle, Limit
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, RelativeAngle
@@ -86,9 +86,9 @@ class MotionSignals:
         return found if found is not None and found.positions.closed and found.whole else self.cycle
 
     @cached_property
-    def whole(self) -> Whole:
+    def whole(self) -> FullCycle:
         """The cycle over which limits are found."""
-        return Whole(*(self._lap(self.turned.positions) or (None,)))
+        return FullCycle(*(self._lap(self.turned.positions) or (None,)))
 
     def output(self, output: Output) -> tuple[Floats, Floats]:
         """Value and rate of an output, (n,) each."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from linkwright.core.dataclass import dataclass
 from linkwright.curves.curve import Curve
-from linkwright.fields.base import GivenByFile
+from linkwright.fields.base import FileKeys
 from linkwright.registry import Registry
 from linkwright.words import Message, _
 
@@ -57,7 +57,7 @@ class MotionLaw(ABC):
     """
 
     key: ClassVar[str]
-    fields = GivenByFile()
+    fields = FileKeys()
     source: ClassVar[str]
 
     @abstractmethod

@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Quantity, given
+from linkwright.fields.base import Quantity, file_key
 from linkwright.laws.base import MOTION_LAWS, MeetingLaw, MotionLaw
 
 
@@ -51,7 +51,7 @@ class InclinedSine(MotionLaw):
     """s = u - (1 - v) sin(2πu)/(2π): the inclined sine of Bestehorn between equal velocities v, 0 unless given."""
 
     source: ClassVar[str] = "VDI 2143-1"
-    velocity: float = given(Quantity("dimensionless", doc="velocity at both ends, 0"), 0.0)
+    velocity: float = file_key(Quantity("dimensionless", doc="velocity at both ends, 0"), 0.0)
 
     @property
     def formula(self) -> str:
@@ -109,10 +109,10 @@ class TripleHarmonic(MotionLaw):
     """
 
     source: ClassVar[str] = "Reeve, Cams for Industry, 1995"
-    first: float = given(
+    first: float = file_key(
         Quantity("dimensionless", doc="amplitude A₁ of the acceleration, 9π/4 unless given"), 9 * pi / 4
     )
-    second: float = given(Quantity("dimensionless", doc="amplitude A₂, 0 unless given; A₃ follows"), 0.0)
+    second: float = file_key(Quantity("dimensionless", doc="amplitude A₂, 0 unless given; A₃ follows"), 0.0)
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         one, two = self.first / (2 * pi), self.second / (4 * pi)

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.fields.base import Quantities, Quantity, Word, given
+from linkwright.fields.base import Quantities, Quantity, Word, file_key
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
 from linkwright.laws.pieces import Pieces
 from linkwright.words import _
@@ -41,11 +41,11 @@ class OptimizedSpline(MotionLaw):
     """
 
     source: ClassVar[str] = "linear program over B-splines; bounds: de Boor, A Practical Guide to Splines"
-    minimize: str = given(Word(tuple(AIMS), doc="what is made least"))
-    velocity: float | None = given(_limited("velocity"), None)
-    acceleration: float | None = given(_limited("acceleration"), None)
-    jerk: float | None = given(_limited("jerk"), None)
-    ratios: tuple[float, float] | None = given(
+    minimize: str = file_key(Word(tuple(AIMS), doc="what is made least"))
+    velocity: float | None = file_key(_limited("velocity"), None)
+    acceleration: float | None = file_key(_limited("acceleration"), None)
+    jerk: float | None = file_key(_limited("jerk"), None)
+    ratios: tuple[float, float] | None = file_key(
         Quantities("dimensionless", count=2, doc="rise time over natural period, from and to"), None
     )
 

@@ -13,7 +13,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.fields.base import Quantities, Quantity, given
+from linkwright.fields.base import Quantities, Quantity, file_key
 from linkwright.laws.base import MOTION_LAWS, MeetingLaw, MotionLaw
 from linkwright.words import _
 
@@ -121,10 +121,10 @@ class PolynomialOf(Polynomial):
     Without any it is s = u.
     """
 
-    start: Coefficients = given(
+    start: Coefficients = file_key(
         Quantities("dimensionless", doc="v, a, j, … at u = 0, as many as are wanted"), ()
     )
-    end: Coefficients = given(Quantities("dimensionless", doc="v, a, j, … at u = 1"), ())
+    end: Coefficients = file_key(Quantities("dimensionless", doc="v, a, j, … at u = 1"), ())
 
     def __post_init__(self) -> None:
         if max(len(self.start), len(self.end)) > 8:
@@ -147,8 +147,8 @@ class Polydyne(Polynomial):
     """
 
     source: ClassVar[str] = "D. A. Stoddart, Polydyne cam design, Machine Design 25, 1953"
-    ratio: float = given(Quantity("dimensionless", above=0.0, doc="time of the rise over natural period"))
-    damping_ratio: float = given(
+    ratio: float = file_key(Quantity("dimensionless", above=0.0, doc="time of the rise over natural period"))
+    damping_ratio: float = file_key(
         Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ of the follower, 0"), 0.0
     )
 

@@ -36,7 +36,7 @@ _ALTERED: Mapping[str, Field] = {
 class LawField(Field):
     """A motion law: its name, or a table with ``kind`` and the law's own keys."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         from linkwright.laws.base import MOTION_LAWS
 
         if not isinstance(node, MappingNode):
@@ -152,18 +152,18 @@ class ProgramField(Field):
             "acceleration": Quantity(acceleration, doc=_("acceleration at its end")),
         }
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         items = reader.items(node, place, None, "[{rise: 10 mm, over: 90 deg}, …]")
         if items is None:
             return None
-        lift = self.lift if isinstance(self.lift, str) else self.lift(given)
+        lift = self.lift if isinstance(self.lift, str) else self.lift(siblings)
         fields = self.segment_fields(lift)
         before = reader.error_count
         segments = [self._segment(reader, each, place.child(str(k)), fields) for k, each in enumerate(items)]
         if reader.error_count > before:
             return None
         made = tuple(each for each in segments if each is not None)
-        return self._program(reader, node, items, place, made, given.get("start") or 0.0)
+        return self._program(reader, node, items, place, made, siblings.get("start") or 0.0)
 
     def _program(
         self,

@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.fields.base import Quantity, given
+from linkwright.fields.base import Quantity, file_key
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
 from linkwright.words import _
 
@@ -91,9 +91,9 @@ class SineConstantCosine(Family):
     (0, 0, 1) simple harmonic, (0, 1, 0) constant acceleration.
     """
 
-    sine: float = given(Quantity(_SHARE, minimum=0.0, doc="share in which the acceleration builds up"))
-    constant: float = given(Quantity(_SHARE, minimum=0.0, doc="share of constant acceleration"))
-    cosine: float = given(Quantity(_SHARE, minimum=0.0, doc="share in which it fades"))
+    sine: float = file_key(Quantity(_SHARE, minimum=0.0, doc="share in which the acceleration builds up"))
+    constant: float = file_key(Quantity(_SHARE, minimum=0.0, doc="share of constant acceleration"))
+    cosine: float = file_key(Quantity(_SHARE, minimum=0.0, doc="share in which it fades"))
 
     def __post_init__(self) -> None:
         used = self.sine + self.constant + self.cosine

@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
-from linkwright.fields.base import Quantities, Quantity, given
+from linkwright.fields.base import Quantities, Quantity, file_key
 from linkwright.laws.base import MOTION_LAWS, Ends, MotionLaw
 from linkwright.laws.pieces import Pieces
 from linkwright.words import _
@@ -52,8 +52,10 @@ def _checked(places: tuple[float, ...], values: tuple[float, ...]) -> tuple[Floa
 class Through(MotionLaw):
     """What laws through points have in common."""
 
-    places: tuple[float, ...] = given(Quantities("dimensionless", doc="places u between 0 and 1, increasing"))
-    values: tuple[float, ...] = given(
+    places: tuple[float, ...] = file_key(
+        Quantities("dimensionless", doc="places u between 0 and 1, increasing")
+    )
+    values: tuple[float, ...] = file_key(
         Quantities("dimensionless", doc="displacements there, as shares of the lift")
     )
 
@@ -104,7 +106,7 @@ class SmoothedTable(Through):
     """
 
     source: ClassVar[str] = "C. H. Reinsch, Smoothing by spline functions, Numer. Math. 10, 1967"
-    tolerance: float = given(
+    tolerance: float = file_key(
         Quantity("dimensionless", above=0.0, doc="largest distance to the points, as a share of the lift")
     )
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import pi
 
+from linkwright.core.arguments import real
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import real
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.fields.base import Number
 from linkwright.units import SMALLEST

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from linkwright.core.arguments import real
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import real
 from linkwright.errors import RequestError
 from linkwright.words import _
 

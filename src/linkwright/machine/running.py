@@ -11,10 +11,10 @@ import numpy as np
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.singularity import Singularity
 from linkwright.analysis.true_speed import steady_cycle
+from linkwright.core.arguments import real, require
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import real, require
 from linkwright.core.quantity import shown
 from linkwright.core.rows import Block, Numbers, Row
 from linkwright.core.table import PERCENT

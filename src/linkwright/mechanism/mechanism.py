@@ -8,10 +8,10 @@ from dataclasses import field, fields
 from typing import TYPE_CHECKING, Any
 
 from linkwright.applied_loads.base import Load
+from linkwright.core.arguments import require
 from linkwright.core.attached import attached
 from linkwright.core.cached_property import cached_property
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
 from linkwright.core.read_only import Frozen, FrozenDict, frozen
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError

@@ -14,14 +14,15 @@ from pathlib import Path
 
 import numpy as np
 
+from linkwright.core.arguments import STEPS, require
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS, require
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.files.write import dump
+from linkwright.filesystem import atomic_write
 from linkwright.formula.wasm import wasm_module
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
@@ -35,7 +36,6 @@ from linkwright.page.programs import SIZES, PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
 from linkwright.page.texts import TEXTS
 from linkwright.plotting.drawing.machine import Machine, fitted
-from linkwright.whole_files import write_whole
 from linkwright.words import LANGUAGES, _
 from linkwright.words.sentence import in_language
 
@@ -189,7 +189,7 @@ class LivingPage:
 
         Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
         """
-        return write_whole(path, self.html.encode(), force=force)
+        return atomic_write(path, self.html.encode(), force=force)
 
     def _repr_html_(self) -> str:
         return (

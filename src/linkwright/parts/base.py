@@ -19,7 +19,7 @@ from linkwright.core.rows import Numbers
 from linkwright.core.table import ROUNDING, unused
 from linkwright.equations.steps import Equation, Step
 from linkwright.errors import Finding, ModelError, speaker
-from linkwright.fields.base import Field, GivenByFile, given_by_file
+from linkwright.fields.base import Field, FileKeys, file_keys
 from linkwright.words import Say
 from linkwright.words.sentence import in_language
 
@@ -58,7 +58,7 @@ class Problem(Heading, ABC):
     """
 
     kind: ClassVar[str]
-    fields = GivenByFile()
+    fields = FileKeys()
     name: str
     source: str
 
@@ -103,7 +103,7 @@ EMPTY: tuple[Any, ...] = (None, {}, [], (), "", False)
 
 def _as_given(value: Any, kind: Field | None = None) -> Any:
     """A value as plain data of a file."""
-    own = given_by_file(type(value)) if is_dataclass(value) else {}
+    own = file_keys(type(value)) if is_dataclass(value) else {}
     if own:
         found = {each.key or key: _as_given(getattr(value, key), each) for key, each in own.items()}
         return {key: each for key, each in found.items() if each not in EMPTY}

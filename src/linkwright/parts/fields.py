@@ -26,8 +26,8 @@ class Known(Either):
     known: Mapping[str, Any]
     other: Message
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        found = super().read(reader, node, place, given)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        found = super().read(reader, node, place, siblings)
         if not isinstance(found, str):
             return found
         if found in self.known:
@@ -59,7 +59,7 @@ class Numbers:
 class Sample(Field):
     """Values of any dimension: a list of quantities, or ``{unit: mm, values: [20.1, 19.9]}``."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Numbers | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Numbers | None:
         unit, factor, kind = "", 1.0, None
         if isinstance(node, MappingNode):
             node, _unused = reader.unknown_keys(node, place, ["unit", "values"])
@@ -145,7 +145,7 @@ class AnyQuantity(Field):
     likely: tuple[str, ...] = ()
 
     def read(
-        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
     ) -> tuple[float, units.Dimension] | None:
         return _any(reader, node, place, 1.0, None, self.likely)
 

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.pictures.drawing import PIXELS, Drawing
 from linkwright.pictures.svg.fonts import chinese_file, given_fonts
 from linkwright.pictures.svg.render import MOST_PIXELS, natural_size, pdf, png
-from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -198,7 +198,7 @@ class Diagram:
         for a file that is there already unless ``force``.
         """
         refuse_target(path, force=force)
-        return write_whole(path, self.content(Path(path).suffix.lower(), dpi=dpi), force=force)
+        return atomic_write(path, self.content(Path(path).suffix.lower(), dpi=dpi), force=force)
 
     def content(self, ending: str, *, dpi: float = 200.0) -> bytes:
         """What a file with the ending ``.svg``, ``.pdf`` or ``.png`` holds; LinkwrightError for another one."""

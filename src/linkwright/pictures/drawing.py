@@ -7,15 +7,15 @@ from pathlib import Path
 
 import numpy as np
 
+from linkwright.core.arguments import real
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import real
 from linkwright.errors import RequestError
+from linkwright.filesystem import refuse_target
 from linkwright.pictures.picture import SvgNode
 from linkwright.pictures.svg.element import FAMILY_LIST, Element, element, number
 from linkwright.pictures.svg.render import png, save_picture
 from linkwright.pictures.symbols.base import LINE
-from linkwright.whole_files import refuse_target
 from linkwright.words import _
 
 INK, GROUND, BLUE, RED, GREEN, ORANGE, PURPLE, TEAL = (

@@ -12,7 +12,7 @@ from dataclasses import field
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Whole
+from linkwright.core.arrays import Flags, Floats, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.pictures.picture import (
     CAPITAL,
@@ -210,7 +210,7 @@ class Covered:
     """What the candidates of a label cover: boxes (m, 4), and where those of each candidate begin."""
 
     boxes: Floats
-    begins: Whole
+    begins: Integers
 
     @staticmethod
     def of(some: Sequence[Candidate]) -> Covered:

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from linkwright.core.arguments import integer, one_or_more, real, require
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import one_or_more, real, require, whole
 from linkwright.core.outputs import Output
 from linkwright.core.progress import Progress, current_progress
 from linkwright.errors import LinkwrightError, RequestError, require_language
+from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import of_forces, point_key, result_meant
 from linkwright.kinematics.solve import solve_motion
@@ -42,7 +43,6 @@ from linkwright.plotting.drawing.moving import (
 from linkwright.plotting.drawing.positions import frame_indices, key_indices, usual_seconds
 from linkwright.plotting.drawing.scene import Scene, laid_out, point_labels
 from linkwright.plotting.drawing.vectors import Arrows, scale_of
-from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import _
 from linkwright.words.sentence import in_language
 
@@ -158,7 +158,7 @@ def animate(
     """
     require(source, Motion, Mechanism)
     require_language(language)
-    if not 2 <= whole("frames", frames) <= 2000:
+    if not 2 <= integer("frames", frames) <= 2000:
         raise RequestError(
             _(
                 "an animation of {frames} frames cannot be made; give 2 to 2000",
@@ -304,7 +304,7 @@ class Animation:
         """
         refuse_target(path, force=force)
         suffix = Path(path).suffix.lower()
-        if suffix != ".svg" and not WIDTHS[0] <= whole("width", width) <= WIDTHS[1]:
+        if suffix != ".svg" and not WIDTHS[0] <= integer("width", width) <= WIDTHS[1]:
             raise RequestError(
                 _(
                     "a film cannot be {width:.12g} pixels wide; give a width from {least} to {most}",
@@ -315,15 +315,15 @@ class Animation:
                 )
             )
         if suffix == ".svg":
-            return write_whole(path, self.svg.encode(), force=force)
+            return atomic_write(path, self.svg.encode(), force=force)
         if suffix == ".gif":
             run = list(self.run[:-1])
             film = gif(self._pictures(run, width, fonts, progress), self.seconds / len(run))
-            return write_whole(path, film, force=force)
+            return atomic_write(path, film, force=force)
         if suffix == ".mp4":
             run = [self.run[k] for k in self._film()]
             film = mp4(self._pictures(run, width, fonts, progress), FILM_RATE)
-            return write_whole(path, film, force=force)
+            return atomic_write(path, film, force=force)
         raise RequestError(
             _(
                 '{path}: the suffix "{suffix}" is no kind of animation; use .svg, .gif or .mp4',

@@ -8,12 +8,13 @@ from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 
+from linkwright.core.arguments import require
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.errors import RequestError, about, require_language, speaker
 from linkwright.files.model_file import load
 from linkwright.files.source import GALLERY
+from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
 from linkwright.reports.assembly import add_part, note_dangling
@@ -23,7 +24,6 @@ from linkwright.reports.machine_results import Case
 from linkwright.reports.order import Calculation, chosen, parts
 from linkwright.reports.settings import settings, worked_place
 from linkwright.synthesis.task_file import TaskFile, task_file
-from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import _
 
 ENDINGS = (".pdf", ".html", ".docx", ".typ")
@@ -97,7 +97,7 @@ class Report:
         unless ``force``.
         """
         refuse_target(path, force=force)
-        return write_whole(path, self.content(Path(path).suffix.lower()), force=force)
+        return atomic_write(path, self.content(Path(path).suffix.lower()), force=force)
 
     def __repr__(self) -> str:
         return f"Report({self.document.title!r}: {len(self.document.blocks)} blocks)"

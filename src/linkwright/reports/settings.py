@@ -11,7 +11,7 @@ from linkwright.core.expressions import amount
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.events.position_list import STEPPED, PositionList, known_outputs, of_value
 from linkwright.fields import nodes
-from linkwright.fields.base import Field, Schema, Text, given, given_by_file, table_schema
+from linkwright.fields.base import Field, Schema, Text, file_key, file_keys, table_schema
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader, Saying, Sayings
 from linkwright.fields.tables import ByAddress, Either, Keys, Line, Listed, Table, Value
@@ -54,10 +54,10 @@ SAYINGS: Sayings = {
 class Erratum:
     """A mistake of the source: where, what is printed, what is right, why."""
 
-    where: str = given(Line(doc=_("where it stands in the source")))
-    printed: str = given(Line(doc=_("what is printed there")))
-    right: str = given(Line(doc=_("what is right")))
-    why: str = given(Line(doc=pgettext("key", "why")), "")
+    where: str = file_key(Line(doc=_("where it stands in the source")))
+    printed: str = file_key(Line(doc=_("what is printed there")))
+    right: str = file_key(Line(doc=_("what is right")))
+    why: str = file_key(Line(doc=pgettext("key", "why")), "")
 
 
 @dataclass(frozen=True)
@@ -65,17 +65,17 @@ class Chapter:
     """A chapter of the user's own: title and text, Markdown, or Typst after a first line ``typst``; ``label``: the
     name by which texts refer to it."""
 
-    title: str = given(Line(doc=_("title of an own chapter")))
-    text: str = given(Text(doc=_("text of the chapter, Markdown")))
-    label: str = given(Line(doc=_("name by which texts refer to it: [[label]]")), "")
+    title: str = file_key(Line(doc=_("title of an own chapter")))
+    text: str = file_key(Text(doc=_("text of the chapter, Markdown")))
+    label: str = file_key(Line(doc=_("name by which texts refer to it: [[label]]")), "")
 
 
 @dataclass(frozen=True)
 class OwnSource:
     """A source of the user's own: the name by which texts cite it, and the text that the list prints."""
 
-    key: str = given(Line(doc=_("name by which texts cite it: [@key]")))
-    text: str = given(Line(doc=_("the source as the list of references prints it")))
+    key: str = file_key(Line(doc=_("name by which texts cite it: [@key]")))
+    text: str = file_key(Line(doc=_("the source as the list of references prints it")))
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ class SectionName(Field):
 
         return [*section_names(), *self.more]
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> str | None:
         name = reader.text(node, place)
         if name is None or name in self.names:
             return name
@@ -125,10 +125,10 @@ class SectionName(Field):
 class SectionTexts(ByAddress):
     """Own texts by the name of a section."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         for entry in node.entries if isinstance(node, nodes.Mapping) else ():
             SectionName().read(reader, entry.key, place.child(entry.key.text), {})
-        return super().read(reader, node, place, given)
+        return super().read(reader, node, place, siblings)
 
     def shape(self) -> Schema:
         texts = {name: self.item.shape() for name in SectionName().names}
@@ -139,9 +139,9 @@ class SectionTexts(ByAddress):
 class Position(Line):
     """The position that is worked out; which there are, the machine says."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> str | None:
         if isinstance(node, Scalar):
-            return super().read(reader, node, place, given)
+            return super().read(reader, node, place, siblings)
         reader.error(
             node,
             place,
@@ -158,10 +158,10 @@ class CoverField(Keys):
 
     bare = True
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         if isinstance(node, Scalar) and node.plain and (node.empty or node.text in ("true", "false")):
             return None if node.text == "false" else {}
-        return super().read(reader, node, place, given)
+        return super().read(reader, node, place, siblings)
 
     def shape(self) -> Schema:
         return {"oneOf": [{"type": "boolean"}, table_schema(self.fields)]}
@@ -193,28 +193,28 @@ class Settings:
     ``references``: own sources by the name by which texts cite them; ``folder``: where pictures lie.
     """
 
-    title: str = given(Line(doc=_("title of the report")), "")
-    author: str = given(Line(doc=_("author of the report")), "")
-    course: str = given(Line(doc=_("course")), "")
-    date: str = given(Line(doc=_("date of the report")), "")
-    purpose: str = given(Line(doc=_("what the machine is for, instead of the model's")), "")
-    source: str = given(Line(doc=_("where it is taken from, instead of the model's")), "")
-    position: str = given(Position(doc=_("position that is worked out, such as 60 deg")), "")
-    sections: tuple[str | Chapter, ...] = given(SECTIONS, ())
-    text: Mapping[str, str] = given(
+    title: str = file_key(Line(doc=_("title of the report")), "")
+    author: str = file_key(Line(doc=_("author of the report")), "")
+    course: str = file_key(Line(doc=_("course")), "")
+    date: str = file_key(Line(doc=_("date of the report")), "")
+    purpose: str = file_key(Line(doc=_("what the machine is for, instead of the model's")), "")
+    source: str = file_key(Line(doc=_("where it is taken from, instead of the model's")), "")
+    position: str = file_key(Position(doc=_("position that is worked out, such as 60 deg")), "")
+    sections: tuple[str | Chapter, ...] = file_key(SECTIONS, ())
+    text: Mapping[str, str] = file_key(
         SectionTexts(Text(), doc=_("own text by the name of a section, Markdown")), dict
     )
-    errata: tuple[Erratum, ...] = given(Listed(Table.of(Erratum), doc=_("mistakes of the source")), ())
-    cover: CoverWords | None = given(CoverField(COVER, doc=_("a cover of its own page")), None)
-    references: Mapping[str, str] = given(
+    errata: tuple[Erratum, ...] = file_key(Listed(Table.of(Erratum), doc=_("mistakes of the source")), ())
+    cover: CoverWords | None = file_key(CoverField(COVER, doc=_("a cover of its own page")), None)
+    references: Mapping[str, str] = file_key(
         Listed(Either(Line(), Table.of(OwnSource)), doc=_("own sources")), dict
     )
-    positions: int | PositionList | None = given(
+    positions: int | PositionList | None = file_key(
         Listed(Either(Value(), Table({key: Value() for key in STEPPED})), alone=True,
                doc=_("numbered positions of the tables")), None
     )  # fmt: skip
-    numbered_from: str = given(Line(doc=_("limit position that is number 1, such as rocker min")), "")
-    fluctuation: float = given(COEFFICIENT, FLUCTUATION)
+    numbered_from: str = file_key(Line(doc=_("limit position that is number 1, such as rocker min")), "")
+    fluctuation: float = file_key(COEFFICIENT, FLUCTUATION)
     folder: str = ""
 
     @property
@@ -225,7 +225,7 @@ class Settings:
         return Beside(self.folder, self.references)
 
 
-_KEYS = given_by_file(Settings)
+_KEYS = file_keys(Settings)
 #: What can be said for one language alone.
 OWN = {key: each for key, each in _KEYS.items() if key not in ("positions", "numbered_from", "fluctuation")}
 SECTION = Keys({

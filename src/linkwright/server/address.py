@@ -10,8 +10,8 @@ from pathlib import Path
 
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
+from linkwright.filesystem import atomic_write, make_folder
 from linkwright.formula.cache import folder as cache_folder
-from linkwright.whole_files import make_folder, write_whole
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ def remember(folder: Path, address: Address) -> None:
         return
     with suppress(RequestError):
         make_folder(path.parent)
-        write_whole(path, json.dumps(asdict(address)).encode(), private=True)
+        atomic_write(path, json.dumps(asdict(address)).encode(), private=True)
 
 
 def _path(folder: Path) -> Path | None:

@@ -14,7 +14,7 @@ from pathlib import Path
 from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.files.source import decode
-from linkwright.whole_files import alone, make_folder, write_whole
+from linkwright.filesystem import alone, atomic_write, make_folder
 from linkwright.words import _
 from linkwright.words.characters import UNFIT, printable
 from linkwright.words.sentence import reason_of
@@ -161,7 +161,7 @@ class Files:
             if "\r\n" in there["text"]:
                 text = _plain(text).replace("\n", "\r\n")
             make_folder(path.parent)
-            write_whole(path, text.encode())
+            atomic_write(path, text.encode())
             for each in {name, self.name(draft)} if draft else {name}:
                 if self._hidden(each, text, text) is None:
                     with suppress(OSError):
@@ -190,7 +190,7 @@ class Files:
         old, now = self._draft(name), time.time_ns() // 1000
         serial = now if old is None else max(now, old["serial"] + 1)
         found = {"name": name, "text": text, "window": window, "serial": serial}
-        write_whole(self._draft_path(name), json.dumps(found).encode())
+        atomic_write(self._draft_path(name), json.dumps(found).encode())
         return serial
 
     def _draft_path(self, name: str) -> Path:

@@ -8,10 +8,11 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any
 
+from linkwright.core.arguments import require
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require
 from linkwright.errors import LinkwrightError, RequestError, require_language, speaker
 from linkwright.files.model_file import load
+from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
 from linkwright.pictures.picture import CAPTION, LEAST, TEXT, Box, Picture, Text
@@ -22,7 +23,6 @@ from linkwright.sheets.paper import BAR, BAR_HEIGHT, SIZES, Paper, control_bar, 
 from linkwright.sheets.settings import SHEETS, Content, Placed, Settings, Subject, settings
 from linkwright.sheets.title_block import TitleBlock, gb_block, iso_block, school_block
 from linkwright.sheets.written import svg
-from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import _
 from linkwright.words.sentence import in_language
 
@@ -86,7 +86,7 @@ class Sheet:
         unless ``force``.
         """
         refuse_target(path, force=force)
-        return write_whole(path, self.content(Path(path).suffix.lower(), fonts=fonts), force=force)
+        return atomic_write(path, self.content(Path(path).suffix.lower(), fonts=fonts), force=force)
 
     def _repr_svg_(self) -> str:
         return self.svg()

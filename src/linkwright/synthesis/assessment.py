@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.core.arrays import Complexes, Flags, Floats, Whole
+from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.core.dataclass import dataclass
 
 #: Positions this near to a dead point, relative to the lengths, may lie on either branch.
@@ -42,7 +42,7 @@ class Assessment:
     ``first``, ``last``: input angles of that range from the line O1→O2 or the guide (rad).
     """
 
-    kind: Whole
+    kind: Integers
     turns: Flags
     order: Flags
     branch: Flags
@@ -112,7 +112,7 @@ def assess_slider_cranks(
     return _assessment(kind, place, order, branch, circuit, transmission, ends, first, last)
 
 
-def grashof_types(lengths: Floats) -> Whole:
+def grashof_types(lengths: Floats) -> Integers:
     """Index into TYPES for lengths (4, N) of input, coupler, output, frame."""
     ordered = np.sort(lengths, axis=0)
     margin = ordered[1] + ordered[2] - ordered[0] - ordered[3]
@@ -122,7 +122,7 @@ def grashof_types(lengths: Floats) -> Whole:
     return np.where(np.abs(margin) <= 1e-12 * ordered[3], TYPES.index("change_point"), kind)
 
 
-def four_bar_range(lengths: Floats) -> tuple[Floats, Floats, Whole]:
+def four_bar_range(lengths: Floats) -> tuple[Floats, Floats, Integers]:
     """Least and greatest cosine of the input angle of four-bars (4, N), and where the input's range lies."""
     a, b, c, d = lengths
     low = (a * a + d * d - (b + c) ** 2) / (2 * a * d)
@@ -130,19 +130,19 @@ def four_bar_range(lengths: Floats) -> tuple[Floats, Floats, Whole]:
     return low, high, _place(low, high)
 
 
-def slider_range(crank: Floats, rod: Floats, offset: Floats) -> Whole:
+def slider_range(crank: Floats, rod: Floats, offset: Floats) -> Integers:
     """Where the input's range of slider-cranks lies: the whole turn, both sides of the guide, or one side."""
     low, high = (np.abs(offset) - rod) / crank, (np.abs(offset) + rod) / crank
     return _place(low, high)
 
 
-def _place(low: Floats, high: Floats) -> Whole:
+def _place(low: Floats, high: Floats) -> Integers:
     from_minus, to_plus = low <= -1 + 1e-14, high >= 1 - 1e-14
     place = np.where(from_minus, np.where(to_plus, FULL, NEAR_PI), np.where(to_plus, NEAR_ZERO, PAIR))
     return np.where((low > 1) | (high < -1), NOWHERE, place)
 
 
-def _working_range(theta: Floats, place: Whole) -> tuple[Floats, Floats, Flags]:
+def _working_range(theta: Floats, place: Integers) -> tuple[Floats, Floats, Flags]:
     """First and last input angle, (N,), and whether the positions are not in order, (N,)."""
     near_pi = np.mod(theta, 2 * np.pi)
     signed = np.where((place == NEAR_PI)[:, None], near_pi, theta)
@@ -171,7 +171,7 @@ def _cosines(first: Floats, last: Floats, special: NDArray[np.floating[Any]]) ->
 
 
 def _assessment(
-    kind: Whole, place: Whole, order: Flags, branch: Whole, circuit: Whole,
+    kind: Integers, place: Integers, order: Flags, branch: Integers, circuit: Integers,
     transmission: Floats, ends: tuple[Floats, Floats], first: Floats, last: Floats,
 ) -> Assessment:  # fmt: skip
     off_circuit, off_branch = _differs(circuit), _differs(branch)
@@ -182,10 +182,10 @@ def _assessment(
     )  # fmt: skip
 
 
-def _differs(sign: Whole) -> Flags:
+def _differs(sign: Integers) -> Flags:
     """Whether both signs occur; 0 fits both."""
     return np.asarray((sign.max(1) > 0) & (sign.min(1) < 0))
 
 
-def _sign(value: Floats, size: Floats) -> Whole:
+def _sign(value: Floats, size: Floats) -> Integers:
     return np.where(np.abs(value) <= EQUAL * size, 0, np.sign(value)).astype(np.int64)

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Flags, Floats, Whole
+from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.core.dataclass import dataclass
 
 
@@ -51,7 +51,7 @@ class CrankFamily:
         z = rng.uniform(-np.pi / 2, np.pi / 2, count)
         return cls(rng.random(count) < 0.3, transmission), np.stack([x, y, z], 1)
 
-    def chosen(self, rows: Whole) -> CrankFamily:
+    def chosen(self, rows: Integers) -> CrankFamily:
         """The family of some of its rows."""
         return CrankFamily(self.double[rows], self.transmission, self.rocking)
 

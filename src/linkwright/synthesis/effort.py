@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from linkwright.analysis.evaluate import metrics
-from linkwright.core.given import real
+from linkwright.core.arguments import real
 from linkwright.kinematics import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.synthesis.linkage import Linkage

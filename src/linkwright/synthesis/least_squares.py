@@ -9,11 +9,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Whole
+from linkwright.core.arrays import Floats, Integers
 from linkwright.core.progress import Progress
 
 #: Residuals (K, r) and their Jacobian (K, r, m) at parameters (K, m) of the starts numbered ``who`` (K,).
-System = Callable[[Floats, Whole], tuple[Floats, Floats]]
+System = Callable[[Floats, Integers], tuple[Floats, Floats]]
 
 SHRINK, GROW, LARGEST, ENOUGH = 0.2, 6.0, 1e12, 1e-13
 
@@ -26,7 +26,7 @@ def minimise(
     keep: int = 6,
     halve: int = 8,
     progress: Progress | None = None,
-) -> tuple[Floats, Floats, Whole]:
+) -> tuple[Floats, Floats, Integers]:
     """Local minima of Σ r² from the rows of ``start`` (K, m): parameters, sums (both best first) and start numbers.
 
     Every ``halve`` steps the worse half of the starts is given up, down to ``keep``. Ends when no start gains more
@@ -58,10 +58,10 @@ def minimise(
     return x[order], f[order], who[order]
 
 
-def with_differences(residual: Callable[[Floats, Whole], Floats]) -> System:
+def with_differences(residual: Callable[[Floats, Integers], Floats]) -> System:
     """The system of a residual function, its Jacobian by forward differences, all parameters and rows at once."""
 
-    def system(x: Floats, who: Whole) -> tuple[Floats, Floats]:
+    def system(x: Floats, who: Integers) -> tuple[Floats, Floats]:
         count, m = x.shape
         h = 1e-7 * np.maximum(1.0, np.abs(x))
         moved = (x[:, None] + h[:, :, None] * np.eye(m)).reshape(-1, m)

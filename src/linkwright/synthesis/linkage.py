@@ -9,9 +9,9 @@ from collections.abc import Mapping
 from dataclasses import field, replace
 from itertools import combinations
 
+from linkwright.core.arguments import real
 from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
-from linkwright.core.given import real
 from linkwright.errors import about
 from linkwright.files.model_file import loads
 from linkwright.mechanism.mechanism import Mechanism

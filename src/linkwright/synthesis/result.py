@@ -12,19 +12,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.core.arrays import Complexes, Flags, Floats, Whole
+from linkwright.core.arguments import real
+from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.core.attached import Plotted, attached
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import real
 from linkwright.core.quantity import length_text
 from linkwright.core.table import Table, Tabular
 from linkwright.equations.text import Solution
 from linkwright.errors import LinkwrightError, speaker
+from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.merit import merit
 from linkwright.synthesis.names import DEFECTS, ERRORS, TYPE_NAMES, name_said
-from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import Message, Say, _, pgettext
 
 #: Share of the longest length, or of a radian, below which a deviation is rounding.
@@ -217,7 +217,7 @@ class Synthesis(Plotted, Tabular):
         for path in paths:
             refuse_target(path, force=force)
         for number, path in enumerate(paths):
-            write_whole(
+            atomic_write(
                 path, self.model_text(number, f"{stem} {number + 1}", speed=speed).encode(), force=force
             )
         return paths
@@ -399,7 +399,7 @@ TRANSMISSION_RANGE = _(
 )
 
 
-def ranking(error: Floats, merits: Floats, sound: Flags, size: float) -> Whole:
+def ranking(error: Floats, merits: Floats, sound: Flags, size: float) -> Integers:
     """Order of candidates: sound ones first, then by error, then by merit.
 
     Errors below 1e-9 of ``size`` (the target's own) are alike; others are compared to about a quarter of a per cent.

@@ -86,7 +86,7 @@ class UnitOf(Field):
 
     dimension: str
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> str | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> str | None:
         unit = node.text if isinstance(node, Scalar) else ""
         try:
             units.parse(f"1 {unit}", self.dimension)
@@ -107,14 +107,14 @@ class Demand(Field):
     #: Keys of the same table that give units of bare numbers.
     given_units: Mapping[str, str] = field(default_factory=lambda: {"length": "unit", "angle": "angle_unit"})
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         if self.form not in SHAPES:
             flag = self.form == "flag"
             if not isinstance(node, Scalar) or (flag and node.text not in ("true", "false")):
                 return self._wrong(reader, node, place)
             return node.text == "true" if flag else node.text
         dimensions, depth = SHAPES[self.form]
-        found = self._nested(partial(self._quantity, reader, place, given, set()), reader, node, place,
+        found = self._nested(partial(self._quantity, reader, place, siblings, set()), reader, node, place,
                              dimensions, depth)  # fmt: skip
         if self.form != "count" or found is None:
             return found
@@ -199,7 +199,7 @@ class TaskSection(Field):
     """A task's name with its demands (SI)."""
 
     def read(
-        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
     ) -> tuple[str, dict[str, Any]] | None:
         section = reader.mapping(node, place)
         if section is None:

@@ -8,7 +8,7 @@ from os.path import exists
 from pathlib import Path
 from typing import Any
 
-from linkwright.core.given import told
+from linkwright.core.arguments import describe
 from linkwright.errors import Finding, ModelError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Scalar
@@ -37,7 +37,7 @@ def synthesize(task: str | Path, **demands: Any) -> Synthesis:
     if isinstance(task, PathLike):
         return synthesize_file(task)
     if not isinstance(task, str):
-        raise SynthesisError(NO_TASK.format(task=told(task), known=tuple(known)))
+        raise SynthesisError(NO_TASK.format(task=describe(task), known=tuple(known)))
     if task not in known:
         if task.startswith(GALLERY) or task.lower().endswith((".yaml", ".yml", ".json")) or exists(task):
             return synthesize_file(task)

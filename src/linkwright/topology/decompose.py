@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Set
 
-from linkwright.core.given import require
+from linkwright.core.arguments import require
 from linkwright.drivers.base import Driver
 from linkwright.elements.topology import Connection, Group
 from linkwright.joints.base import Joint

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.core.arguments import integer, require
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import require, whole
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Group
 from linkwright.equations.reading import of_file, read_name
@@ -143,7 +143,7 @@ def worked(
     if at is not None:
         source, position = _solved_at(source, at), 0
     motion = source.motion if isinstance(source, Forces) else source
-    position = whole("position", position)
+    position = integer("position", position)
     _refuse_missing(motion, position)
     index = position % motion.steps
     say = speaker(language)

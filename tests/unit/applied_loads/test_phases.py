@@ -15,7 +15,7 @@ from linkwright.applied_loads.magnitude import Magnitude
 from linkwright.applied_loads.over_cycle import Activity, evaluate
 from linkwright.applied_loads.over_cycle import activity as activity_of
 from linkwright.applied_loads.phases import InputPhase, MovingPhase, SwingPhase
-from linkwright.applied_loads.signals import Limit, Whole
+from linkwright.applied_loads.signals import FullCycle, Limit
 from linkwright.applied_loads.sizes import Constant, Ramp, Size, Table
 from linkwright.core.outputs import Output
 
@@ -140,7 +140,7 @@ def test_the_swing_is_between_the_outermost_limits() -> None:
 )
 def test_a_swing_that_does_not_exist(phase: SwingPhase, limits: list[Limit], code: str) -> None:
     signals = Turning([0, 10])
-    signals.whole = Whole(None)
+    signals.whole = FullCycle(None)
     signals.limits = lambda _: limits  # type: ignore[method-assign]
     with refused(code, output="jaw"):
         activity(phase, signals, ramp=True)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.applied_loads.signals import Limit, Whole
+from linkwright.applied_loads.signals import FullCycle, Limit
 from linkwright.core.outputs import Output
 
 JAW = Output("angle", "jaw")
@@ -29,7 +29,7 @@ class Turning:
         self.heading, self.lag, self.rotary = int(np.sign(speed)), np.radians(lag), rotary
         self.rate = speed * 2 * np.pi / PERIOD
         self.time = self.input / self.rate
-        self.whole = Whole(PERIOD, 2 * np.pi * self.heading)
+        self.whole = FullCycle(PERIOD, 2 * np.pi * self.heading)
         self.mechanism: Any = SimpleNamespace(drivers={"driver": None}, parameters={})
 
     def output(self, output: Output) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -10,7 +10,7 @@ import pytest
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.core.arrays import Whole
+from linkwright.core.arrays import Integers
 from linkwright.formula import machine_code
 from linkwright.synthesis.free_curve import search
 from linkwright.synthesis.free_curve.atlas import STEP, Atlas, M, Matches, _draws, parts, places
@@ -57,7 +57,7 @@ SLIDING: tuple[list[Node], ...] = (
 )
 
 
-def _some(joints: int, draw: Draw) -> Whole:
+def _some(joints: int, draw: Draw) -> Integers:
     """A structure with or without slides."""
     kind = int(draw.integers(2 * len(SLIDING)))
     return flat(SLIDING[kind]) if kind < len(SLIDING) else random_structure(2, joints, draw)

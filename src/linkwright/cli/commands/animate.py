@@ -18,7 +18,7 @@ from linkwright.cli.pictures import (
     vector_arguments,
 )
 from linkwright.cli.session import Session
-from linkwright.core.given import STEPS
+from linkwright.core.arguments import STEPS
 from linkwright.words import _
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options, did_you_mean
 from linkwright.cli.session import Session
-from linkwright.core.given import STEPS
+from linkwright.core.arguments import STEPS
 from linkwright.fields.base import Number, Quantity
 from linkwright.fields.tables import ByAddress, Either
 from linkwright.words import _
@@ -61,7 +61,7 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Prints the counterweights and their effect, and writes the balanced model."""
-    from linkwright.cli.files import refuse_output, write_whole
+    from linkwright.cli.files import atomic_write, refuse_output
     from linkwright.cli.source import read_model
     from linkwright.machine.balancing import balance
 
@@ -70,7 +70,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     _require_links(options.radius, mechanism)
     found = balance(mechanism, radius=options.radius, share=options.share, steps=options.steps)
     if options.output is not None:
-        write_whole(Path(options.output), _model_text(found), force=options.force)
+        atomic_write(Path(options.output), _model_text(found), force=options.force)
     session.show_result(found, options.output)
     return 0
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.parser import Options
 from linkwright.cli.part import part_arguments, read, refuse_outputs, show
 from linkwright.cli.session import Session
-from linkwright.core.given import PROFILE_POINTS
+from linkwright.core.arguments import PROFILE_POINTS
 from linkwright.fields.base import Number
 from linkwright.words import _
 

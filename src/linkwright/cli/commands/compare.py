@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.core.given import STEPS
+from linkwright.core.arguments import STEPS
 from linkwright.fields.base import Number
 from linkwright.fields.tables import ByAddress
 from linkwright.machine.flywheel import COEFFICIENT, FLUCTUATION

@@ -49,7 +49,7 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Finds the cam, shows what it does, and writes the model with it, or the table of its lift."""
     from linkwright.cams.compensating_cam import compensating_cam
-    from linkwright.cli.files import refuse_output, write_whole
+    from linkwright.cli.files import atomic_write, refuse_output
     from linkwright.cli.source import read_model
     from linkwright.core.expressions import amount
     from linkwright.core.table import csv_text
@@ -67,7 +67,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if options.output is not None:
         path = Path(options.output)
         text = csv_text(found.columns()) if path.suffix.lower() == ".csv" else dump(found.mechanism)
-        write_whole(path, text, force=options.force)
+        atomic_write(path, text, force=options.force)
     session.show_result(found, options.output)
     return 0
 

@@ -20,7 +20,7 @@ from linkwright.cli.pictures import (
     vector_arguments,
 )
 from linkwright.cli.session import Session
-from linkwright.core.given import DRAWING_STEPS
+from linkwright.core.arguments import DRAWING_STEPS
 from linkwright.words import _
 
 if TYPE_CHECKING:

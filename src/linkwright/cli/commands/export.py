@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.core.given import STEPS
+from linkwright.core.arguments import STEPS
 from linkwright.fields.base import Number
-from linkwright.fields.tables import Whole
+from linkwright.fields.tables import Integer
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def arguments(option: Options) -> None:
     option(
         "--position",
         "N",
-        of=Whole(),
+        of=Integer(),
         help=_("dxf and pictures: number of the position that is drawn (default: 0)"),
     )
     option(
@@ -86,7 +86,7 @@ def arguments(option: Options) -> None:
     option("--form", choices=("rates", "positions"), help=_("Modelica equations of rates or of positions"))
     option("--name", "NAME", help=_("name of the Modelica model"))
     option("--timestep", "S", of=Number(), help=_("time step in MuJoCo, s"))
-    option("--indent", "N", of=Whole(), help=_("spaces of indentation in JSON"))
+    option("--indent", "N", of=Integer(), help=_("spaces of indentation in JSON"))
     option("--compression", "NAME", help=_("compression in Parquet"))
     option.count("--width", help=_("width of PNG, pixels"))
     option("--size", "N", of=Number(), help=_("size of SVG, pixels"))

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.files import write_whole
+from linkwright.cli.files import atomic_write
 from linkwright.cli.parser import Options, did_you_mean
 from linkwright.cli.session import Session
 from linkwright.errors import with_remedy
@@ -96,7 +96,7 @@ def _show(options: argparse.Namespace, session: Session) -> int:
 def _copy(options: argparse.Namespace, session: Session) -> int:
     name, text = _text(options)
     path = Path(options.folder) / f"{name}.yaml"
-    write_whole(path, text, force=options.force)
+    atomic_write(path, text, force=options.force)
     if session.json:
         session.show_data({"written": str(path)})
     else:

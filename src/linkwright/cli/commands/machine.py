@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.core.given import STEPS
+from linkwright.core.arguments import STEPS
 from linkwright.core.rows import Block
 from linkwright.words import _
 
@@ -51,9 +51,9 @@ def arguments(option: Options) -> None:
         help=_("model file, or gallery:NAME; leave it out with --areas or --torque"),
     )
     from linkwright.cli.machine_options import Wanted
-    from linkwright.fields.base import given_by_file
+    from linkwright.fields.base import file_keys
 
-    fields = given_by_file(Wanted)
+    fields = file_keys(Wanted)
     what = option.group(_("motor and flywheel"))
     what.fields(fields, {"fluctuation": "δ", "ratio": "i", "efficiency": "η", "margin": "NUMBER"})
     what.exclusive().fields(fields, {"disk": "KEY=VALUE,…", "rim": "KEY=VALUE,…"})
@@ -77,10 +77,10 @@ def arguments(option: Options) -> None:
 def run(options: argparse.Namespace, session: Session) -> int:
     """Lays out motor and flywheel and prints them."""
     from linkwright.cli.machine_options import Wanted
-    from linkwright.fields.base import given_by_file
+    from linkwright.fields.base import file_keys
 
     _refuse_contradictions(options)
-    texts = {name: getattr(options, name) for name in given_by_file(Wanted)}
+    texts = {name: getattr(options, name) for name in file_keys(Wanted)}
     asked = Wanted(**{name: each for name, each in texts.items() if each is not None})
     if options.file is not None:
         return _mechanism(options, asked, session)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.core.given import STEPS
+from linkwright.core.arguments import STEPS
 from linkwright.errors import LinkwrightError, about
 from linkwright.words import _
 from linkwright.words.sentence import in_language

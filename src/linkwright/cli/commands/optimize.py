@@ -103,7 +103,7 @@ def _unmet(error: OptimizeError, session: Session) -> int:
 
 
 def _show(found: Optimum, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.files import write_diagram, write_whole
+    from linkwright.cli.files import atomic_write, write_diagram
 
     written: list[str] = []
     if options.output is not None:
@@ -112,7 +112,7 @@ def _show(found: Optimum, options: argparse.Namespace, session: Session) -> None
         if len(found) > 1:
             targets += [path.with_name(f"{path.stem}_{k}{path.suffix}") for k in range(2, len(found) + 1)]
         for index, target in enumerate(targets):
-            write_whole(target, found.model_text(index), force=options.force)
+            atomic_write(target, found.model_text(index), force=options.force)
         written.append(str(path) if len(targets) == 1 else f"{path} … {targets[-1]}")
     write_diagram(options.plot, found, session, force=options.force)
     session.show_result(found, *written, options.plot, apart=False)

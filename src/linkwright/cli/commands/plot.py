@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from linkwright.cli.errors import ONE_VALUE, UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.core.given import CURVE_STEPS
+from linkwright.core.arguments import CURVE_STEPS
 from linkwright.errors import LinkwrightError, about
 from linkwright.fields.base import Number
 from linkwright.machine.flywheel import COEFFICIENT
@@ -208,10 +208,10 @@ def _place(text: str | None, motions: dict[str, Motion], session: Session) -> fl
 
 
 def _write(diagram: Diagram, path: Path, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.files import write_whole
+    from linkwright.cli.files import atomic_write
 
     content = diagram.content(path.suffix.lower(), dpi=options.dpi)
-    write_whole(path, content, force=options.force)
+    atomic_write(path, content, force=options.force)
     if session.json:
         session.show_data({"ok": True, "kind": options.kind, "file": str(path)})
     else:

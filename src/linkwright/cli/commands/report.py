@@ -79,7 +79,7 @@ def arguments(option: Options) -> None:
 
 def run(options: argparse.Namespace, session: Session) -> int:
     """Writes the report; sections that have nothing to show are named on the console."""
-    from linkwright.cli.files import write_whole
+    from linkwright.cli.files import atomic_write
     from linkwright.cli.positions import joined
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
@@ -107,7 +107,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
             progress=told,
         )
         content = found.content(path.suffix.lower())
-    write_whole(path, content, force=options.force)
+    atomic_write(path, content, force=options.force)
     if session.json:
         session.show_data({"ok": not found.broken, "file": str(path), "missing": list(found.missing)})
         return int(found.broken)

@@ -29,7 +29,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     """Prints the schema, or writes it."""
     from pathlib import Path
 
-    from linkwright.cli.files import write_whole
+    from linkwright.cli.files import atomic_write
     from linkwright.core.json_data import json_text
     from linkwright.parts.file import file_schema
 
@@ -37,6 +37,6 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if options.output is None:
         session.show_as_is(text)
         return 0
-    write_whole(Path(options.output), text + "\n", force=options.force)
+    atomic_write(Path(options.output), text + "\n", force=options.force)
     session.show_written(options.output)
     return 0

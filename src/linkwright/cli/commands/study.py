@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.core.given import STEPS
-from linkwright.fields.tables import PAIRS, Whole
+from linkwright.core.arguments import STEPS
+from linkwright.fields.tables import PAIRS, Integer
 from linkwright.machine.flywheel import COEFFICIENT
 from linkwright.words import _
 
@@ -82,7 +82,7 @@ def sampling_arguments(option: Options, *, samples: int) -> None:
         help=_("grid: every combination (default); sobol: evenly spread designs between the ends"),
     )
     option.count("--samples", samples, help=_("designs of a Sobol sequence (default 64)"))
-    option("--seed", "N", of=Whole(), default=0, help=_("seed of the Sobol sequence (default 0)"))
+    option("--seed", "N", of=Integer(), default=0, help=_("seed of the Sobol sequence (default 0)"))
 
 
 def run(options: argparse.Namespace, session: Session) -> int:

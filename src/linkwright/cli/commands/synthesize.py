@@ -97,7 +97,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
 def _refuse_folder(folder: Path, task: str, *, force: bool) -> None:
     """Raises RequestError, before anything is sought, where models cannot be written into a folder."""
     from linkwright.cli.files import refuse_existing
-    from linkwright.whole_files import refuse_folder
+    from linkwright.filesystem import refuse_folder
 
     refuse_folder(folder)
     if folder.is_dir():
@@ -155,8 +155,8 @@ def _unmet(error: SynthesisError, options: argparse.Namespace, session: Session)
 
 
 def _show(found: Synthesis, options: argparse.Namespace, session: Session) -> None:
-    from linkwright.cli.files import write_diagram, write_whole
-    from linkwright.whole_files import make_folder
+    from linkwright.cli.files import atomic_write, write_diagram
+    from linkwright.filesystem import make_folder
 
     mass, speed = options.mass, options.speed
     efforts = [] if mass is None else [each.loads(mass, speed=speed) for each in found]
@@ -166,7 +166,7 @@ def _show(found: Synthesis, options: argparse.Namespace, session: Session) -> No
         for index in range(len(found)):
             path = _model_file(folder, found.task, index)
             text = found.model_text(index, language=session.language, speed=options.speed)
-            write_whole(path, text, force=options.force)
+            atomic_write(path, text, force=options.force)
             written.append(path)
     if options.plot is not None:
         write_diagram(options.plot, found, session, force=options.force)

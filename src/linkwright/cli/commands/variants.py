@@ -11,7 +11,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
 from linkwright.core.quantity import number
-from linkwright.fields.tables import Whole
+from linkwright.fields.tables import Integer
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def arguments(option: Options) -> None:
     option(
         "--seed",
         "N",
-        of=Whole(),
+        of=Integer(),
         default=0,
         help=_("seed of the random numbers (default 0): the same seed gives the same variants"),
     )

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Indices, Whole
+from linkwright.core.arrays import Flags, Floats, Indices, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.designs.optimise.task import Judged, Task
 
@@ -130,7 +130,7 @@ def taken(judged: Judged, rows: Indices) -> Judged:
     return Judged(judged.x[rows], judged.goals[rows], judged.violations[rows], values)
 
 
-def fronts(judged: Judged) -> Whole:
+def fronts(judged: Judged) -> Integers:
     """The number of every design's front: 0 is beaten by none, 1 by none but those of 0, …"""
     size, rows = len(judged.x), np.arange(len(judged.x))
     beats = dominates(judged, judged, rows[:, None], rows)

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.core.arguments import require
 from linkwright.core.arrays import Floats
-from linkwright.core.given import require
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.designs.finished_parts import kept_in, surrounding
 from linkwright.designs.optimise.evolution import (

@@ -103,9 +103,9 @@ class Optimum(Plotted, Tabular, Frozen):
 
         Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
         """
-        from linkwright.whole_files import write_whole
+        from linkwright.filesystem import atomic_write
 
-        return write_whole(path, self.model_text(index).encode(), force=force)
+        return atomic_write(path, self.model_text(index).encode(), force=force)
 
     @attached
     def tables(self, language: str = "en") -> tuple[Table, ...]:

@@ -10,18 +10,18 @@ from typing import Any, Literal
 
 import numpy as np
 
+from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS
 from linkwright.core.quantity import si_of, written
 from linkwright.designs.objective_terms import PathError
 from linkwright.designs.ranges import Range, parse_range
 from linkwright.designs.varied_dimensions import between, checked_addresses, gives_part_of_tooth
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.fields.base import Number, Quantities, Quantity, Text, Word, given, given_by_file
+from linkwright.fields.base import Number, Quantities, Quantity, Text, Word, file_key, file_keys
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
-from linkwright.fields.tables import ByAddress, Either, Keys, Line, Listed, Table, Value, Whole
+from linkwright.fields.tables import ByAddress, Either, Integer, Keys, Line, Listed, Table, Value
 from linkwright.files.reader import SectionReading
 from linkwright.files.write import flow
 from linkwright.machine.flywheel import COEFFICIENT, FLUCTUATION
@@ -85,13 +85,13 @@ class Demand:
 class DemandText(Either):
     """A demand on a number, as a text or a table."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Demand | None:
-        value = super().read(reader, node, place, given)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Demand | None:
+        value = super().read(reader, node, place, siblings)
         found = None if value is None else _demand(value)
         if value is not None and found is None:
             told = _(
-                '"{given}" is no demand; write at least 40 deg, at most 60 kN, 1..2 m, or same within 1 %',
-                given=flow(value),
+                'invalid demand "{text}"; write at least 40 deg, at most 60 kN, 1..2 m, or same within 1 %',
+                text=flow(value),
             )
             reader.error(node, place, told, "", "demand")
         return found
@@ -101,9 +101,9 @@ class DemandText(Either):
 class Metres(Quantity):
     """A length; a bare number is one in m."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> float | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> float | None:
         bare = reader.free(node)
-        return bare if isinstance(bare, float) else super().read(reader, node, place, given)
+        return bare if isinstance(bare, float) else super().read(reader, node, place, siblings)
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,7 @@ class Problem:
     define: Mapping[str, str] = field(default_factory=dict)
     paths: Mapping[str, PathError] = field(default_factory=dict)
     tolerances: Mapping[str, float] = field(default_factory=dict)
-    robust: Robust = given(
+    robust: Robust = file_key(
         Word(
             ("worst", "yield"),
             doc=_(
@@ -136,7 +136,7 @@ class Problem:
         ),
         "",
     )
-    least_yield: float = given(
+    least_yield: float = file_key(
         Number(
             above=0.0,
             maximum=1.0,
@@ -145,19 +145,21 @@ class Problem:
         ),
         0.99,
     )
-    fluctuation: float = given(COEFFICIENT, FLUCTUATION)
-    steps: int = given(Whole(1, 1_000_000, doc=_("positions of the cycle; default 360")), STEPS)
-    evaluations: int = given(
-        Whole(
+    fluctuation: float = file_key(COEFFICIENT, FLUCTUATION)
+    steps: int = file_key(Integer(1, 1_000_000, doc=_("positions of the cycle; default 360")), STEPS)
+    evaluations: int = file_key(
+        Integer(
             1,
             1_000_000_000,
             doc=_("most designs of the search (4000); the last steps along gradients come on top"),
         ),
         4000,
     )
-    population: int = given(Whole(0, 1_000_000, doc=_("designs of a generation; chosen unless given")), 0)
-    seed: int = given(
-        Whole(0, 1_000_000_000, doc=_("seed of the search (0); the same seed gives the same result")), 0
+    population: int = file_key(
+        Integer(0, 1_000_000, doc=_("designs of a generation; chosen unless given")), 0
+    )
+    seed: int = file_key(
+        Integer(0, 1_000_000_000, doc=_("seed of the search (0); the same seed gives the same result")), 0
     )
 
     @property
@@ -197,7 +199,7 @@ SECTION = Keys({
         doc=_("names for expressions of numbers, and for errors of paths"),
     ),
     "tolerance": ByAddress(Line(), doc=_("± of dimensions, such as 0.1 mm")),
-    **given_by_file(Problem),
+    **file_keys(Problem),
 })  # fmt: skip
 
 
@@ -254,7 +256,7 @@ class _Reading(SectionReading):
                 "no-tolerance",
             )
         self.settle()
-        numbers = {key: self.values[key] for key in given_by_file(Problem) if key in self.values}
+        numbers = {key: self.values[key] for key in file_keys(Problem) if key in self.values}
         return Problem(
             self.mechanism, tuple(variables), goals, demands, define, paths, tolerances, **numbers
         )  # fmt: skip

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Whole
+from linkwright.core.arrays import Floats, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.designs.designs import sweep_curves
 from linkwright.mechanism.mechanism import Mechanism
@@ -51,7 +51,7 @@ class Counted:
         self.count = 0
         self.sums = np.zeros((2, len(middle)))
         self.least, self.largest = np.full(len(middle), np.inf), np.full(len(middle), -np.inf)
-        self.bins: Whole = np.zeros((len(middle), BINS), dtype=np.int64)
+        self.bins: Integers = np.zeros((len(middle), BINS), dtype=np.int64)
 
     def add(self, values: Floats) -> None:
         """Counts curves of more machines, (machines, n)."""

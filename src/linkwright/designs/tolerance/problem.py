@@ -11,12 +11,12 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright import units
+from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS
 from linkwright.designs.ranges import dimension_of
-from linkwright.fields.base import Quantity, Text, Word, given
-from linkwright.fields.tables import ByAddress, Either, Listed, Named, Table, Whole
+from linkwright.fields.base import Quantity, Text, Word, file_key
+from linkwright.fields.tables import ByAddress, Either, Integer, Listed, Named, Table
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.fields import AnyQuantity
@@ -63,9 +63,9 @@ class Clearance:
     ``pressed`` — at every position the joint's own reaction presses the pin against the hole.
     """
 
-    clearance: float = given(Quantity("length", above=0.0, doc="radius of the hole less that of the pin"))
-    on: str = given(Text(doc="the link with the hole"))
-    kind: str = given(
+    clearance: float = file_key(Quantity("length", above=0.0, doc="radius of the hole less that of the pin"))
+    on: str = file_key(Text(doc="the link with the hole"))
+    kind: str = file_key(
         Word(("free", "pressed"), doc="free: the pin lies anywhere; pressed: where the reaction presses it"),
         "free",
     )
@@ -93,8 +93,8 @@ def _limit(lower: Any = None, upper: Any = None) -> Limit:
 class ToleranceField(Either):
     """``0.05 mm`` (normal, ± 3σ), or ``{tolerance: 0.05 mm, distribution: uniform}``."""
 
-    def read(self, reader: Any, node: Any, place: Any, given: Mapping[str, Any]) -> Any:
-        found = super().read(reader, node, place, given)
+    def read(self, reader: Any, node: Any, place: Any, siblings: Mapping[str, Any]) -> Any:
+        found = super().read(reader, node, place, siblings)
         return _tolerance(found) if isinstance(found, tuple) else found
 
 
@@ -110,22 +110,24 @@ class Tolerances(OfMechanism):
     """What varies of a mechanism, and what is asked about it: see ``ToleranceStudy``."""
 
     kind: ClassVar[str] = "tolerance"
-    mechanism: Mechanism = given(MECHANISM)
-    dimensions: Mapping[str, Tolerance] = given(ByAddress(
+    mechanism: Mechanism = file_key(MECHANISM)
+    dimensions: Mapping[str, Tolerance] = file_key(ByAddress(
         ToleranceField(AnyQuantity(), Table(TOLERANCE, _tolerance)),
         doc="by dimension: crank.length: 0.05 mm, or {tolerance: 0.05 mm, distribution: uniform}",
     ), dict)  # fmt: skip
-    clearances: Mapping[str, Clearance] = given(Named(
+    clearances: Mapping[str, Clearance] = file_key(Named(
         Table.of(Clearance), _("pin"), doc="clearances by pin: {clearance: 0.02 mm, on: rocker, kind: pressed}",
     ), dict)  # fmt: skip
-    of: tuple[str, ...] = given(Listed(Text(), '["rocker.angle range"]', doc="summaries over the cycle"), ())
-    curves: tuple[str, ...] = given(Listed(Text(), "[rocker.angle]", doc="outputs over the cycle"), ())
-    limits: Mapping[str, Limit] = given(
+    of: tuple[str, ...] = file_key(
+        Listed(Text(), '["rocker.angle range"]', doc="summaries over the cycle"), ()
+    )
+    curves: tuple[str, ...] = file_key(Listed(Text(), "[rocker.angle]", doc="outputs over the cycle"), ())
+    limits: Mapping[str, Limit] = file_key(
         ByAddress(Table(LIMIT, _limit), doc="limits by summary: {lower: 59 deg, upper: 61 deg}"), dict
     )
-    samples: int = given(Whole(LEAST, doc="machines of the Monte Carlo study, 8192 unless given"), 8192)
-    seed: int = given(Whole(0, 2**32 - 1, doc="seed of the random numbers"), 1)
-    steps: int = given(Whole(4, doc="positions of the curves over the cycle, 360 unless given"), STEPS)
+    samples: int = file_key(Integer(LEAST, doc="machines of the Monte Carlo study, 8192 unless given"), 8192)
+    seed: int = file_key(Integer(0, 2**32 - 1, doc="seed of the random numbers"), 1)
+    steps: int = file_key(Integer(4, doc="positions of the curves over the cycle, 360 unless given"), STEPS)
     name: str = ""
     source: str = ""
 

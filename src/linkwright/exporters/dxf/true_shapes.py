@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from linkwright.cams.result import CamDesign
-from linkwright.core.given import PROFILE_POINTS
+from linkwright.core.arguments import PROFILE_POINTS
 from linkwright.errors import RequestError
 from linkwright.exporters.dxf.entities import add, content_of, new_document
+from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.gears.pair import GearPair
 from linkwright.gears.rack import Rack
 from linkwright.pictures.picture import Circle, Line
 from linkwright.plotting.true_shapes import contact_line
-from linkwright.whole_files import refuse_target, write_whole
 from linkwright.words import _
 
 ENDINGS = (".dxf", ".csv", ".txt")
@@ -40,9 +40,9 @@ def save_profile(
         )
     refuse_target(path, force=force)
     if path.suffix.lower() == ".dxf":
-        return write_whole(path, _drawing(design, points), force=force)
+        return atomic_write(path, _drawing(design, points), force=force)
     text = _table(design, points) if path.suffix.lower() == ".csv" else _mill(design, points)
-    return write_whole(path, text.encode("utf-8"), force=force)
+    return atomic_write(path, text.encode("utf-8"), force=force)
 
 
 def _drawing(design: CamDesign, points: int) -> bytes:
@@ -115,7 +115,7 @@ def save_pair(
         add(space, Circle((_MM * x, 0.0), _MM * rolling), "rolling", linetype="DASHDOT")
         add(space, Circle((_MM * x, 0.0), 0.5 * _MM * gear.base_diameter), "base")
     add(space, Line(_MM * contact_line(pair)), "contact")
-    return write_whole(path, content_of(document), force=force)
+    return atomic_write(path, content_of(document), force=force)
 
 
 def save_rack(rack: Rack, path: str | Path, *, points: int = 12, force: bool = False) -> Path:
@@ -130,4 +130,4 @@ def save_rack(rack: Rack, path: str | Path, *, points: int = 12, force: bool = F
     add(space, Line(outline, closed=True), "outline")
     datum = np.array([(outline[:, 0].min(), 0.0), (outline[:, 0].max(), 0.0)])
     add(space, Line(datum), "rolling", linetype="DASHDOT")
-    return write_whole(path, content_of(document), force=force)
+    return atomic_write(path, content_of(document), force=force)

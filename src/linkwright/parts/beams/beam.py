@@ -17,7 +17,7 @@ from linkwright.core.rows import Block, Row
 from linkwright.core.search import first_largest
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, fault
-from linkwright.fields.base import Quantities, Quantity, Schema, Word, given, quantity_schema
+from linkwright.fields.base import Quantities, Quantity, Schema, Word, file_key, quantity_schema
 from linkwright.fields.tables import Flag, Listed, Named, Table
 from linkwright.parts.base import Problem, Result, signed
 from linkwright.parts.beams.balance import balance_laws, line_moment, polynomial_text, rounded
@@ -54,11 +54,13 @@ class BeamSupport:
     ``settlement``: given deflection, m; ``stiffness`` N/m and ``torsional_stiffness`` N·m/rad of a spring.
     """
 
-    kind: str = given(Word(SUPPORTS, doc=", ".join(SUPPORTS)))
-    at: float = given(Quantity("length", minimum=0.0, doc="its place"))
-    settlement: float = given(Quantity("length", doc="given deflection, upwards positive"), 0.0)
-    stiffness: float = given(Quantity("stiffness", minimum=0.0, doc="of a spring"), 0.0)
-    torsional_stiffness: float = given(Quantity("torsional_stiffness", minimum=0.0, doc="of a spring"), 0.0)
+    kind: str = file_key(Word(SUPPORTS, doc=", ".join(SUPPORTS)))
+    at: float = file_key(Quantity("length", minimum=0.0, doc="its place"))
+    settlement: float = file_key(Quantity("length", doc="given deflection, upwards positive"), 0.0)
+    stiffness: float = file_key(Quantity("stiffness", minimum=0.0, doc="of a spring"), 0.0)
+    torsional_stiffness: float = file_key(
+        Quantity("torsional_stiffness", minimum=0.0, doc="of a spring"), 0.0
+    )
 
     @property
     def hold(self) -> Hold:
@@ -73,11 +75,13 @@ class BeamSupport:
 class LineLoad(Quantities):
     """One value, or ``[first, last]``."""
 
-    def read(self, reader: Any, node: Any, place: Any, given: Mapping[str, Any]) -> tuple[float, ...] | None:
+    def read(
+        self, reader: Any, node: Any, place: Any, siblings: Mapping[str, Any]
+    ) -> tuple[float, ...] | None:
         from linkwright.fields.nodes import Sequence as SequenceNode
 
         if isinstance(node, SequenceNode):
-            return super().read(reader, node, place, given)
+            return super().read(reader, node, place, siblings)
         value = reader.quantity(node, place, self.dimension)
         return None if value is None else (value, value)
 
@@ -93,17 +97,19 @@ class BeamLoad:
     to its last value.
     """
 
-    force: float | None = given(Quantity("force", doc="force, upwards positive, with at"), None)
-    couple: float | None = given(Quantity("torque", doc="couple, counter-clockwise positive, with at"), None)
-    line: tuple[float, ...] | None = given(LineLoad(
+    force: float | None = file_key(Quantity("force", doc="force, upwards positive, with at"), None)
+    couple: float | None = file_key(
+        Quantity("torque", doc="couple, counter-clockwise positive, with at"), None
+    )
+    line: tuple[float, ...] | None = file_key(LineLoad(
         "line_load", count=2, form="[0 N/m, -2 kN/m]",
         doc="line load, upwards positive; [first, last] where it varies",
     ), None)  # fmt: skip
-    at: float | None = given(Quantity("length", minimum=0.0, doc="where the force or couple acts"), None)
-    start: float = given(
+    at: float | None = file_key(Quantity("length", minimum=0.0, doc="where the force or couple acts"), None)
+    start: float = file_key(
         Quantity("length", minimum=0.0, key="from", doc="where the line load begins, 0 unless given"), 0.0
     )
-    end: float | None = given(
+    end: float | None = file_key(
         Quantity("length", minimum=0.0, key="to", doc="where it ends, the beam's end unless given"), None
     )
 
@@ -112,8 +118,8 @@ class BeamLoad:
 class SectionStep:
     """From ``start`` on (m) the beam has another ``section``."""
 
-    start: float = given(Quantity("length", above=0.0, key="from", doc="from here on"))
-    section: Section = given(section_field())
+    start: float = file_key(Quantity("length", above=0.0, key="from", doc="from here on"))
+    section: Section = file_key(section_field())
 
 
 @dataclass(frozen=True)
@@ -125,24 +131,24 @@ class Beam(Problem):
     """
 
     kind: ClassVar[str] = "beam"
-    length: float = given(Quantity("length", above=0.0, doc="length of the beam"))
-    material: Material = given(MATERIAL)
-    section: Section = given(
+    length: float = file_key(Quantity("length", above=0.0, doc="length of the beam"))
+    material: Material = file_key(MATERIAL)
+    section: Section = file_key(
         section_field("cross section: IPE 100, {rectangle: [b, h]}, {circle: [d]}, {second_moment: 2e-5 m⁴}")
     )
-    supports: Mapping[str, BeamSupport] = given(
+    supports: Mapping[str, BeamSupport] = file_key(
         Named(Table.of(BeamSupport), _("support"), doc="supports by name: {kind: pinned, at: 0 m}")
     )
-    loads: Mapping[str, BeamLoad] = given(Named(
+    loads: Mapping[str, BeamLoad] = file_key(Named(
         Table.of(BeamLoad), _("load"),
         doc="by name: {force: -2 kN, at: 1 m}, {line: -1 kN/m, from: 0 m}, {couple: …}",
     ), dict)  # fmt: skip
-    steps: tuple[SectionStep, ...] = given(
+    steps: tuple[SectionStep, ...] = file_key(
         Listed(Table.of(SectionStep), "[{from: 1 m, section: …}]", doc="other sections from places on"), ()
     )
-    hinges: tuple[float, ...] = given(Quantities("length", doc="places of hinges within the beam"), ())
-    own_weight: bool = given(Flag(doc="true: with the weight of the beam itself"), False)
-    safety: float | None = given(
+    hinges: tuple[float, ...] = file_key(Quantities("length", doc="places of hinges within the beam"), ())
+    own_weight: bool = file_key(Flag(doc="true: with the weight of the beam itself"), False)
+    safety: float | None = file_key(
         Quantity("dimensionless", above=0.0, doc="safety against the strength, for the needed section"), None
     )
     name: str = ""

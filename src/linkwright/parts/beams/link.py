@@ -10,16 +10,16 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.analysis import Analysis
+from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS
 from linkwright.core.plane import cross
 from linkwright.core.quantity import shown
 from linkwright.core.rows import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, SelfCheckError, fault
-from linkwright.fields.base import Quantity, Text, given
-from linkwright.fields.tables import Listed, Whole
+from linkwright.fields.base import Quantity, Text, file_key
+from linkwright.fields.tables import Integer, Listed
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import applied_rows, driver_wrenches
@@ -64,15 +64,15 @@ class LinkBending(OfMechanism):
     """
 
     kind: ClassVar[str] = "link_bending"
-    mechanism: Mechanism = given(MECHANISM)
-    link: str = given(Text(doc="name of the link"))
-    material: Material = given(MATERIAL)
-    section: Section = given(section_field("cross section, bent in the plane of the mechanism"))
-    safety: float = given(
+    mechanism: Mechanism = file_key(MECHANISM)
+    link: str = file_key(Text(doc="name of the link"))
+    material: Material = file_key(MATERIAL)
+    section: Section = file_key(section_field("cross section, bent in the plane of the mechanism"))
+    safety: float = file_key(
         Quantity("dimensionless", above=0.0, doc="safety against the strength, for the needed section"), 1.0
     )
-    steps: int = given(Whole(1, doc="positions over the cycle, 360 unless given"), STEPS)
-    axis: tuple[str, ...] = given(
+    steps: int = file_key(Integer(1, doc="positions over the cycle, 360 unless given"), STEPS)
+    axis: tuple[str, ...] = file_key(
         Listed(
             Text(), "[A, B, C]", doc="points through which a bent link's axis runs, straight unless given"
         ),

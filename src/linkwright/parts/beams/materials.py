@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from linkwright.core.dataclass import dataclass
-from linkwright.fields.base import Quantity, Text, given
+from linkwright.fields.base import Quantity, Text, file_key
 from linkwright.fields.tables import Table
 from linkwright.parts.fields import Known
 from linkwright.words import _
@@ -18,9 +18,9 @@ class Material:
     ``strength`` and ``density`` are None where they are not known.
     """
 
-    modulus: float = given(Quantity("pressure", above=0.0, doc="Young's modulus E"))
-    strength: float | None = given(Quantity("pressure", above=0.0, doc="yield strength"), None)
-    density: float | None = given(Quantity("density", above=0.0, doc="density"), None)
+    modulus: float = file_key(Quantity("pressure", above=0.0, doc="Young's modulus E"))
+    strength: float | None = file_key(Quantity("pressure", above=0.0, doc="yield strength"), None)
+    density: float | None = file_key(Quantity("density", above=0.0, doc="density"), None)
     label: str = ""
     source: str = ""
 

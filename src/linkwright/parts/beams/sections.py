@@ -109,8 +109,8 @@ FIELDS: Mapping[str, Field] = {
 class SectionField(Known):
     """``IPE 100``, or one shape with its dimensions, or ``{second_moment: …, area: …, modulus: …}``."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        found = super().read(reader, node, place, given)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        found = super().read(reader, node, place, siblings)
         return _shaped(reader, node, place, found) if isinstance(found, dict) else found
 
 

@@ -20,7 +20,7 @@ from linkwright.equations.notation import Atom, row, sign, upright
 from linkwright.equations.reading import filled, measured, of_file, plain, sides
 from linkwright.equations.steps import Step, Written
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError, fault
-from linkwright.fields.base import Field, given
+from linkwright.fields.base import Field, file_key
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.fields.reading import Place, Reader
@@ -85,8 +85,8 @@ VARIABLE = {
 class Objective(Field):
     """An expression of the variables and parameters."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Formula | None:
-        text, variables = reader.text(node, place), given.get("variables")
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Formula | None:
+        text, variables = reader.text(node, place), siblings.get("variables")
         if text is None or variables is None:
             return None
         try:
@@ -103,8 +103,8 @@ class Objective(Field):
 class Conditions(Field):
     """Constraints by name: ``left <= right``, ``left >= right``, ``left = right``, ``low <= expression <= high``."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        mapping, variables = reader.mapping(node, place), given.get("variables")
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        mapping, variables = reader.mapping(node, place), siblings.get("variables")
         found: list[Constraint] = []
         for entry in mapping.entries if isinstance(mapping, MappingNode) and variables is not None else []:
             child = place.child(entry.key.text)
@@ -132,13 +132,13 @@ class Program(Problem):
     """``minimize`` or ``maximize`` a formula of ``variables`` subject to constraints; :meth:`of` reads texts."""
 
     kind: ClassVar[str] = "program"
-    variables: Mapping[str, Variable] = given(Named(
+    variables: Mapping[str, Variable] = file_key(Named(
         Table(VARIABLE, _variable), _("variable"),
         doc="variables by name: {from: 0 mm, to: 40 mm}, with integer: true or choices: […]",
     ))  # fmt: skip
-    minimize: Formula | None = given(Objective(doc="what is to be small, an expression"), None)
-    maximize: Formula | None = given(Objective(doc="or what is to be large"), None)
-    subject_to: tuple[Constraint, ...] = given(Conditions(doc="constraints by name: 2*x + y <= 100"), ())
+    minimize: Formula | None = file_key(Objective(doc="what is to be small, an expression"), None)
+    maximize: Formula | None = file_key(Objective(doc="or what is to be large"), None)
+    subject_to: tuple[Constraint, ...] = file_key(Conditions(doc="constraints by name: 2*x + y <= 100"), ())
     name: str = ""
     source: str = ""
 

@@ -13,7 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.rows import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, fault
-from linkwright.fields.base import Quantity, given
+from linkwright.fields.base import Quantity, file_key
 from linkwright.parts.base import Problem, Result
 from linkwright.words import Message, Say, _, pgettext
 
@@ -39,17 +39,17 @@ class Belt(Problem):
     """
 
     kind: ClassVar[str] = "belt"
-    friction: float = given(Quantity("dimensionless", above=0.0, doc="coefficient of friction"))
-    wrap: float = given(Quantity("angle", above=0.0, doc="angle of contact; several turns are allowed"))
-    groove: float | None = given(
+    friction: float = file_key(Quantity("dimensionless", above=0.0, doc="coefficient of friction"))
+    wrap: float = file_key(Quantity("angle", above=0.0, doc="angle of contact; several turns are allowed"))
+    groove: float | None = file_key(
         Quantity("angle", above=0.0, doc="full angle of a V groove; a flat belt unless given"), None
     )
-    tight: float | None = given(Quantity("force", above=0.0, doc="tension of the tight side"), None)
-    slack: float | None = given(Quantity("force", above=0.0, doc="tension of the slack side"), None)
-    torque: float | None = given(Quantity("torque", above=0.0, doc="torque on the drum"), None)
-    radius: float | None = given(Quantity("length", above=0.0, doc="radius of the drum"), None)
-    mass: float = given(Quantity("linear_density", minimum=0.0, doc="mass per length"), 0.0)
-    speed: float = given(Quantity("velocity", minimum=0.0, doc="belt speed"), 0.0)
+    tight: float | None = file_key(Quantity("force", above=0.0, doc="tension of the tight side"), None)
+    slack: float | None = file_key(Quantity("force", above=0.0, doc="tension of the slack side"), None)
+    torque: float | None = file_key(Quantity("torque", above=0.0, doc="torque on the drum"), None)
+    radius: float | None = file_key(Quantity("length", above=0.0, doc="radius of the drum"), None)
+    mass: float = file_key(Quantity("linear_density", minimum=0.0, doc="mass per length"), 0.0)
+    speed: float = file_key(Quantity("velocity", minimum=0.0, doc="belt speed"), 0.0)
     name: str = ""
     source: str = ""
 

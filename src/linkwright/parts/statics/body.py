@@ -17,7 +17,7 @@ from linkwright.core.rows import Block, Row
 from linkwright.equations.matrix import system
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError, fault
-from linkwright.fields.base import GivenByFile, Word, given, quantity_schema
+from linkwright.fields.base import FileKeys, Word, file_key, quantity_schema
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.fields.reading import Place, Reader
@@ -37,10 +37,10 @@ class Couple(Components):
     """Three components, or the one about z."""
 
     def read(
-        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
     ) -> tuple[float, ...] | None:
         if isinstance(node, SequenceNode):
-            return super().read(reader, node, place, given)
+            return super().read(reader, node, place, siblings)
         value = reader.quantity(node, place, self.dimension)
         return None if value is None else (value,)
 
@@ -55,11 +55,11 @@ class Support:
     ``holds``: any of x, y, z, turn_x, turn_y, turn_z; ``along``: the direction of a rod, rope or roller.
     """
 
-    at: tuple[float, ...] = given(Components("length", doc="where it holds the body"))
-    holds: tuple[str, ...] = given(
+    at: tuple[float, ...] = file_key(Components("length", doc="where it holds the body"))
+    holds: tuple[str, ...] = file_key(
         Listed(Word(HELD), "[x, y]", doc="what it holds: x, y, z, turn_x, turn_y, turn_z"), ()
     )
-    along: tuple[float, ...] = given(replace(DIRECTION, doc="direction of a rod, rope or roller"), ())
+    along: tuple[float, ...] = file_key(replace(DIRECTION, doc="direction of a rod, rope or roller"), ())
 
     def columns(self, scale: float) -> list[tuple[str, Floats]]:
         """Names of its reactions, each with the force and moment (6,) of a unit; moments over ``scale``."""
@@ -80,7 +80,7 @@ class Support:
 class BodyLoad(Force):
     """A load on a body: a force, or a ``couple`` (N·m; in the plane one number, counter-clockwise)."""
 
-    couple: tuple[float, ...] = given(
+    couple: tuple[float, ...] = file_key(
         Couple(
             "torque", doc="couple: M, counter-clockwise; [Mx, My, Mz] in space", form="[0 N·m, 0 N·m, 5 N·m]"
         ),
@@ -102,10 +102,10 @@ class RigidBody(Problem):
     """
 
     kind: ClassVar[str] = "rigid_body"
-    fields = GivenByFile({
+    fields = FileKeys({
         "loads": LOADS, "forces": replace(FORCES, replaced="loads"), "couples": replace(COUPLES, replaced="loads"),
     })  # fmt: skip
-    supports: Mapping[str, Support] = given(Named(
+    supports: Mapping[str, Support] = file_key(Named(
         Table.of(Support), _("support"),
         doc="supports by name: {at: [0 m, 0 m], holds: [x, y]}, or {at: […], direction: [0, 1]}",
     ))  # fmt: skip

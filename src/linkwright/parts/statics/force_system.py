@@ -17,7 +17,7 @@ from linkwright.equations.matrix import system
 from linkwright.equations.reading import measured, normal
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, fault
-from linkwright.fields.base import given
+from linkwright.fields.base import file_key
 from linkwright.parts.base import Problem, Result, signed
 from linkwright.parts.statics.forces import (
     COUPLES,
@@ -54,14 +54,14 @@ class ForceSystem(Problem):
     """
 
     kind: ClassVar[str] = "forces"
-    forces: Mapping[str, Force] = given(FORCES, dict)
-    couples: Mapping[str, tuple[float, ...]] = given(COUPLES, dict)
-    about: tuple[float, ...] = given(
+    forces: Mapping[str, Force] = file_key(FORCES, dict)
+    couples: Mapping[str, tuple[float, ...]] = file_key(COUPLES, dict)
+    about: tuple[float, ...] = file_key(
         Components("length", doc="point about which moments are taken, the origin unless given"),
         (0.0, 0.0, 0.0),
     )
-    components: Mapping[str, Along] = given(LINES, dict)
-    angles: Mapping[str, tuple[str, ...]] = given(PAIRS, dict)
+    components: Mapping[str, Along] = file_key(LINES, dict)
+    angles: Mapping[str, tuple[str, ...]] = file_key(PAIRS, dict)
     name: str = ""
     source: str = ""
 

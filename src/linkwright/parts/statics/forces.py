@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, fault
-from linkwright.fields.base import Quantities, Quantity, Text, given, quantity_schema
+from linkwright.fields.base import Quantities, Quantity, Text, file_key, quantity_schema
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.fields.reading import Place, Reader
@@ -48,10 +48,10 @@ class Direction(Components):
     """A vector of any length, or in the plane its angle from the x-axis."""
 
     def read(
-        self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]
+        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
     ) -> tuple[float, ...] | None:
         if isinstance(node, SequenceNode):
-            return super().read(reader, node, place, given)
+            return super().read(reader, node, place, siblings)
         angle = reader.quantity(node, place, "angle")
         if angle is None:
             return None
@@ -140,17 +140,17 @@ class Force(Line):
     direction alone has an unknown magnitude, which equilibrium gives.
     """
 
-    force: tuple[float, ...] = given(Components("force", doc="components"), ())
-    size: float | None = given(
+    force: tuple[float, ...] = file_key(Components("force", doc="components"), ())
+    size: float | None = file_key(
         Quantity("force", key="magnitude", old="size", doc="magnitude, with direction; unknown unless given"),
         None,
     )
-    along: tuple[float, ...] = given(DIRECTION, ())
-    at: tuple[float, ...] = given(
+    along: tuple[float, ...] = file_key(DIRECTION, ())
+    at: tuple[float, ...] = file_key(
         Components("length", doc="point of application, the origin unless given"), (0.0, 0.0)
     )
-    start: tuple[float, ...] = given(START, ())
-    end: tuple[float, ...] = given(END, ())
+    start: tuple[float, ...] = file_key(START, ())
+    end: tuple[float, ...] = file_key(END, ())
 
     @property
     def unknown(self) -> bool:
@@ -211,8 +211,8 @@ class Force(Line):
 class ForceField(Either):
     """A force as ``[Fx, Fy, Fz]``, or as a table with its place, or with its magnitude and direction."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        found = super().read(reader, node, place, given)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        found = super().read(reader, node, place, siblings)
         return Force(force=found) if isinstance(found, tuple) else found
 
 
@@ -230,10 +230,10 @@ COUPLES = Named(
 class Along(Line):
     """A line along which a force is resolved: ``of`` the name of a force, of the resultant unless given."""
 
-    along: tuple[float, ...] = given(DIRECTION, ())
-    start: tuple[float, ...] = given(START, ())
-    end: tuple[float, ...] = given(END, ())
-    of: str = given(Text(doc="name of the force, the resultant unless given"), "")
+    along: tuple[float, ...] = file_key(DIRECTION, ())
+    start: tuple[float, ...] = file_key(START, ())
+    end: tuple[float, ...] = file_key(END, ())
+    of: str = file_key(Text(doc="name of the force, the resultant unless given"), "")
 
 
 LINES = Named(

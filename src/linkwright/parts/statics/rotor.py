@@ -11,7 +11,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.rows import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, fault
-from linkwright.fields.base import Quantity, given
+from linkwright.fields.base import Quantity, file_key
 from linkwright.fields.tables import Named, Table
 from linkwright.parts.base import Problem, Result, signed
 from linkwright.words import Message, Say, _
@@ -34,10 +34,10 @@ LABELS: Mapping[str, Message] = {
 class HeavyPoint:
     """A ``mass`` (kg) whose centre lies ``at`` a place along the shaft (m), at ``radius`` (m) and ``angle`` (rad)."""
 
-    mass: float = given(Quantity("mass", above=0.0, doc="mass"))
-    radius: float = given(Quantity("length", above=0.0, doc="distance of its centre from the axis"))
-    angle: float = given(Quantity("angle", doc="angle of its centre about the axis"))
-    at: float = given(Quantity("length", doc="its place along the shaft"), 0.0)
+    mass: float = file_key(Quantity("mass", above=0.0, doc="mass"))
+    radius: float = file_key(Quantity("length", above=0.0, doc="distance of its centre from the axis"))
+    angle: float = file_key(Quantity("angle", doc="angle of its centre about the axis"))
+    at: float = file_key(Quantity("length", doc="its place along the shaft"), 0.0)
 
     @property
     def product(self) -> complex:
@@ -49,8 +49,8 @@ class HeavyPoint:
 class BalancingPlane:
     """A plane ``at`` a place along the shaft (m), with counterweights at a ``radius`` (m)."""
 
-    radius: float = given(Quantity("length", above=0.0, doc="radius at which the counterweight sits"))
-    at: float = given(Quantity("length", doc="its place along the shaft"), 0.0)
+    radius: float = file_key(Quantity("length", above=0.0, doc="radius at which the counterweight sits"))
+    at: float = file_key(Quantity("length", doc="its place along the shaft"), 0.0)
 
 
 @dataclass(frozen=True)
@@ -58,15 +58,15 @@ class Rotor(Problem):
     """``masses`` off the axis of a rotor, balanced in one or two ``planes``; with a ``speed`` (rad/s) also forces."""
 
     kind: ClassVar[str] = "rotor"
-    masses: Mapping[str, HeavyPoint] = given(Named(
+    masses: Mapping[str, HeavyPoint] = file_key(Named(
         Table.of(HeavyPoint), _("mass"),
         doc="masses by name: {mass: 10 kg, radius: 400 mm, angle: 120 deg, at: 0 mm}",
     ))  # fmt: skip
-    planes: Mapping[str, BalancingPlane] = given(Named(
+    planes: Mapping[str, BalancingPlane] = file_key(Named(
         Table.of(BalancingPlane), _("plane"),
         doc="one or two planes of counterweights by name: {at: 0 mm, radius: 500 mm}",
     ))  # fmt: skip
-    speed: float = given(Quantity("angular_velocity", minimum=0.0, doc="speed, for the forces"), 0.0)
+    speed: float = file_key(Quantity("angular_velocity", minimum=0.0, doc="speed, for the forces"), 0.0)
     name: str = ""
     source: str = ""
 

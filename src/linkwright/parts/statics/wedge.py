@@ -13,7 +13,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.rows import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, fault
-from linkwright.fields.base import Quantity, given
+from linkwright.fields.base import Quantity, file_key
 from linkwright.parts.base import Problem, Result
 from linkwright.words import Message, Say, _, pgettext
 
@@ -34,15 +34,15 @@ class Wedge(Problem):
     """
 
     kind: ClassVar[str] = "wedge"
-    load: float = given(Quantity("force", above=0.0, doc="load to be raised"))
-    angle: float = given(Quantity("angle", above=0.0, doc="angle of the wedge"))
-    friction: float = given(
+    load: float = file_key(Quantity("force", above=0.0, doc="load to be raised"))
+    angle: float = file_key(Quantity("angle", above=0.0, doc="angle of the wedge"))
+    friction: float = file_key(
         Quantity("dimensionless", minimum=0.0, doc="coefficient of friction on the slope")
     )
-    floor: float | None = given(
+    floor: float | None = file_key(
         Quantity("dimensionless", minimum=0.0, doc="on the floor, as on the slope unless given"), None
     )
-    wall: float | None = given(
+    wall: float | None = file_key(
         Quantity("dimensionless", minimum=0.0, doc="on the guiding wall, as on the slope unless given"), None
     )
     name: str = ""

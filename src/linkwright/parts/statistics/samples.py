@@ -18,8 +18,8 @@ from linkwright.core.table import PARTS_PER_MILLION, Scale, in_si
 from linkwright.equations.reading import measured
 from linkwright.equations.steps import Step, Value
 from linkwright.errors import Finding, fault
-from linkwright.fields.base import Quantity, Text, Word, given
-from linkwright.fields.tables import Listed, Named, Table, Whole
+from linkwright.fields.base import Quantity, Text, Word, file_key
+from linkwright.fields.tables import Integer, Listed, Named, Table
 from linkwright.parts.base import Problem, Result
 from linkwright.parts.fields import AnyQuantity, Numbers, Sample
 from linkwright.parts.statistics.describe import (
@@ -105,9 +105,9 @@ class Asked:
 class Fitting:
     """The sample ``y`` as a polynomial of ``degree`` of one sample ``on``, or linear in several."""
 
-    y: str = given(Text(doc="the sample that is explained"))
-    on: tuple[str, ...] = given(Listed(Text(), "[x]", doc="the samples that explain it"))
-    degree: int = given(Whole(1, doc="degree of the polynomial of one sample, 1 unless given"), 1)
+    y: str = file_key(Text(doc="the sample that is explained"))
+    on: tuple[str, ...] = file_key(Listed(Text(), "[x]", doc="the samples that explain it"))
+    degree: int = file_key(Integer(1, doc="degree of the polynomial of one sample, 1 unless given"), 1)
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ TEST_FIELDS = {
 LIMIT_FIELDS = {
     "lower": AnyQuantity(doc="lower limit"),
     "upper": AnyQuantity(doc="upper limit"),
-    "subgroup": Whole(2, doc="size of successive subgroups, for the deviation within them"),
+    "subgroup": Integer(2, doc="size of successive subgroups, for the deviation within them"),
 }
 
 
@@ -145,28 +145,28 @@ class Samples(Problem):
     """Samples by name (SI with the unit in which they were given) and what is asked about them."""
 
     kind: ClassVar[str] = "statistics"
-    samples: Mapping[str, Numbers] = given(Named(
+    samples: Mapping[str, Numbers] = file_key(Named(
         Sample(), _("sample"), doc="samples by name: {unit: mm, values: [20.1, 19.9]}, or [20.1 mm, 19.9 mm]",
     ))  # fmt: skip
-    confidence: float = given(
+    confidence: float = file_key(
         Quantity("dimensionless", above=0.0, doc="level of intervals and tests, 0.95 unless given"), 0.95
     )
-    fit: tuple[str, ...] = given(
+    fit: tuple[str, ...] = file_key(
         Listed(Word(tuple(DISTRIBUTIONS)), "[normal, weibull]", doc=f"any of {', '.join(DISTRIBUTIONS)}"), ()
     )
-    tests: Mapping[str, Asked] = given(
+    tests: Mapping[str, Asked] = file_key(
         Named(
             Table(TEST_FIELDS, _asked), _("test"), doc="tests by name: {kind: mean, of: [a], value: 20 mm}"
         ),
         dict,
     )
-    regressions: Mapping[str, Fitting] = given(
+    regressions: Mapping[str, Fitting] = file_key(
         Named(
             Table.of(Fitting), _("regression"), doc="regressions by name: {y: force, on: [speed], degree: 2}"
         ),
         dict,
     )
-    capability: Mapping[str, Limits] = given(Named(
+    capability: Mapping[str, Limits] = file_key(Named(
         Table(LIMIT_FIELDS, _limits), _("sample"),
         doc="limits by sample: {lower: 19.9 mm, upper: 20.1 mm, subgroup: 5}",
     ), dict)  # fmt: skip

@@ -10,16 +10,16 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.analysis import Analysis
+from linkwright.core.arguments import CURVE_STEPS
 from linkwright.core.arrays import Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import CURVE_STEPS
 from linkwright.core.quantity import shown
 from linkwright.core.rows import Block, Row
 from linkwright.core.table import PERCENT
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, fault
-from linkwright.fields.base import Quantity, Text, given
-from linkwright.fields.tables import Whole
+from linkwright.fields.base import Quantity, Text, file_key
+from linkwright.fields.tables import Integer
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
@@ -51,14 +51,16 @@ class Conveyor(OfMechanism):
     """
 
     kind: ClassVar[str] = "throw"
-    mechanism: Mechanism = given(MECHANISM)
-    link: str = given(Text(doc="the link that is the trough"))
-    friction: float = given(Quantity("dimensionless", minimum=0.0, doc="coefficient of friction at rest"))
-    sliding_friction: float | None = given(
+    mechanism: Mechanism = file_key(MECHANISM)
+    link: str = file_key(Text(doc="the link that is the trough"))
+    friction: float = file_key(Quantity("dimensionless", minimum=0.0, doc="coefficient of friction at rest"))
+    sliding_friction: float | None = file_key(
         Quantity("dimensionless", minimum=0.0, doc="in motion, as at rest unless given"), None
     )
-    incline: float = given(Quantity("angle", doc="how much the surface rises along +x, 0 unless given"), 0.0)
-    steps: int = given(Whole(36, doc="positions over the cycle, 720 unless given"), CURVE_STEPS)
+    incline: float = file_key(
+        Quantity("angle", doc="how much the surface rises along +x, 0 unless given"), 0.0
+    )
+    steps: int = file_key(Integer(36, doc="positions over the cycle, 720 unless given"), CURVE_STEPS)
     name: str = ""
     source: str = ""
 

@@ -15,7 +15,7 @@ from linkwright.core.dataclass import dataclass
 from linkwright.core.rows import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, ModelError, fault
-from linkwright.fields.base import GivenByFile, Quantity, Text, given
+from linkwright.fields.base import FileKeys, Quantity, Text, file_key
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem, Result
@@ -48,7 +48,7 @@ class Particle(Problem):
     """
 
     kind: ClassVar[str] = "trajectory"
-    fields = GivenByFile({
+    fields = FileKeys({
         "drag_coefficient": Quantity("dimensionless", minimum=0.0, doc="c_w, for k = ½ ρ c_w A"),
         "area": Quantity("area", above=0.0, doc="cross section A"),
         "density": Quantity("density", above=0.0, doc="density of the medium, air unless given"),
@@ -57,15 +57,15 @@ class Particle(Problem):
         "at": Quantity("angle", doc="angle of the input at which it lets go"),
         "ground": Quantity("length", doc="height of the ground in the mechanism's axes, 0 unless given"),
     })  # fmt: skip
-    speed: float | None = given(Quantity("velocity", minimum=0.0, doc="speed at the start"), None)
-    angle: float | None = given(Quantity("angle", doc="direction of the throw above the horizontal"), None)
-    height: float = given(
+    speed: float | None = file_key(Quantity("velocity", minimum=0.0, doc="speed at the start"), None)
+    angle: float | None = file_key(Quantity("angle", doc="direction of the throw above the horizontal"), None)
+    height: float = file_key(
         Quantity("length", minimum=0.0, doc="height of the start above the ground, 0 unless given"), 0.0
     )
-    mass: float = given(Quantity("mass", above=0.0, doc="mass, needed with drag"), 1.0)
-    linear: float = given(Quantity("damping", minimum=0.0, doc="linear drag b"), 0.0)
-    quadratic: float = given(Quantity("linear_density", minimum=0.0, doc="quadratic drag k"), 0.0)
-    gravity: float = given(Quantity("acceleration", above=0.0, doc="9.80665 m/s² unless given"), GRAVITY)
+    mass: float = file_key(Quantity("mass", above=0.0, doc="mass, needed with drag"), 1.0)
+    linear: float = file_key(Quantity("damping", minimum=0.0, doc="linear drag b"), 0.0)
+    quadratic: float = file_key(Quantity("linear_density", minimum=0.0, doc="quadratic drag k"), 0.0)
+    gravity: float = file_key(Quantity("acceleration", above=0.0, doc="9.80665 m/s² unless given"), GRAVITY)
     start: float = 0.0
     name: str = ""
     source: str = ""

@@ -17,7 +17,7 @@ from linkwright.core.quantity import number
 from linkwright.core.rows import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, QuantityError, RequestError, fault
-from linkwright.fields.base import Quantity, given
+from linkwright.fields.base import Quantity, file_key
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
@@ -62,9 +62,9 @@ class ExpressionLaw(MotionLaw):
 class LawOrExpression(LawField):
     """A motion law by its name or its table, or an expression of u."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         if isinstance(node, MappingNode):
-            return super().read(reader, node, place, given)
+            return super().read(reader, node, place, siblings)
         return reader.text(node, place)
 
 
@@ -76,12 +76,12 @@ class FollowerSpring(Problem):
     """
 
     kind: ClassVar[str] = "follower"
-    mass: float = given(Quantity("mass", above=0.0, doc="mass moved by the spring"))
-    stiffness: float = given(Quantity("stiffness", above=0.0, doc="stiffness between cam and mass"))
-    lift: float = given(Quantity("length", above=0.0, doc="lift of the rise"))
-    rise_time: float = given(Quantity("time", above=0.0, doc="time of the rise"))
-    law: MotionLaw | str = given(LawOrExpression(doc="a motion law, or an expression of u from 0 to 1"))
-    damping_ratio: float = given(
+    mass: float = file_key(Quantity("mass", above=0.0, doc="mass moved by the spring"))
+    stiffness: float = file_key(Quantity("stiffness", above=0.0, doc="stiffness between cam and mass"))
+    lift: float = file_key(Quantity("length", above=0.0, doc="lift of the rise"))
+    rise_time: float = file_key(Quantity("time", above=0.0, doc="time of the rise"))
+    law: MotionLaw | str = file_key(LawOrExpression(doc="a motion law, or an expression of u from 0 to 1"))
+    damping_ratio: float = file_key(
         Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ, 0 unless given"), 0.0
     )
     name: str = ""

@@ -9,15 +9,15 @@ from typing import ClassVar
 
 import numpy as np
 
+from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import STEPS
 from linkwright.core.quantity import number, shown
 from linkwright.core.rows import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, ModelError, fault
-from linkwright.fields.base import Quantities, Quantity, given
-from linkwright.fields.tables import Named, Table, Whole
+from linkwright.fields.base import Quantities, Quantity, file_key
+from linkwright.fields.tables import Integer, Named, Table
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
@@ -60,9 +60,9 @@ LARGEST = {
 class Mount:
     """A mount ``at`` a place of the frame, m, with its stiffnesses, N/m."""
 
-    at: tuple[float, float] = given(Quantities("length", ("x", "y"), doc="where it is", form="[0 m, 0 m]"))
-    stiffness_x: float = given(Quantity("stiffness", above=0.0, doc="stiffness along x"))
-    stiffness_y: float = given(Quantity("stiffness", above=0.0, doc="stiffness along y"))
+    at: tuple[float, float] = file_key(Quantities("length", ("x", "y"), doc="where it is", form="[0 m, 0 m]"))
+    stiffness_x: float = file_key(Quantity("stiffness", above=0.0, doc="stiffness along x"))
+    stiffness_y: float = file_key(Quantity("stiffness", above=0.0, doc="stiffness along y"))
 
 
 @dataclass(frozen=True)
@@ -75,26 +75,26 @@ class Mounts(OfMechanism):
     """
 
     kind: ClassVar[str] = "mounts"
-    mechanism: Mechanism = given(MECHANISM)
-    mass: float = given(Quantity("mass", above=0.0, doc="mass of the whole machine"))
-    stiffness_x: float | None = given(
+    mechanism: Mechanism = file_key(MECHANISM)
+    mass: float = file_key(Quantity("mass", above=0.0, doc="mass of the whole machine"))
+    stiffness_x: float | None = file_key(
         Quantity("stiffness", above=0.0, doc="of all mounts along x, where the machine does not rock"), None
     )
-    stiffness_y: float | None = given(
+    stiffness_y: float | None = file_key(
         Quantity("stiffness", above=0.0, doc="of all mounts along y, where the machine does not rock"), None
     )
-    damping_ratio: float = given(
+    damping_ratio: float = file_key(
         Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ, 0 unless given"), 0.0
     )
-    steps: int = given(Whole(8, doc="positions over the cycle, 360 unless given"), STEPS)
-    mounts: Mapping[str, Mount] = given(Named(
+    steps: int = file_key(Integer(8, doc="positions over the cycle, 360 unless given"), STEPS)
+    mounts: Mapping[str, Mount] = file_key(Named(
         Table.of(Mount), _("mount"),
         doc="every mount by name: {at: [0 m, 0 m], stiffness_x: 1 MN/m, stiffness_y: 2 MN/m}",
     ), dict)  # fmt: skip
-    inertia: float | None = given(
+    inertia: float | None = file_key(
         Quantity("inertia", above=0.0, doc="of the whole machine about its mass centre"), None
     )
-    mass_centre: tuple[float, float] | None = given(Quantities(
+    mass_centre: tuple[float, float] | None = file_key(Quantities(
         "length", ("x", "y"), doc="of the whole machine, in the axes of the frame", form="[0.4 m, 0.3 m]",
     ), None)  # fmt: skip
     name: str = ""

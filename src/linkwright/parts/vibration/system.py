@@ -18,7 +18,7 @@ from linkwright.core.rows import Block, Row
 from linkwright.equations.matrix import named_matrix
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError, fault
-from linkwright.fields.base import GivenByFile, Quantity, Text, given
+from linkwright.fields.base import FileKeys, Quantity, Text, file_key
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Listed, Named, Table
@@ -97,8 +97,8 @@ START = {
 class MassesField(Named):
     """Masses by name; moments of inertia among them, as files had them before, are a warning."""
 
-    def read(self, reader: Reader, node: Node, place: Place, given: Mapping[str, Any]) -> Any:
-        found = super().read(reader, node, place, given)
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
+        found = super().read(reader, node, place, siblings)
         if any(each is not None and each[1] == DIMENSIONS["inertia"] for each in (found or {}).values()):
             reader.old_key(node, place, "masses", "inertias")
         return found
@@ -112,7 +112,7 @@ class VibratingSystem(Problem):
     """
 
     kind: ClassVar[str] = "vibration"
-    fields = GivenByFile({
+    fields = FileKeys({
         "absorber": Table({
             "on": Text(required=True, doc="the mass that is to be quieted"),
             "mass": Quantity("mass", required=True, above=0.0, doc="mass of the absorber"),
@@ -120,22 +120,22 @@ class VibratingSystem(Problem):
         "inertias": Named(AnyQuantity(("inertia",)), _("disc"), doc="discs on shafts, in place of masses: moments of "
                           "inertia (kg·m²) by name"),
     })  # fmt: skip
-    masses: Mapping[str, float] = given(
+    masses: Mapping[str, float] = file_key(
         MassesField(AnyQuantity(either("mass")), _("mass"), doc="masses (kg) by name"), dict
     )
-    springs: Mapping[str, Tie] = given(
+    springs: Mapping[str, Tie] = file_key(
         Named(SPRING, _("spring"), doc="springs by name: {between: [ground, body], stiffness: 20 kN/m}"), dict
     )
-    dampers: Mapping[str, Tie] = given(
+    dampers: Mapping[str, Tie] = file_key(
         Named(DAMPER, _("damper"), doc="dampers by name: {between: [ground, body], damping: 300 N·s/m}"), dict
     )
-    excitation: Excitation | None = given(
+    excitation: Excitation | None = file_key(
         Table(EXCITATION, doc="what shakes it: force, unbalance, base or table"), None
     )
-    start: Mapping[str, Start] = given(
+    start: Mapping[str, Start] = file_key(
         Named(Table(START), _("mass"), doc="start of the free vibration by mass"), dict
     )
-    duration: float | None = given(
+    duration: float | None = file_key(
         Quantity("time", above=0.0, doc="how long responses in time are shown"), None
     )
     turning: bool = False

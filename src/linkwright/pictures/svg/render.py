@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.filesystem import atomic_write
 from linkwright.pictures.svg.fonts import (
     check_fonts,
     chinese_file,
@@ -19,7 +20,6 @@ from linkwright.pictures.svg.fonts import (
     needs_chinese,
     system_fonts,
 )
-from linkwright.whole_files import write_whole
 from linkwright.words import _
 
 Paths = Sequence[str | Path]
@@ -129,11 +129,11 @@ def save_picture(svg: str, path: str | Path, *, force: bool, **options: Any) -> 
     """Write a picture; the suffix of ``path`` says which kind: svg, png or pdf."""
     suffix = Path(path).suffix.lower()
     if suffix == ".svg":
-        return write_whole(path, svg.encode(), force=force)
+        return atomic_write(path, svg.encode(), force=force)
     if suffix == ".png":
-        return write_whole(path, png(svg, **options), force=force)
+        return atomic_write(path, png(svg, **options), force=force)
     if suffix == ".pdf":
-        return write_whole(path, pdf(svg, **options), force=force)
+        return atomic_write(path, pdf(svg, **options), force=force)
     raise RequestError(
         _(
             '{path}: the suffix "{suffix}" is no kind of picture; use .svg, .png or .pdf',

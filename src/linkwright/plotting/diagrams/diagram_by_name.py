@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias, cast
 
+from linkwright.core.arguments import real, require
 from linkwright.core.attached import Plotted
-from linkwright.core.given import real, require
 from linkwright.errors import RequestError, about, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces

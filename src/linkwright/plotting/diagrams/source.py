@@ -10,8 +10,8 @@ from typing import Any, Literal, TypeAlias, TypeVar, cast
 import numpy as np
 
 from linkwright.analysis.analysis import Analysis, Kind
+from linkwright.core.arguments import CURVE_STEPS
 from linkwright.core.arrays import Floats
-from linkwright.core.given import CURVE_STEPS
 from linkwright.core.outputs import RESIDUALS, Output
 from linkwright.cycle.summary import SummaryValue
 from linkwright.errors import LinkwrightError, RequestError

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.core.given import DRAWING_STEPS, one_or_more, real, require, whole
+from linkwright.core.arguments import DRAWING_STEPS, integer, one_or_more, real, require
 from linkwright.errors import LinkwrightError, RequestError, require_language
 from linkwright.events.limit_positions import limits_of
 from linkwright.kinematics.motion import Motion
@@ -247,7 +247,7 @@ def _shown(motion: Motion, position: int | None, at: At | None, time: float | No
 
 
 def _index(motion: Motion, position: int) -> int:
-    position = whole("position", position)
+    position = integer("position", position)
     if not -motion.steps <= position < motion.steps:
         raise RequestError(
             _(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from linkwright.core.arguments import CURVE_STEPS
 from linkwright.core.arrays import Floats, largest
-from linkwright.core.given import CURVE_STEPS
 from linkwright.machine.balancing import Balancing
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.pictures.diagram import COLOURS, INK, Axes, Figure, new_figure

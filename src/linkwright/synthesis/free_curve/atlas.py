@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.core.arrays import Complexes, Floats, Indices, Whole
+from linkwright.core.arrays import Complexes, Floats, Indices, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.formula.cache import folder
 from linkwright.formula.threads import cores, spread_over
@@ -67,7 +67,7 @@ EDITION = 5
 class Atlas:
     """Curves (N, M, 2) as bytes with their linkages: structure and row of ``x`` of each."""
 
-    structures: tuple[Whole, ...]
+    structures: tuple[Integers, ...]
     x: tuple[Floats, ...]
     which: NDArray[np.int32]
     curves: NDArray[np.int8]
@@ -253,16 +253,16 @@ def make(level: int) -> Atlas:
     )
 
 
-def _structures(dyads: int, joints: int, slides: int, count: int, draw: Draw) -> list[Whole]:
+def _structures(dyads: int, joints: int, slides: int, count: int, draw: Draw) -> list[Integers]:
     """So many different structures."""
-    found: dict[bytes, Whole] = {}
+    found: dict[bytes, Integers] = {}
     while len(found) < count:
         nodes = random_structure(dyads, joints, draw, slides=slides)
         found.setdefault(nodes.tobytes(), nodes)
     return list(found.values())
 
 
-def _draws(nodes: Whole, draws: int, draw: np.random.Generator) -> tuple[Floats, NDArray[np.int8]]:
+def _draws(nodes: Integers, draws: int, draw: np.random.Generator) -> tuple[Floats, NDArray[np.int8]]:
     """Linkages of one structure that turn fully, and their curves."""
     joints = len(nodes) // 4
     size = 2 * (joints - 2)

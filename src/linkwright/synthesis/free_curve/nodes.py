@@ -10,7 +10,7 @@ from functools import cache
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Floats, Whole
+from linkwright.core.arrays import Complexes, Floats, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.formula.kernel import Kernels
 from linkwright.synthesis.free_curve.curve_similarity import LIKENESS
@@ -56,7 +56,7 @@ class Design:
         misses: where its curve misses the target (unit vector), once it was examined.
     """
 
-    nodes: Whole
+    nodes: Integers
     x: Floats
     mirror: bool
     value: float = FAR
@@ -86,12 +86,12 @@ def kernels() -> Kernels:
     )
 
 
-def flat(rows: list[Node]) -> Whole:
+def flat(rows: list[Node]) -> Integers:
     """Nodes as one array."""
     return np.array(rows, dtype=np.int64).ravel()
 
 
-def node_paths(nodes: Whole, x: Floats, crank: Floats) -> tuple[Complexes, float]:
+def node_paths(nodes: Integers, x: Floats, crank: Floats) -> tuple[Complexes, float]:
     """Positions (joints, n) of all nodes at crank angles (n,), and the least sin² of a transmission angle.
 
     A dyad that does not close gives a negative number and its point on the line of its ends.
@@ -129,7 +129,7 @@ def node_paths(nodes: Whole, x: Floats, crank: Floats) -> tuple[Complexes, float
     return paths, least
 
 
-def turned_paths(nodes: Whole, x: Floats, count: int, turning: bool = True) -> Complexes | None:
+def turned_paths(nodes: Integers, x: Floats, count: int, turning: bool = True) -> Complexes | None:
     """Positions (joints, count) of all nodes over a turn in even steps from 0; None where a dyad does not close.
 
     ``count``: a multiple of 8; without ``turning`` over the crank's range in x. Fast, and without the care of
@@ -164,7 +164,7 @@ def carriers(rows: list[Node], node: int) -> set[tuple[int, int]]:
     return {pair for pair in links_of(rows) if node in pair}
 
 
-def random_structure(dyads: int, most: int, draw: Draw, slides: int = 0) -> Whole:
+def random_structure(dyads: int, most: int, draw: Draw, slides: int = 0) -> Integers:
     """A four-bar with random further dyads on it, at most ``most`` nodes, the last one draws, none idle.
 
     ``slides`` 1: a slider-crank or a crank with a swinging block instead, of one dyad.

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Whole
+from linkwright.core.arrays import Floats, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress
 from linkwright.designs.cluster import current, hands, in_turn
@@ -135,7 +135,7 @@ class Pool:
         return self.designs[min(int(draw.exponential(6)), len(self.designs) - 1)]
 
 
-def _bare(designs: list[Design]) -> list[tuple[Whole, Floats, bool, float]]:
+def _bare(designs: list[Design]) -> list[tuple[Integers, Floats, bool, float]]:
     """Designs as they are kept: without what is found again at once."""
     return [(each.nodes, each.x, each.mirror, each.value) for each in designs]
 

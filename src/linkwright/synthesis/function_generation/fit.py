@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Whole
+from linkwright.core.arrays import Flags, Floats, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress
 from linkwright.synthesis.function_generation.generators import Generator, TurningFourBar
@@ -138,7 +138,7 @@ def fit(
     best = np.argsort(np.einsum("ki,ki->k", first, first))[:KEPT]
     x, signs = x[best], signs[best]
 
-    def residual(part: Floats, who: Whole) -> Floats:
+    def residual(part: Floats, who: Integers) -> Floats:
         values = x[who].copy()
         values[:, free] = part
         return residual_of(values, signs[who])

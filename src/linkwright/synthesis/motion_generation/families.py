@@ -16,7 +16,7 @@ from itertools import combinations
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Flags, Floats, Whole
+from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.least_squares import minimise
 from linkwright.synthesis.motion_generation.burmester import (
@@ -196,7 +196,7 @@ def fitted(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Dyads, 
     z, c = _fit_starts(p, phi, rng)
     z = np.clip(z.real, -50 * size, 50 * size) + 1j * np.clip(z.imag, -50 * size, 50 * size)
 
-    def system(x: Floats, who: Whole) -> tuple[Floats, Floats]:
+    def system(x: Floats, who: Integers) -> tuple[Floats, Floats]:
         point, centre = x[:, 0] + 1j * x[:, 1], x[:, 2] + 1j * x[:, 3]
         off = point[:, None] + moved(point, d, e) - centre[:, None]
         distance = np.abs(off) + 1e-300
@@ -232,7 +232,7 @@ def _fit_starts(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Co
     return body[good] + 0j, (c + p[first] - p[0])[good]
 
 
-def _different(x: Complexes, size: float) -> Whole:
+def _different(x: Complexes, size: float) -> Integers:
     """Rows that differ from every row before them."""
     kept: list[int] = []
     for i in range(len(x)):

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkwright.core.arrays import Complexes, Flags, Floats, Whole
+from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import Assessment, assess_four_bars, assess_slider_cranks
 from linkwright.synthesis.build import (
@@ -451,7 +451,7 @@ def _pairs(
     first, second = (each.ravel() for each in np.meshgrid(pins, np.arange(len(found)), indexing="ij"))
     apart = np.abs(found.point[first] - found.point[second]) > 1e-6 * _scale(p)
     first, second = first[apart], second[apart]
-    rows: list[tuple[Assessment, Whole, Whole]] = []
+    rows: list[tuple[Assessment, Integers, Integers]] = []
     for slider in (False, True):
         use = found.slides[second] == slider
         if use.any():
@@ -482,7 +482,7 @@ def _best(facts: Assessment, error: Floats, p: Complexes, link_ratio: float, cou
     return [int(k) for k in order[: 30 * count]]
 
 
-def _assess(found: Dyads, first: Whole, second: Whole, slider: bool) -> Assessment:
+def _assess(found: Dyads, first: Integers, second: Integers, slider: bool) -> Assessment:
     o1, a, b = found.centre[first], found.positions[first], found.positions[second]
     if not slider:
         return assess_four_bars(o1, a, b, found.centre[second])

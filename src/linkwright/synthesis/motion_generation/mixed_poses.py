@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Floats, Whole
+from linkwright.core.arrays import Complexes, Floats, Integers
 from linkwright.synthesis.least_squares import minimise, with_differences
 from linkwright.synthesis.motion_generation.burmester import Dyads
 from linkwright.synthesis.motion_generation.finite_solutions import KNOWN, all_four_bars, real_ones
@@ -62,7 +62,9 @@ def counted_solutions(p: Complexes, phi: Floats) -> tuple[list[Solution], int, i
     )
 
 
-def _solution(u: Complexes, g: Complexes, p: Complexes, order: Whole, base: float, scale: float) -> Solution:
+def _solution(
+    u: Complexes, g: Complexes, p: Complexes, order: Integers, base: float, scale: float
+) -> Solution:
     """A solution in the order of the places as they were given."""
     angles = np.empty(len(p))
     angles[order] = base + np.concatenate([[0.0], np.angle(1 + g)])
@@ -89,11 +91,11 @@ def mixed_solutions(p: Complexes, phi: Floats) -> list[Solution]:
     return found
 
 
-def _optima(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Floats, Floats, Whole]:
+def _optima(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Floats, Floats, Integers]:
     free = int(np.isnan(phi).sum())
     start = np.column_stack([rng.normal(0, 1.5, (STARTS, 8)), _free_angles(p, phi, rng, free)])
 
-    def residual(x: Floats, _: Whole) -> Floats:
+    def residual(x: Floats, _: Integers) -> Floats:
         turn = np.exp(1j * _angles(x, phi))
         off = []
         for k in (0, 2):

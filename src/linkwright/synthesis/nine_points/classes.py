@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Flags, Whole
+from linkwright.core.arrays import Complexes, Flags, Integers
 
 CLASSES = 1442
 #: Constants of the key that tells classes apart: any general complex numbers do.
@@ -71,7 +71,7 @@ def class_keys(u: Complexes) -> Complexes:
     return key
 
 
-def new_classes(u: Complexes, known: Complexes) -> Whole:
+def new_classes(u: Complexes, known: Complexes) -> Integers:
     """Rows of u whose class is neither among the ``known`` keys nor earlier in u."""
     return np.flatnonzero(~repeated(np.concatenate([known, class_keys(u)]), SAME)[len(known) :])
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Flags, Whole
+from linkwright.core.arrays import Complexes, Flags, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.nine_points.classes import (
     CLASSES,
@@ -82,7 +82,7 @@ def _completed(found: Complexes, solutions: Complexes, arrived: Flags, q: Comple
     return found, extra
 
 
-def _doubtful(solutions: Complexes, arrived: Flags) -> Whole:
+def _doubtful(solutions: Complexes, arrived: Flags) -> Integers:
     """Starts whose path was lost, and both of every pair with the same end."""
     good = np.flatnonzero(arrived)
     keys = class_keys(solutions[good])

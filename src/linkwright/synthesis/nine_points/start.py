@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Whole
+from linkwright.core.arrays import Complexes, Integers
 from linkwright.synthesis.nine_points.classes import CLASSES, class_keys, new_classes
 from linkwright.synthesis.nine_points.tracker import track
 
@@ -67,7 +67,7 @@ def _made_up(rng: np.random.Generator) -> tuple[Complexes, Complexes]:
     return np.stack(displacements(z, g, rng.choice([-1, 1], 8))), np.concatenate([z, g])[None]
 
 
-def displacements(z: Complexes, g: Complexes, sign: Whole) -> tuple[Complexes, Complexes]:
+def displacements(z: Complexes, g: Complexes, sign: Integers) -> tuple[Complexes, Complexes]:
     """Displacement and partner (d, e) at which the four-bar z (8,) has the coupler rotations 1 + g.
 
     Each dyad gives d e + l d + m e + c = 0; their difference is a line, the other intersection a square root.

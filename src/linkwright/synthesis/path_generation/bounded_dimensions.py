@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Floats, Whole
+from linkwright.core.arrays import Complexes, Floats, Integers
 from linkwright.synthesis.crank_family import couplers
 from linkwright.synthesis.least_squares import minimise, with_differences
 from linkwright.synthesis.path_generation.projection import ProjectedPaths
@@ -35,7 +35,7 @@ class BoundedPaths:
         self.inner = 3 + (int(demand.phase) if demand.timed else int(demand.same.max()) + 1)
         self.placed, self.turned = demand.pivot is None, demand.direction is None
 
-    def solve(self, free: Floats) -> tuple[Floats, Whole, Linear]:
+    def solve(self, free: Floats) -> tuple[Floats, Integers, Linear]:
         """Iterated solutions from the starts of the projection: ratios and angles, start numbers, z α β."""
         free_timing = int(not self.paths.demand.timed)
         near, _, rows = minimise(
@@ -46,7 +46,7 @@ class BoundedPaths:
         found = self.finished(found, rows)
         return found[:, : self.inner], rows, self.linear(found, rows)
 
-    def finished(self, found: Floats, rows: Whole) -> Floats:
+    def finished(self, found: Floats, rows: Integers) -> Floats:
         """Measures, the best of them carried to the end along their active bounds."""
         found = found.copy()
         best = _different(np.column_stack([found[:, :3], found[:, self.inner :]]))
@@ -67,17 +67,17 @@ class BoundedPaths:
         angle = [np.angle(alpha)] if self.turned else []
         return np.column_stack([free, *(each / self.bound for each in columns), *angle])
 
-    def _iterated(self, free: Floats, rows: Whole, steps: int) -> tuple[Floats, Whole]:
+    def _iterated(self, free: Floats, rows: Integers, steps: int) -> tuple[Floats, Integers]:
         """Measures of starts iterated within the bounds, and their numbers."""
 
-        def residual(q: Floats, chosen: Whole) -> Floats:
+        def residual(q: Floats, chosen: Integers) -> Floats:
             return self.residual(self.measures(q, rows[chosen]), rows[chosen])
 
         system = with_differences(residual)
         q, _, chosen = minimise(system, self.start(free, rows), keep=16, steps=steps, halve=30)
         return self.measures(q, rows[chosen]), rows[chosen]
 
-    def penalised(self, free: Floats, who: Whole) -> Floats:
+    def penalised(self, free: Floats, who: Integers) -> Floats:
         """Residuals of the projection (K, 2n), and how far lengths and coordinates lie beyond the bound (K, 5)."""
         residual, z, alpha, beta = self.paths.fit(free, who)
         crank = np.abs(alpha) + 1e-300
@@ -87,7 +87,7 @@ class BoundedPaths:
         beyond = np.log(np.maximum(sizes, 1.0))
         return np.concatenate([residual, self.paths.demand.size * beyond], 1)
 
-    def start(self, free: Floats, who: Whole) -> Floats:
+    def start(self, free: Floats, who: Integers) -> Floats:
         """Parameters q (K, m) of starts of the projection, moved into the bounds."""
         _, z, alpha, beta = self.paths.fit(free, who)
         frame = alpha / np.maximum(np.abs(alpha), 1e-300)
@@ -98,7 +98,7 @@ class BoundedPaths:
             columns += [_inverse(z.real / self.bound), _inverse(z.imag / self.bound)]
         return np.column_stack([free, *columns, *([np.angle(frame)] if self.turned else [])])
 
-    def measures(self, q: Floats, who: Whole) -> Floats:
+    def measures(self, q: Floats, who: Integers) -> Floats:
         """The measures of parameters q, (K, m)."""
         found = q.copy()
         last = q.shape[1] - int(self.turned)
@@ -106,7 +106,7 @@ class BoundedPaths:
         found[:, self.inner] = found[:, self.inner] ** 2 * self._longest(q, who)
         return found
 
-    def linear(self, measures: Floats, who: Whole) -> Linear:
+    def linear(self, measures: Floats, who: Integers) -> Linear:
         """z, α, β (K,), m."""
         rest = measures[:, self.inner :]
         sign = np.where(self.paths.mirrored[who], -1.0, 1.0)
@@ -115,7 +115,7 @@ class BoundedPaths:
         z = self.bound * (rest[:, 3] + 1j * rest[:, 4]) if self.placed else 0j * frame
         return np.asarray(z), rest[:, 0] * frame, (rest[:, 1] + 1j * rest[:, 2]) * frame
 
-    def residual(self, measures: Floats, who: Whole) -> Floats:
+    def residual(self, measures: Floats, who: Integers) -> Floats:
         """Deviations (K, 2n), m."""
         shape = self.paths.family.chosen(who).lengths(measures)
         a, u = couplers(self.paths.theta(measures[:, : self.inner], who), shape)
@@ -153,7 +153,7 @@ class BoundedPaths:
         inside = np.isfinite(done.x).all() and float(room(done.x).min()) > -1e-9
         return np.asarray(done.x) if inside and done.fun < value(measures)[0] else measures
 
-    def _longest(self, free: Floats, who: Whole) -> Floats:
+    def _longest(self, free: Floats, who: Integers) -> Floats:
         """The crank's length, in units of the bound, at which the longest link reaches the bound, (K,)."""
         return np.asarray(1.0 / np.maximum(1.0, self.paths.family.chosen(who).lengths(free).max(0)))
 

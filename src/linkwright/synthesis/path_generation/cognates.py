@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.given import require
+from linkwright.core.arguments import require
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.linkage import Linkage

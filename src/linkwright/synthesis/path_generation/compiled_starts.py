@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Flags, Floats, Whole
+from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.designs.finished_parts import once
 from linkwright.formula.threads import cores, spread_over
@@ -118,7 +118,7 @@ class CompiledPaths:
         key = name, further, way, given, self.starts
         return self.of_starts(once(lambda: self._computed(name, further, way, given), lambda: key))
 
-    def _computed(self, name: str, further: tuple[float, ...], way: Whole, given: Floats) -> Floats:
+    def _computed(self, name: str, further: tuple[float, ...], way: Integers, given: Floats) -> Floats:
         starts = self.starts.copy()
         size = 8 * starts.shape[1]
 
@@ -131,7 +131,7 @@ class CompiledPaths:
         spread_over(len(starts), share, cores(), work)
         return starts
 
-    def _way(self) -> Whole:
+    def _way(self) -> Integers:
         demand = self.demand
         placed, turned = demand.pivot is None, demand.direction is None
         phase = demand.timed and demand.phase

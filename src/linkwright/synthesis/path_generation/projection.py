@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Flags, Floats, Whole
+from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.crank_family import CrankFamily, coupler_rates, couplers
 
@@ -33,7 +33,7 @@ class Demand:
     direction: float | None = None
 
     @property
-    def same(self) -> Whole:
+    def same(self) -> Integers:
         """Number of the crank angle of each point; a last point equal to the first is the first again."""
         numbers = np.arange(len(self.points))
         if self.closed:
@@ -68,7 +68,7 @@ class ProjectedPaths:
     def __init__(self, demand: Demand, family: CrankFamily, mirrored: Flags) -> None:
         self.demand, self.family, self.mirrored = demand, family, mirrored
 
-    def theta(self, free: Floats, who: Whole) -> Floats:
+    def theta(self, free: Floats, who: Integers) -> Floats:
         """Crank angles (K, n); of mirrored starts in the mirrored plane."""
         if not self.demand.timed:
             return free[:, 3:][:, self.demand.same]
@@ -76,12 +76,12 @@ class ProjectedPaths:
         sign = np.where(self.mirrored[who], -1.0, 1.0)[:, None]
         return np.asarray(sign * self.demand.angles + shift)
 
-    def target(self, who: Whole) -> Complexes:
+    def target(self, who: Integers) -> Complexes:
         """Points (K, n), mirrored where the start is; less the given pivot."""
         z = self.demand.points - (self.demand.pivot or 0.0)
         return np.where(self.mirrored[who][:, None], z.conj(), z)
 
-    def columns(self, a: Complexes, u: Complexes, who: Whole) -> Floats:
+    def columns(self, a: Complexes, u: Complexes, who: Integers) -> Floats:
         """The real columns (K, 2n, L) of the linear numbers."""
         one = np.ones_like(a)
         parts = [] if self.demand.pivot is not None else [one, 1j * one]
@@ -91,14 +91,14 @@ class ProjectedPaths:
         stacked = np.stack(parts, 2)
         return np.concatenate([stacked.real, stacked.imag], 1)
 
-    def _turn(self, who: Whole) -> Complexes | None:
+    def _turn(self, who: Integers) -> Complexes | None:
         """Unit vector of the given frame direction, (K, 1), in the mirrored plane where the start is."""
         if self.demand.direction is None:
             return None
         sign = np.where(self.mirrored[who], -1.0, 1.0)
         return np.asarray(np.exp(1j * sign * self.demand.direction)[:, None])
 
-    def linear(self, coefficients: Floats, who: Whole) -> tuple[Complexes, Complexes, Complexes]:
+    def linear(self, coefficients: Floats, who: Integers) -> tuple[Complexes, Complexes, Complexes]:
         """z, α, β (K,) from the coefficients (K, L) of the columns."""
         rest = coefficients
         z = np.zeros(len(rest), complex)
@@ -111,7 +111,7 @@ class ProjectedPaths:
             alpha, rest = rest[:, 0] * turn[:, 0], rest[:, 1:]
         return z, alpha, rest[:, 0] + 1j * rest[:, 1]
 
-    def fit(self, free: Floats, who: Whole) -> tuple[Floats, Complexes, Complexes, Complexes]:
+    def fit(self, free: Floats, who: Integers) -> tuple[Floats, Complexes, Complexes, Complexes]:
         """Residuals (K, 2n) and z, α, β (K,), by Householder."""
         a, u = couplers(self.theta(free, who), self.family.chosen(who).lengths(free))
         y = self.target(who)
@@ -121,7 +121,7 @@ class ProjectedPaths:
         residual = (stacked - q @ projected)[:, :, 0]
         return residual, *self.linear(_back(r, projected)[:, :, 0], who)
 
-    def __call__(self, free: Floats, who: Whole) -> tuple[Floats, Floats]:
+    def __call__(self, free: Floats, who: Integers) -> tuple[Floats, Floats]:
         """Residuals (K, 2n) and their Jacobian (K, 2n, m)."""
         family = self.family.chosen(who)
         shape = family.lengths(free)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Flags, Floats, Whole
+from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.formula.machine_code import available
 from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.least_squares import minimise
@@ -41,7 +41,7 @@ class Found(NamedTuple):
 
     paths: ProjectedPaths
     free: Floats
-    who: Whole
+    who: Integers
     linear: tuple[Complexes, Complexes, Complexes]
 
 

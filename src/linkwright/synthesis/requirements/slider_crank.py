@@ -13,8 +13,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from linkwright.core.arguments import real
 from linkwright.core.dataclass import dataclass
-from linkwright.core.given import real
 from linkwright.core.quantity import number
 from linkwright.synthesis.assessment import assess_slider_cranks
 from linkwright.synthesis.build import candidate, slider_crank

@@ -1,4 +1,4 @@
-"""Files are written whole or not at all."""
+"""Writing of files and folders: atomic, with a reason where it fails."""
 
 from __future__ import annotations
 
@@ -82,10 +82,10 @@ def make_folder(path: str | Path) -> Path:
     return target
 
 
-def write_whole(
+def atomic_write(
     path: str | Path, content: bytes, *, force: bool = True, remedy: str = "force=True", private: bool = False
 ) -> Path:
-    """Write ``content`` beside ``path`` and move it there in one step; nothing is left behind on failure.
+    """Write ``content`` to a temporary file next to ``path`` and rename it; a failure leaves nothing.
 
     A symbolic link stays, and the file that it leads to is replaced; what is no file (a device, a pipe) is written
     to directly. A new file gets the usual permissions, an old one keeps its own; ``private``: only this user may read
@@ -111,7 +111,7 @@ def write_new(paths: Iterable[Path], content: bytes) -> Path:
     """Write to the first of the paths where no file is; raises RequestError where it cannot be written."""
     for path in paths:
         try:
-            return write_whole(path, content, force=False)
+            return atomic_write(path, content, force=False)
         except RequestError:
             if not path.exists():
                 raise
@@ -122,7 +122,7 @@ def write_new(paths: Iterable[Path], content: bytes) -> Path:
 def alone(path: Path) -> Iterator[None]:
     """Within it no other process and no other thread is within it for the same file, which is made and stays.
 
-    Where the file system knows no locks, processes are not kept apart.
+    Where the file system has no locks, processes are not separated.
     """
     try:
         stream = path.open("ab")
@@ -150,20 +150,20 @@ def _replace(target: Path, content: bytes, force: bool, mode: int) -> None:
     """Unless ``force`` the name is taken first, so that one of two writers is refused."""
     import secrets
 
-    beside = target.parent / f".linkwright-{secrets.token_hex(8)}"
-    left = [beside]
+    temporary = target.parent / f".linkwright-{secrets.token_hex(8)}"
+    created = [temporary]
     try:
-        with os.fdopen(_made(beside, mode), "wb") as stream:
+        with os.fdopen(_made(temporary, mode), "wb") as stream:
             stream.write(content)
         if not force:
             os.close(_made(target, mode))
-            left.append(target)
+            created.append(target)
         elif mode == _USUAL:
             with suppress(FileNotFoundError):
-                os.chmod(beside, target.stat().st_mode & 0o777)
-        os.replace(beside, target)
+                os.chmod(temporary, target.stat().st_mode & 0o777)
+        os.replace(temporary, target)
     except BaseException:
-        for each in left:
+        for each in created:
             with suppress(OSError):
                 os.unlink(each)
         raise

@@ -9,7 +9,7 @@ from pathlib import Path
 from tests.at_once import at_once
 
 from linkwright.errors import RequestError
-from linkwright.whole_files import alone, write_new, write_whole
+from linkwright.filesystem import alone, atomic_write, write_new
 
 ROUNDS, HANDS = 25, 4
 
@@ -18,7 +18,7 @@ def test_of_writers_that_may_not_replace_one_writes(tmp_path: Path) -> None:
     for k in range(ROUNDS):
         path = tmp_path / f"{k}.csv"
         found = at_once(
-            *(lambda h=hand, p=path: write_whole(p, b"%d" % h, force=False) for hand in range(HANDS))
+            *(lambda h=hand, p=path: atomic_write(p, b"%d" % h, force=False) for hand in range(HANDS))
         )
         (won,) = (place for place, each in enumerate(found) if isinstance(each, Path))
         assert path.read_bytes() == b"%d" % won
@@ -33,7 +33,7 @@ def test_of_writers_that_may_not_replace_one_writes(tmp_path: Path) -> None:
 COUNTS = """
 import sys
 from pathlib import Path
-from linkwright.whole_files import alone
+from linkwright.filesystem import alone
 path, times = Path(sys.argv[1]), int(sys.argv[2])
 for _ in range(times):
     with alone(path.with_suffix(".lock")):
