@@ -47,7 +47,7 @@ def crank_rocker(names: Namespace) -> None:
 
 
 def crusher(names: Namespace) -> None:
-    """Torque and pivot force of an independent solution, as in the gallery's file; the force peaks at the jaw's limit."""
+    """Torque and pivot force of an independent solution (the gallery's file); the peak is at the limit of the jaw."""
     turned = list(np.degrees(names["motion"].input).round())
     for angle, force, torque in (
         (-45, (-1372.3245, 10669.420), 1547.7604),
