@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
-from linkwright.core.dataclass import dataclass
 from linkwright.words import LANGUAGES, Message, Say, _, say
 from linkwright.words.sentence import code_of, in_language, values_of
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, cast
 
 from linkwright.core.arguments import STEPS
 from linkwright.core.attached import SECTIONS
-from linkwright.core.dataclass import dataclass
 from linkwright.core.entry_points import loaded
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.fields.nodes import Mapping as MappingNode

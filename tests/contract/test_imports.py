@@ -66,7 +66,6 @@ KNOWN_TO_FORMULAS = (
     "linkwright.errors",
     "linkwright.words",
     "linkwright.core.arrays",
-    "linkwright.core.dataclass",
     "linkwright.core.spline",
 )
 FORMULA = [module for module in MODULES if package_of(module) == "formula"]
@@ -153,17 +152,6 @@ def test_no_files_import_each_other_in_a_circle() -> None:
 def test_engine_knows_no_mechanism(module: Path) -> None:
     own = [name for _, name in imports_of(module) if name.startswith("linkwright.")]
     assert all(name.startswith(KNOWN_TO_FORMULAS) for name in own), own
-
-
-def test_dataclasses_are_those_that_start_at_once() -> None:
-    """``core/dataclass.py`` says why; with the standard decorator every class costs half a millisecond at start."""
-    users = (module for module in MODULES if module.as_posix() != "core/dataclass.py")
-    found = {
-        str(module)
-        for module in every(users)
-        if "dataclasses.dataclass" in {each for _, each in imports_of(module)}
-    }
-    assert found == set()
 
 
 @pytest.mark.parametrize("package", sorted({package_of(module) for module in ANALYSIS}))

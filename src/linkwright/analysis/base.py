@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from math import isinf, isnan
 from types import MappingProxyType
 from typing import Any, ClassVar, Literal
@@ -12,7 +12,6 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from linkwright.analysis.analysis import Analysis, Result
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import shown, shown_unit
 from linkwright.core.table import Amount, Cell

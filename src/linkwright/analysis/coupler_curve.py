@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import partial
 from operator import mul
 
@@ -14,7 +14,6 @@ from linkwright.analysis.base import METRICS, Metric, MetricValue, Number, Remar
 from linkwright.analysis.outputs import coupler_points
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
-from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross, crossings
 from linkwright.core.quantity import shown
 from linkwright.core.search import lowest

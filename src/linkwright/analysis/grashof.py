@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from functools import reduce
 from itertools import combinations
 from math import hypot
 
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Metric, MetricValue, Number, Remark
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
 from linkwright.formula.trace import Scalar, maximum, minimum

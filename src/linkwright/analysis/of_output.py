@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import ClassVar
 
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import Better, Metric, Number
 from linkwright.analysis.flywheel import SIZED
 from linkwright.analysis.outputs import turns_fully
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.cycle.summary import Summary
 from linkwright.kinematics.names import find_point

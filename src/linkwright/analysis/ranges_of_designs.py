@@ -7,6 +7,7 @@ machine itself find those of its designs, and the implicit function theorem thei
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 
@@ -16,7 +17,6 @@ from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.by_name import chosen_subjects, metric_of
 from linkwright.analysis.of_designs import MetricsOfDesigns
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.curves.pieces import HIGH, LOW
 from linkwright.cycle.machine import Traces
 from linkwright.events.course import Course, moves

@@ -9,11 +9,11 @@ by what is of second order in them (envelope theorem).
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import area, cross, hull_corners
 from linkwright.curves.polynomials import PLACES, POINTS, TO_SLOPE, weights_at
 

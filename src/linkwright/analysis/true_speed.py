@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import ClassVar
 
 from linkwright.analysis.analysis import Analysis, finds
-from linkwright.core.dataclass import dataclass
 from linkwright.cycle.summary import Summary, SummaryValue
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.equivalent import Equivalent, equivalent

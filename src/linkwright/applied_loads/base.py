@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.applied_loads.keys import magnitude_fields
@@ -24,7 +25,6 @@ from linkwright.applied_loads.magnitude import Magnitude
 from linkwright.applied_loads.signals import Signals
 from linkwright.applied_loads.site import Mechanism, Site, Wrench
 from linkwright.applied_loads.sizes import OverCycle, Ramp
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.fields.base import (
     REQUIRED,

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from linkwright.applied_loads import base
 from linkwright.applied_loads.base import LOADS, LinkPoint, Load
 from linkwright.applied_loads.site import Site, Wrench
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.trace import select
 from linkwright.formula.vector import choose
 from linkwright.words import _

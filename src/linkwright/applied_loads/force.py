@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import ClassVar
 
 from linkwright.applied_loads import base
 from linkwright.applied_loads.base import LOADS, Load, Magnitude, Output
 from linkwright.applied_loads.site import Mechanism, Site, Wrench
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.formula.vector import Vec
 from linkwright.words import _

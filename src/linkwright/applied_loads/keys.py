@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from linkwright.applied_loads.phases import InputPhase, MovingPhase, Phase, SwingPhase
 from linkwright.applied_loads.sizes import Constant, Formula, Ramp, Table
 from linkwright.applied_loads.strokes import Amount, PartWord, StrokePart
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output
 from linkwright.fields.base import (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from linkwright.applied_loads.phases import Always, InputPhase, MovingPhase, Phase, SwingPhase
@@ -10,7 +11,6 @@ from linkwright.applied_loads.signals import Course
 from linkwright.applied_loads.site import Mechanism
 from linkwright.applied_loads.sizes import Constant, One, OverCycle, Size, Twist
 from linkwright.applied_loads.strokes import NEAR, TURN
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.formula.trace import Scalar, select
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from linkwright.applied_loads.base import Load
@@ -10,7 +11,6 @@ from linkwright.applied_loads.signals import BetweenLimits, Signals, column, nam
 from linkwright.applied_loads.sizes import OverCycle
 from linkwright.applied_loads.strokes import ALIKE, TURN, Stretch, strokes
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, with_remedy
 from linkwright.formula.late_import import numpy as np

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from linkwright.applied_loads.faults import interval_fault, part_fault
 from linkwright.applied_loads.signals import Course, LimitKind, Signals, times_of_inputs
 from linkwright.applied_loads.strokes import NEAR, TURN, StrokePart, share_of, turned, within
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.formula.late_import import numpy as np
 from linkwright.formula.trace import Mask, Scalar, absolute, maximum, minimum, select, sign

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import ClassVar
 
 from linkwright.applied_loads import base
 from linkwright.applied_loads.base import LOADS, Load, Magnitude
 from linkwright.applied_loads.site import Site, Wrench
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.trace import Scalar
 from linkwright.words import _
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from linkwright.applied_loads.site import Mechanism
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError
 from linkwright.fields.references import resolve_output, sliding

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Protocol
 
-from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import Driver
 from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import ZERO, Vec

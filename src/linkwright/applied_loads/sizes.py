@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -11,7 +12,6 @@ from linkwright.applied_loads.faults import formula_fault, table_fault
 from linkwright.applied_loads.signals import Course, Signals, place_named, times_of_inputs
 from linkwright.applied_loads.site import Mechanism
 from linkwright.applied_loads.strokes import TURN
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expression_tree import Number, denominators
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, Protocol
 
 from linkwright.applied_loads.signals import BetweenLimits, FullCycle, Limit, Signals, input_dimension
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import shown
 from linkwright.errors import LinkwrightError

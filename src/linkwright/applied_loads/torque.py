@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from linkwright.applied_loads import base
 from linkwright.applied_loads.base import LOADS, Load, Magnitude, Output
 from linkwright.applied_loads.site import Mechanism, Site, Wrench
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import RelativeAngle
 from linkwright.formula.trace import select
 from linkwright.words import _

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from linkwright.applied_loads import base
 from linkwright.applied_loads.base import LOADS, Load
 from linkwright.applied_loads.site import Site, Wrench
-from linkwright.core.dataclass import dataclass
 from linkwright.words import _
 
 

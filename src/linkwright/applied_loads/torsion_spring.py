@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from linkwright.applied_loads import base
 from linkwright.applied_loads.base import LOADS, Load, Magnitude
 from linkwright.applied_loads.site import Site, Wrench
 from linkwright.applied_loads.sizes import Twist
-from linkwright.core.dataclass import dataclass
 from linkwright.words import _
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,6 @@ from linkwright.cams.result import CamDesign
 from linkwright.cams.shape import CamShape
 from linkwright.cams.sizes import chosen
 from linkwright.cams.undercut import undercuts
-from linkwright.core.dataclass import dataclass
 from linkwright.core.search import first_largest
 from linkwright.errors import Finding, ModelError, fault
 from linkwright.words import _

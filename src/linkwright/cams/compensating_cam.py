@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,6 @@ import numpy as np
 from linkwright.cams.compensation import BEYOND, BEYOND_ANGLES, compensating_lift
 from linkwright.core.arguments import require
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import NAMED, PLACES, Output
 from linkwright.core.quantity import SHOWN, shown
 from linkwright.core.table import Amount, Table, Tabular

@@ -7,12 +7,12 @@ counter-clockwise), so a place z of the frame is z e^(-iσφ) there.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.cams.follower import Follower
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.laws.program import Program
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from linkwright.cams.follower import Follower, LiftQuantity, lift_of
 from linkwright.cams.loading import CamLoading, CamMaterial, CamSpring
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError, fault
 from linkwright.fields.base import Field, Quantities, Quantity, Word, file_key
 from linkwright.fields.nodes import Node

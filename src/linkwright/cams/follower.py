@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
-from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Quantity, Schema, Word, file_key
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,6 @@ from linkwright.cams.cam import Cam
 from linkwright.cams.follower import Follower
 from linkwright.cams.loading import CamLoading
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.joints.cam import CamJoint
 from linkwright.laws.program import TURN, Program
 from linkwright.laws.traced import LiftCurve

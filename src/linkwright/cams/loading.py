@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from linkwright.cams.curves import Contact
 from linkwright.cams.follower import Follower, LiftQuantity
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.curves.curve import Curve, Extreme
 from linkwright.fields.base import Quantity, file_key
 from linkwright.laws.program import Program

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -16,7 +17,6 @@ from linkwright.cams.vibration import residual_amplitude, steady_deviation
 from linkwright.core.arguments import PROFILE_POINTS
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
 from linkwright.core.rows import Block
 from linkwright.core.search import ends, first_largest

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -14,7 +14,6 @@ from linkwright.cams.fields import CAM_FIELDS, CamChoice, CamConjugate, CamElast
 from linkwright.cams.follower import Follower
 from linkwright.cams.loading import CamLoading, CamMaterial
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, fault
 from linkwright.fields.base import FileKeys
 from linkwright.laws.program import Program

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -13,7 +13,6 @@ from linkwright.cams.loading import contact_pressure, leverage
 from linkwright.cams.result import CamDesign
 from linkwright.cams.shape import CamShape
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError, fault
 from linkwright.laws.program import Program
 from linkwright.words import _

@@ -7,11 +7,12 @@ goes, and where parts of the profile that are far from each other on the way cro
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from linkwright.cams.curves import CamCurve
 from linkwright.core.arrays import Complexes, Flags, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.search import ends as last_places
 from linkwright.core.search import first_largest
 from linkwright.curves.curve import Curve

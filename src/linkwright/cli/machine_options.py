@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from linkwright import units
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
 from linkwright.fields.base import Field, Number, Quantity, Text, file_key
 from linkwright.fields.nodes import Node

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import ClassVar
 
 from linkwright.cli.machine_options import Wanted
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
 from linkwright.core.rows import Block, Numbers, Row
 from linkwright.errors import LinkwrightError

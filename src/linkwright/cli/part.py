@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.parser import Options
 from linkwright.cli.session import Session
-from linkwright.core.dataclass import dataclass
 from linkwright.fields.tables import Integer
 from linkwright.words import Message, _
 

@@ -10,11 +10,10 @@ import argparse
 import os
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 
 from linkwright.cli.declared import read_declared
 from linkwright.cli.errors import UsageError
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import with_remedy
 from linkwright.registry import nearest
 from linkwright.words import Message, _

@@ -6,10 +6,10 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from linkwright.cli.errors import OutputError
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding
 from linkwright.words import Say, _
 from linkwright.words.characters import folded_lines, terminal_text

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
 
 from linkwright.cli import commands
 from linkwright.cli.help import command_parser
-from linkwright.core.dataclass import dataclass
 from linkwright.words import Say
 
 SHELLS = ("bash", "zsh", "fish")

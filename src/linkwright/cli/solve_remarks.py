@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -12,7 +13,6 @@ import numpy as np
 from linkwright.analysis.analysis import Kind
 from linkwright.cli.solving import Solved, named_columns
 from linkwright.core.arrays import Floats, largest
-from linkwright.core.dataclass import dataclass
 from linkwright.core.search import first_largest
 from linkwright.core.table import Column, Table
 from linkwright.errors import LinkwrightError

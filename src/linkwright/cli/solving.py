@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 from math import ceil
@@ -15,7 +16,6 @@ from linkwright.analysis.analysis import Analysis
 from linkwright.cli.errors import UsageError
 from linkwright.cli.positions import inputs, joined, places
 from linkwright.core.arrays import Floats, Indices, largest
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.table import Column
 from linkwright.errors import Finding, LinkwrightError, RequestError, about

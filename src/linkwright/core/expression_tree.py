@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
 from linkwright import units
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
 from linkwright.words import Message, _
 

@@ -11,11 +11,10 @@ import math
 import re
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from linkwright import units
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expression_parser import CONSTANTS, ExpressionError, Parser, Preferred
 from linkwright.core.expression_tree import (
     ARITY,

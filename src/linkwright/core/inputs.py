@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal, TypeVar
-
-from linkwright.core.dataclass import dataclass
 
 #: Cosine, sine and angle of a driver that turns (of links also the angle with its turns), place of one that slides,
 #: both rates, sign of a group's assembly mode.

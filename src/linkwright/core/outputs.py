@@ -7,9 +7,9 @@ column. :class:`Output` writes the three and reads rows; words are read against 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import lru_cache
 
-from linkwright.core.dataclass import dataclass
 from linkwright.units import si_unit
 from linkwright.words import Message, _
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.table import ROUNDING, Amount, Cell, Scale, Table, Tabular, unused
 from linkwright.errors import speaker
 from linkwright.words import Message, Say

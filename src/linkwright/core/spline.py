@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 
 
 @dataclass(frozen=True)

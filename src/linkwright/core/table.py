@@ -11,13 +11,12 @@ import math
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from html import escape
 from itertools import count
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import MISSING, number, shown_factor, shown_unit, with_unit
 from linkwright.errors import LinkwrightError

@@ -6,10 +6,10 @@ import csv
 import io
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, overload
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.table import PERCENT, Amount, Cell, Table, Tabular
 from linkwright.course.key import read_key
 from linkwright.course.variants import close

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
-from linkwright.core.dataclass import dataclass
 from linkwright.course.calculation_chain import Calculation, Change, Line, Values, lines_of
 from linkwright.equations.terms import TWO, ZERO, Term
 from linkwright.kinematics.motion import Motion

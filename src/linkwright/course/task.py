@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.core.outputs import Output
 from linkwright.course.calculation_chain import Line

@@ -6,7 +6,7 @@ import json
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
@@ -18,7 +18,6 @@ from linkwright.analysis.transmission_angle import TransmissionAngle
 from linkwright.core.arguments import integer, require
 from linkwright.core.attached import attached
 from linkwright.core.cached_property import cached_property
-from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress
 from linkwright.course.mistakes import Consequence, Sheet
 from linkwright.course.task import Question, Task, task

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.arrays import EQUAL, Flags, Floats, Indices, largest
-from linkwright.core.dataclass import dataclass
 from linkwright.curves.pieces import HIGH, LOW, NARROW, Columns, Layout, Pieces, Wanted
 from linkwright.curves.polynomials import (
     LAST,

@@ -9,14 +9,13 @@ each other, by design and time, so that designs may have as many as each needs: 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import Flags, Floats, Indices, begins
-from linkwright.core.dataclass import dataclass
 from linkwright.curves.polynomials import (
     HIDDEN,
     LAST,

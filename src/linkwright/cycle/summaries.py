@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from linkwright.core.arrays import EQUAL, Flags, Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.curves.pieces import LOW, Pieces, Wanted
 from linkwright.curves.polynomials import NODES, Peak, best_of, climbed, largest

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.formula.reductions import Reduction
 from linkwright.kinetostatics.named_outputs import Quantity

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain, count
 from os import PathLike
@@ -16,7 +16,6 @@ from linkwright.analysis.of_output import Asked, pivot
 from linkwright.analysis.outputs import mechanism_outputs
 from linkwright.core.arguments import require
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError, RequestError

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 from linkwright import units
-from linkwright.core.dataclass import dataclass
 from linkwright.designs.ranges import dimension_of
 from linkwright.errors import LinkwrightError, QuantityError, with_remedy
 from linkwright.files.document import Document

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -11,7 +12,6 @@ from linkwright.analysis.base import MetricValue
 from linkwright.analysis.by_name import ask
 from linkwright.core.arguments import STEPS, real, require
 from linkwright.core.attached import Plotted, attached
-from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, unused

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import cached_property
 
 from linkwright.analysis import METRICS, Metric, MetricValue
@@ -10,7 +11,6 @@ from linkwright.analysis.by_name import is_summary, measured, metric_named, metr
 from linkwright.analysis.flywheel import SIZED
 from linkwright.analysis.of_output import OWN
 from linkwright.core.arguments import one_or_more
-from linkwright.core.dataclass import dataclass
 from linkwright.designs.alternatives import Alternative
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.registry import offered

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -17,7 +17,6 @@ from linkwright.analysis.of_output import Asked
 from linkwright.analysis.ranges_of_designs import ranged, ranges_of_designs
 from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, paced, part_of
 from linkwright.designs.finished_parts import identity, once, surrounding
 from linkwright.designs.one_by_one import changes_of

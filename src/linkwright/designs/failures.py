@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.designs.one_by_one import changes_of, sentence_of
 from linkwright.designs.traced_outputs import Traced

@@ -8,7 +8,7 @@ on acting.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from linkwright.applied_loads.magnitude import Magnitude
 from linkwright.applied_loads.over_cycle import activity
 from linkwright.applied_loads.phases import Always
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import kind_of, owners_of
 from linkwright.designs.loaded_cycle import whole_turns, with_limits
 from linkwright.designs.traced_outputs import Traced

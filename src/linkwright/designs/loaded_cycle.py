@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf
 
@@ -12,7 +12,6 @@ import numpy as np
 from linkwright.applied_loads.base import Load
 from linkwright.applied_loads.strokes import TURN
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import kind_of, owners_of, row_name
 from linkwright.cycle.load_limits import FoundLimits, LoadLimits
 from linkwright.cycle.machine import Machine, NotTogether

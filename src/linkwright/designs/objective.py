@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -19,7 +19,6 @@ from linkwright.analysis.of_designs import (
 )
 from linkwright.core.arguments import STEPS, one_of, require
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.designs.design_numbers import side_by_side
 from linkwright.designs.objective_terms import PathError, Terms, differentiable, number_of_points, weighted

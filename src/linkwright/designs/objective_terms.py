@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,7 +11,6 @@ from numpy.typing import ArrayLike
 from linkwright.analysis.by_name import NO_OUTPUTS, NO_TEXT, wanted
 from linkwright.core.arguments import real
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.cycle.summary import Summary
 from linkwright.errors import RequestError
 from linkwright.words import _

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.cycle.load_limits import FoundLimits
 from linkwright.cycle.machine import CLEAR
 from linkwright.cycle.summary import KINDS, Summary

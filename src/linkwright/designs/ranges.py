@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,7 +12,6 @@ from numpy.typing import ArrayLike
 from linkwright import units
 from linkwright.applied_loads.keys import PhaseField
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import si_of, written
 from linkwright.errors import LinkwrightError, RequestError, about
 from linkwright.mechanism.mechanism import Mechanism

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal, get_args
 
 import numpy as np
@@ -12,7 +12,6 @@ from linkwright.analysis.by_name import NO_OUTPUTS, wanted
 from linkwright.core.arguments import STEPS, one_of, one_or_more, require
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
-from linkwright.core.dataclass import dataclass
 from linkwright.core.read_only import Frozen, locked
 from linkwright.core.table import Amount, Cell, Table, Tabular, unused
 from linkwright.cycle.summary import Summary

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -18,7 +18,6 @@ from linkwright.analysis.outputs import usual_output
 from linkwright.core.arguments import STEPS, require
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.attached import Plotted, attached
-from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, csv_text, unused

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress, paced
 from linkwright.cycle.load_limits import FoundLimits
 from linkwright.cycle.summary import Summary, finished, reductions

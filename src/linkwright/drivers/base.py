@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.late_import import numpy as np
 from linkwright.registry import Registry
 from linkwright.words import Message, _

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import LAWS, Law
 from linkwright.fields.base import Field, Quantity
 from linkwright.words import _

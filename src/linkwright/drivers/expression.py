@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.drivers.base import LAWS, Law
 from linkwright.fields.base import Field, Formula

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import BEYOND_LAW, LAWS, Law, repeated
 from linkwright.errors import LinkwrightError
 from linkwright.fields.base import Field, Quantity

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import BEYOND_LAW, LAWS, Law, repeated
 from linkwright.errors import LinkwrightError
 from linkwright.fields.base import Field, TimeTable, TimeTableValues

@@ -9,10 +9,9 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import zip_longest
 
-from linkwright.core.dataclass import dataclass
 from linkwright.dyads.listed_numbers import ZERO
 from linkwright.dyads.plan import Guide, Pin, Plan, Step
 from linkwright.kinematics.names import canonical

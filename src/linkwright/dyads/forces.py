@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arguments import one_of
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.dyads.cell import cell
 from linkwright.dyads.motion import DyadMotion, run
 from linkwright.dyads.values import Line, line_inputs, numbers, pairs, state

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arguments import one_of
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.dyads.cell import Cell, cell
 from linkwright.dyads.values import Line, Slide, State, line_inputs, numbers, point_inputs
 from linkwright.errors import RequestError

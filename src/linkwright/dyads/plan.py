@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from linkwright.core.arrays import Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.dyads.motion import DyadMotion, prp, rpp, rpr, rrp, rrr
 from linkwright.dyads.values import Line, State
 from linkwright.elements.topology import Group, TreeJoint

@@ -6,9 +6,8 @@ A connection carries what is needed of its joint's kind, so that nobody who read
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property
-
-from linkwright.core.dataclass import dataclass
 
 
 @dataclass(frozen=True)

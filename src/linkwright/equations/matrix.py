@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.equations.notation import Matrix, Node, Row, number, row
 from linkwright.equations.reading import read_name
 from linkwright.equations.steps import Written

@@ -5,9 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterable
-from dataclasses import replace
-
-from linkwright.core.dataclass import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)

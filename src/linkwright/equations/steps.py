@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import number, shown_unit
 from linkwright.core.quantity import shown as quantity_text

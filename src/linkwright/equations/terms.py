@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from operator import mul
-
-from linkwright.core.dataclass import dataclass
 
 #: Anything smaller (SI) is nothing but rounding.
 NOTHING = 1e-12

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.equations.steps import Equation, Note, Relation, Step, Tabulated, Written
 from linkwright.words.characters import cells, folded
 

@@ -9,14 +9,13 @@ so many events as there are, by design and time.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.curves.pieces import HIGH, LOW, Layout, Pieces, Wanted
 from linkwright.curves.polynomials import LOOKS, TO_LOOKS, product, turning_points
 from linkwright.events.formula import Formula, Known, Pointwise

@@ -7,11 +7,11 @@ that themselves, with a last step through which derivatives go, so that neither 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.curves.pieces import HIGH, LOW, Columns
 from linkwright.events.formula import PLACE, ROW
 from linkwright.formula.trace import Mask, Scalar, Trace, absolute, angle, cos, sin

@@ -8,13 +8,13 @@ Pieces are the lanes of the machine code, nodes its outer loop.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.curves.pieces import LOW, Columns
 from linkwright.formula.adjoint import Adjoints
 from linkwright.formula.derivative import forward

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from math import pi
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.events.stretches import Span
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import pi
 from typing import NamedTuple
@@ -13,7 +13,6 @@ import numpy as np
 from linkwright.applied_loads.signals import Limit, LimitKind
 from linkwright.core.arguments import require
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.search import first_largest
 from linkwright.errors import RequestError

@@ -7,11 +7,11 @@ rule of steps (:mod:`linkwright.kinematics.step_rule`).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.curves.pieces import LOW, Columns
 from linkwright.events.course import Course
 from linkwright.events.following import ChainCoordinate, chain_coordinates

@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from linkwright import units
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.errors import QuantityError, RequestError
 from linkwright.kinematics.names import place_meant

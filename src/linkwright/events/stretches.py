@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices, begins
-from linkwright.core.dataclass import dataclass
 from linkwright.events.course import Course
 
 #: Nearer to each other, as share of the cycle, two cuts are one.

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.events.stretches import Span
 
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, largest
-from linkwright.core.dataclass import dataclass
 from linkwright.core.table import Column
 from linkwright.exporters.results import Results
 from linkwright.exporters.tables import QUANTITIES

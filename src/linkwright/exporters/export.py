@@ -5,11 +5,11 @@ from __future__ import annotations
 import importlib
 import inspect
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from linkwright.core.arguments import STEPS
-from linkwright.core.dataclass import dataclass
 from linkwright.core.table import Tabular
 from linkwright.errors import RequestError, require_language
 from linkwright.exporters.results import Results

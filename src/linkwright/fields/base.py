@@ -11,13 +11,12 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import field, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any, ClassVar, cast
 
 from linkwright import units
 from linkwright.core.attached import SECTIONS
-from linkwright.core.dataclass import dataclass
 from linkwright.core.entry_points import loaded
 from linkwright.core.expressions import Expression
 from linkwright.fields.nodes import Mapping as MappingNode

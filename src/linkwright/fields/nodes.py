@@ -9,11 +9,10 @@ from __future__ import annotations
 import re
 from collections import abc
 from collections.abc import Iterator
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from linkwright import units
-from linkwright.core.dataclass import dataclass
 from linkwright.core.read_only import FrozenDict, frozen
 from linkwright.errors import Finding
 from linkwright.words import _

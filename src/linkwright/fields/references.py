@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.fields.base import Field, Quantities, Schema, pair_schema, quantity_schema, written_quantity
 from linkwright.fields.nodes import Mapping as MappingNode

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
-from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Free, Quantities, Quantity, Schema, Text, Word, table_schema
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader

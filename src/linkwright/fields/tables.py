@@ -5,9 +5,9 @@ from __future__ import annotations
 import dataclasses
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
-from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Schema, file_keys, table_schema
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from linkwright.core.dataclass import dataclass
+from dataclasses import dataclass
+
 from linkwright.formula.node import Node
 from linkwright.formula.replay import Replay, operations
 from linkwright.formula.tangent import slope_of

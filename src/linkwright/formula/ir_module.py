@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from linkwright.core.dataclass import dataclass
+from dataclasses import dataclass
+
 from linkwright.formula.functions import FUNCTIONS
 from linkwright.formula.ir_functions import vector_functions
 from linkwright.formula.ir_lookup import lookup_functions

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.node import COMPARISONS
 from linkwright.formula.program import Program
 

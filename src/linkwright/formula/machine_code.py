@@ -6,10 +6,10 @@ import ctypes
 import importlib.util
 import sys
 import threading
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.functions import FUNCTIONS
 
 _LOCK = threading.RLock()

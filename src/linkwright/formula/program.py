@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Container, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.node import COMPARISONS, Entry, Node, needed
 from linkwright.formula.trace import Scalar, Trace
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
 from linkwright.core.arrays import EQUAL, Flags, Floats, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.program import Program
 from linkwright.formula.replay import along_input
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from linkwright.core.dataclass import dataclass
+from dataclasses import dataclass
+
 from linkwright.formula.lines import Lines
 
 #: Kinds of places: a row of the result, a number buffer, a truth buffer.

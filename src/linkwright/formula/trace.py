@@ -11,10 +11,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Iterable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, overload
 
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.functions import FUNCTIONS
 from linkwright.formula.late_import import numpy as np
 from linkwright.formula.node import COMMUTATIVE, Entry, Node, needed

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import pi
 
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.trace import Mask, Scalar, Value, angle, reciprocal, select
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -16,7 +17,6 @@ import numpy as np
 
 from linkwright.core.arguments import real
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.search import ends
 from linkwright.errors import RequestError
 from linkwright.gears.involute import involute, involute_at

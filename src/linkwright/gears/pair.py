@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,7 +13,6 @@ import numpy as np
 from linkwright.core.arguments import require_pair
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.gears.gear import Gear
 from linkwright.gears.involute import angle_of_involute, involute

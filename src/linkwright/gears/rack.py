@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,6 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.gears.gear import TOOTH, require_ranges
 from linkwright.words import _

@@ -10,10 +10,9 @@ points the other way, because the group's own link carries it.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import Vec
 from linkwright.joints.pose import Pose, Rotor

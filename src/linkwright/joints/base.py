@@ -9,10 +9,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import MISSING, fields, replace
+from dataclasses import MISSING, dataclass, fields, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, PairType
 from linkwright.errors import LinkwrightError, Severity
 from linkwright.fields.base import Field, Schema

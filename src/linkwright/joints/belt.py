@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Model, Sizes
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.formula.trace import Mask, Scalar, reciprocal, sqrt

@@ -5,11 +5,10 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
 from linkwright.elements.model import Drawing, Model, Sizes
 from linkwright.fields.base import Field, Quantity, Word

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import cmath
 import math
+from dataclasses import dataclass
 from typing import Protocol
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Guide, Model
 
 

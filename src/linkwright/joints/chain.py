@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from math import pi
 from typing import ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Sizes
 from linkwright.fields.base import Field, Quantity
 from linkwright.formula.trace import Scalar

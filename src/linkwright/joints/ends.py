@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Sizes
 from linkwright.formula.trace import Scalar, Value, angle
 from linkwright.formula.vector import Vec

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from math import cos as cos_of
 from math import pi
 from typing import ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Model, Sizes
 from linkwright.fields.base import Field, Quantity
 from linkwright.formula.trace import Mask, Scalar, absolute, cos, maximum, reciprocal, select, sqrt, stop, tan

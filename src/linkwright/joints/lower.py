@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Drawing, Model
 from linkwright.errors import LinkwrightError
 from linkwright.formula.trace import Scalar

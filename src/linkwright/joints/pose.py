@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from linkwright.core.dataclass import dataclass
+from dataclasses import dataclass
+
 from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import ZERO, Vec
 

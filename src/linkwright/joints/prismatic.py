@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
 from linkwright.formula.trace import Scalar, reciprocal, sqrt

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Drawing, Guide, Model, Sizes
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName

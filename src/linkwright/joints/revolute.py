@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Quantity
 from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import Vec

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from math import dist
 from typing import Any, ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Model, Sizes
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.formula.trace import Mask, Scalar, absolute, reciprocal, sqrt

@@ -13,10 +13,9 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
 from linkwright.elements.model import Drawing, Model, Sizes
 from linkwright.fields.base import Field, Quantities, Quantity, pair_schema

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.model import Sizes
 from linkwright.fields.base import Field, Quantity, Text
 from linkwright.fields.references import LinkNames

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input, mode_inputs, turned
 from linkwright.core.outputs import row_names
 from linkwright.elements.topology import Group

@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.drivers.base import Law
 from linkwright.kinematics.followed_formula import FollowedGroups, Root
 from linkwright.kinematics.step_rule import CORRECTION, LARGEST, ROUNDING, doubt, misfit, quintic

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Set
+from dataclasses import dataclass
 from math import cos as cosine
 from math import sin as sine
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.drivers.base import Driver
 from linkwright.elements.topology import TreeJoint

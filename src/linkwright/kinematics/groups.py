@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Group, TreeJoint
 from linkwright.formula.linear import Matrix, determinant, inverse, product
 from linkwright.formula.recently_made import Recent

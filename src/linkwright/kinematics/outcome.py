@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from linkwright.core.dataclass import dataclass
+from dataclasses import dataclass
+
 from linkwright.errors import LinkwrightError
 from linkwright.words import _
 from linkwright.words.sentence import in_language

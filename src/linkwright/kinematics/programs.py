@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 from linkwright.core.cached_property import cached_property
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program

@@ -19,12 +19,12 @@ the box around p(x) into itself, so it holds just one root for every x, and one 
 from __future__ import annotations
 
 import cmath
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arguments import require
 from linkwright.core.arrays import Complexes, Flags, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.linear_sums import LinearSums
 from linkwright.elements.topology import Connection, TreeJoint
 from linkwright.errors import LinkwrightError

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Set
-from dataclasses import field
+from dataclasses import dataclass, field
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import Input
 from linkwright.elements.topology import Group
 from linkwright.formula.trace import Mask, Scalar, Trace, select

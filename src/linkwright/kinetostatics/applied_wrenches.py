@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar

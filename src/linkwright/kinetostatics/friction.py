@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from linkwright.applied_loads.site import Wrench
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import RelativeAngle, row_name
 from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import Vec

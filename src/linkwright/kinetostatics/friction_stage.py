@@ -10,10 +10,10 @@ Joint forces follow from the last group to the first, and the friction block by 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Protocol
 
 from linkwright.applied_loads.site import Wrench
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection
 from linkwright.formula.linear import product, solution
 from linkwright.formula.tangent import slope

@@ -9,11 +9,10 @@ joint that carries it (d'Alembert; Artobolevsky, Theory of Mechanisms and Machin
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Set
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import partial
 
 from linkwright.applied_loads.site import Wrench
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, TreeJoint
 from linkwright.formula.linear import product, transposed
 from linkwright.formula.trace import Scalar, absolute

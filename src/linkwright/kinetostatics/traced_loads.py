@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from linkwright.applied_loads.base import Load
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output, row_name
 from linkwright.formula.table import Table
 from linkwright.formula.trace import Scalar

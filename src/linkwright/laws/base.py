@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
-from linkwright.core.dataclass import dataclass
 from linkwright.curves.curve import Curve
 from linkwright.fields.base import FileKeys
 from linkwright.registry import Registry

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.laws.base import MotionLaw
 from linkwright.words import _

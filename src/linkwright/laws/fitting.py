@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from linkwright.core.arguments import require_pair
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError, UnknownName
 from linkwright.laws.base import END_KINDS, MOTION_LAWS, Ends, MotionLaw
 from linkwright.laws.derived_laws import Backwards, Portion, Shifted

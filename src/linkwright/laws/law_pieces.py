@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.curves.polynomials import NODES, PLACES, POINTS, SERIES
 from linkwright.formula.recently_made import Recent
 from linkwright.laws.traced import horner, row_at

@@ -6,13 +6,13 @@ import itertools
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
 from linkwright.curves.curve import Curve, Extreme
 from linkwright.errors import Finding, ModelError, fault

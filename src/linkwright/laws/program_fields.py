@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, ModelError, RequestError
 from linkwright.fields.base import Field, Quantities, Quantity, Schema, Word, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode

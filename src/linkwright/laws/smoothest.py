@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
 from linkwright.errors import Finding, ModelError, fault
 from linkwright.laws.pieces import Pieces

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.laws.pieces import Pieces
 
 DEGREE = 5

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.fields.base import Quantities, Quantity, file_key
 from linkwright.laws.base import MOTION_LAWS, Ends, MotionLaw

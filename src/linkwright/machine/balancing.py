@@ -5,13 +5,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from linkwright.analysis.analysis import Analysis
 from linkwright.core.arguments import STEPS, real, require
 from linkwright.core.attached import Plotted
-from linkwright.core.dataclass import dataclass
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import PERCENT, ROUNDING, Amount, Cell, Table, Tabular
 from linkwright.cycle.summary import Summary

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain
 
@@ -10,7 +10,6 @@ import numpy as np
 
 from linkwright.analysis.analysis import Analysis
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import row_names
 from linkwright.curves.curve import Curve, Extreme, Integral, at_nodes
 from linkwright.errors import LinkwrightError

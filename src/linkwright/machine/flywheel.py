@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import pi
 
 from linkwright.core.arguments import real
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.fields.base import Number
 from linkwright.units import SMALLEST

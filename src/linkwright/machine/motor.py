@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from linkwright.core.arguments import real
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.words import _
 

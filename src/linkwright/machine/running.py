@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
@@ -14,7 +14,6 @@ from linkwright.analysis.true_speed import steady_cycle
 from linkwright.core.arguments import real, require
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import shown
 from linkwright.core.rows import Block, Numbers, Row
 from linkwright.core.table import PERCENT

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 import numpy as np
 
 from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.curves.curve import Curve, Extreme, Function, Integral, at_nodes, extremes_of
 from linkwright.curves.polynomials import WEIGHTS
 from linkwright.errors import LinkwrightError

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.curves.polynomials import LAST as LAST_ORDERS
 from linkwright.curves.polynomials import Peak, largest, weights_at
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 import numpy as np
@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression, parse
 from linkwright.curves.curve import Curve, Integral
 from linkwright.errors import LinkwrightError

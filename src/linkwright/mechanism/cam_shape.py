@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import cmath
+from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING
 
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.late_import import numpy as np
 from linkwright.joints.cam_geometry import Geometry
 

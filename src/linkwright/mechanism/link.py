@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, Literal, TypeVar
 
 from linkwright.core.cached_property import cached_property
-from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Field, Quantities, Quantity
 from linkwright.fields.references import Coordinates, LinkPoints, PlaceOrPoint
 from linkwright.words import _

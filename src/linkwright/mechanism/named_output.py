@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output, rate_dimension
 

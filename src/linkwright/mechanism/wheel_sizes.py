@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import singledispatch
 
-from linkwright.core.dataclass import dataclass
 from linkwright.joints.base import Joint
 from linkwright.joints.cam import CamJoint
 from linkwright.joints.gear import GearPair

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import singledispatch
 from math import pi
 
-from linkwright.core.dataclass import dataclass
 from linkwright.joints.base import Joint
 from linkwright.joints.belt import BeltPair
 from linkwright.joints.cam import CamJoint

@@ -7,6 +7,7 @@ import hashlib
 import json
 import zlib
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
 from html import escape
 from importlib.resources import files
@@ -15,7 +16,6 @@ from pathlib import Path
 import numpy as np
 
 from linkwright.core.arguments import STEPS, require
-from linkwright.core.dataclass import dataclass
 from linkwright.core.inputs import mode_inputs
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
 from linkwright.designs.changed_text import (

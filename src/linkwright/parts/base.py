@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import field, fields, is_dataclass, replace
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.attached import Plotted, attached
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
 from linkwright.core.rows import Numbers
 from linkwright.core.table import ROUNDING, unused

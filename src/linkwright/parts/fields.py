@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any
 
 from linkwright import units
 from linkwright.core import expressions
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import QuantityError
 from linkwright.fields.base import Field, Schema
 from linkwright.fields.nodes import Mapping as MappingNode

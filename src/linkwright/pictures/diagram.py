@@ -8,12 +8,11 @@ import warnings
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from contextvars import ContextVar
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.pictures.drawing import PIXELS, Drawing

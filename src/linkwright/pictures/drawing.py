@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from linkwright.core.arguments import real
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.filesystem import refuse_target
 from linkwright.pictures.picture import SvgNode

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.pictures.picture import (
     CAPITAL,
     TEXT,

@@ -9,14 +9,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.pictures.svg.element import Attribute, Element, element, number, path_data, split_index
 from linkwright.pictures.svg.element import width as text_width
 from linkwright.pictures.svg.fonts import needs_chinese

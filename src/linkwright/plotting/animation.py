@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,7 +13,6 @@ import numpy as np
 
 from linkwright.core.arguments import integer, one_or_more, real, require
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.progress import Progress, current_progress
 from linkwright.errors import LinkwrightError, RequestError, require_language

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.table import Table
 from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem, Result

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.table import Table as Cells
 from linkwright.equations.notation import Row
 from linkwright.equations.reading import read_name

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 
-from linkwright.core.dataclass import dataclass
 from linkwright.equations.notation import (
     Accent,
     Atom,

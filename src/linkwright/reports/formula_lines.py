@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.equations.notation import (
     EQUAL,
     Accent,

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.analysis.base import METRICS, MetricValue
 from linkwright.analysis.table import MetricsTable
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism

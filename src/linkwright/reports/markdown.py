@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.registry import offered
 from linkwright.reports.document import (

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.parts.base import Problem
 from linkwright.registry import listed

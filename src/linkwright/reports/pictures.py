@@ -5,11 +5,11 @@ from __future__ import annotations
 import base64
 import io
 import re
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from urllib.parse import unquote
 
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.pictures.svg.render import natural_size, png
 from linkwright.words import _

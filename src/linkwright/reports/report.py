@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 
 from linkwright.core.arguments import require
-from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.errors import RequestError, about, require_language, speaker
 from linkwright.files.model_file import load

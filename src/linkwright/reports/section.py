@@ -6,10 +6,9 @@ A section is one function, registered under its name.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TypeVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.registry import Registry
 from linkwright.reports.document import Block
 from linkwright.words import Message, _

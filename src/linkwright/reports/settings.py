@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.events.position_list import STEPPED, PositionList, known_outputs, of_value

@@ -5,10 +5,9 @@ from __future__ import annotations
 import hashlib
 import json
 from contextlib import suppress
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import RequestError
 from linkwright.filesystem import atomic_write, make_folder
 from linkwright.formula.cache import folder as cache_folder

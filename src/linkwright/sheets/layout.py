@@ -8,10 +8,9 @@ title block or the control bar, by construction.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from linkwright.core.dataclass import dataclass
 from linkwright.pictures.picture import Box
 from linkwright.sheets.panel import Block
 

@@ -18,8 +18,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.pictures.picture import (
     CAPTION,
     GRAPHICAL,

@@ -6,9 +6,9 @@ ISO 5457:1999 (20 mm at the left, 10 mm elsewhere).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Literal
 
-from linkwright.core.dataclass import dataclass
 from linkwright.pictures.picture import LEAST, TEXT, Box, Picture
 from linkwright.words import Say, _
 

@@ -8,10 +8,9 @@ the file gives none.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, cast
 
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, ModelError, QuantityError
 from linkwright.fields.sheet import SHEET, WORDS
 from linkwright.fields.tables import Keys

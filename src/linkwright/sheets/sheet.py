@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 from linkwright.core.arguments import require
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError, RequestError, require_language, speaker
 from linkwright.files.model_file import load
 from linkwright.filesystem import atomic_write, refuse_target

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.pictures.picture import LEAST, TEXT, Box, Picture, as_runs, runs_width
 from linkwright.pictures.svg.fonts import needs_chinese
 from linkwright.words import Say, _, pgettext

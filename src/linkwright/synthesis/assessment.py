@@ -15,13 +15,13 @@ Source: Chase and Mirth 1993, "Circuits and branches of single-degree-of-freedom
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
-from linkwright.core.dataclass import dataclass
 
 #: Positions this near to a dead point, relative to the lengths, may lie on either branch.
 EQUAL = 1e-9

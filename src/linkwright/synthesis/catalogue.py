@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from inspect import signature
 
-from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.free_curve.generate import free_curve
 from linkwright.synthesis.function_generation.generate import function_generation
 from linkwright.synthesis.motion_generation.generate import motion_generation

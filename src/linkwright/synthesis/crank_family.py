@@ -21,10 +21,11 @@ dU = i U dψ,  dψ = (c dc - Re(V* U) db + Re(V* dD)) / Re(i V* b U),  dD = dd -
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
-from linkwright.core.dataclass import dataclass
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,11 +6,10 @@ import cmath
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 from linkwright.core.arguments import real
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.errors import about
 from linkwright.files.model_file import loads

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from math import degrees
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from linkwright.core.arguments import real
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.core.attached import Plotted, attached
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import length_text
 from linkwright.core.table import Table, Tabular
 from linkwright.equations.text import Solution

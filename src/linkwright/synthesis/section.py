@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from linkwright import units
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import amount
 from linkwright.errors import Finding, QuantityError, with_remedy
 from linkwright.fields.base import Field, Schema, Word, quantity_schema

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import ModelError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.reading import Place

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.table import Table, Tabular
 from linkwright.elements.topology import Connection, Group
 from linkwright.errors import speaker

@@ -8,9 +8,8 @@ rotations, so a loop of guides that fixes a rotation twice is seen here and coun
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.linear_sums import SMALL, LinearSums
 from linkwright.joints.base import Joint
 from linkwright.mechanism.mechanism import Mechanism

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.joints.base import Joint, LackingError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.topology.constraints import Classes

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from importlib.resources import files
 from typing import Any
 
 from linkwright import gallery
-from linkwright.core.dataclass import dataclass
 from linkwright.files.model_file import load
 from linkwright.words import _
 from linkwright.words.sentence import Worded

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.core.table import Amount, Cell, Table, Tabular
 from linkwright.errors import LinkwrightError, speaker

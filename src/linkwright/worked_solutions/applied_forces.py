@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import owners_of
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, cosine, sine, symbol

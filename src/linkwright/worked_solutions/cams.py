@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import (

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, Group, TreeJoint
 from linkwright.equations.terms import NOWHERE, TWO, ZERO, Pair, Term, cosine, number, sine, symbol
 from linkwright.worked_solutions.symbols import Book, Slide, Spot

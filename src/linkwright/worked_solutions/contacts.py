@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import cmath
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import singledispatch
 from math import asin, atan, pi
 
-from linkwright.core.dataclass import dataclass
 from linkwright.joints.base import Joint
 from linkwright.joints.belt import BeltPair
 from linkwright.joints.gear import GearPair

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import cached_property, singledispatch
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Group, TreeJoint
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import FOUR, NOWHERE, TWO, ZERO, Pair, Term, direction, root, symbol

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, Group, TreeJoint
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, number, symbol, total

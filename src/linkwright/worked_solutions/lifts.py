@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.dataclass import dataclass
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import ZERO, Term, number, symbol
 from linkwright.joints.cam import CamJoint

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Connection, Group
 from linkwright.equations.steps import Step

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from linkwright.core.arguments import integer, require
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Group
 from linkwright.equations.reading import of_file, read_name

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import TreeJoint
 from linkwright.equations.terms import NOWHERE, ONE, ZERO, Pair, Term, number, symbol
 from linkwright.joints.base import Joint

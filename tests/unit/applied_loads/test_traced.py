@@ -98,7 +98,7 @@ class AtPosition:
         return float(np.interp(x, table.x, table.y))
 
 
-def force(size: Size, phase: Phase = Always()) -> Force:  # noqa: B008
+def force(size: Size, phase: Phase = Always()) -> Force:
     return Force(name="load", on="jaw", at="P", direction=0.0, magnitude=Magnitude(size, phase))
 
 

@@ -8,12 +8,12 @@ holds everything, so a search that was interrupted goes on as if it had not been
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.designs.optimise.task import Judged, Task
 
 #: A search with one objective ends where the best of this many generations gained less than this share.

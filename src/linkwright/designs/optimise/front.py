@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.designs.optimise.task import Judged
 
 #: The share of all objectives that is added to the largest, so that no other one is left worse than need be.

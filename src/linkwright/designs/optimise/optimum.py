@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,6 @@ import numpy as np
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted, attached
-from linkwright.core.dataclass import dataclass
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular
 from linkwright.designs.changed_text import changed_text

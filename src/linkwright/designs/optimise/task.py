@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 
@@ -12,7 +13,6 @@ import numpy as np
 
 from linkwright import units
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.designs.optimise.measures import Measures
 from linkwright.designs.optimise.problem import Demand, Problem
 from linkwright.errors import Finding, ModelError, QuantityError

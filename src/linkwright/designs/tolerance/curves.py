@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.designs.designs import sweep_curves
 from linkwright.mechanism.mechanism import Mechanism
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.spline import Spline
 from linkwright.drivers.base import Law
 from linkwright.drivers.table import TableLaw

@@ -10,13 +10,12 @@ angle that is left between offset and reaction is the residual.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import field, fields, is_dataclass, replace
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 
 import numpy as np
 
 from linkwright.applied_loads.base import Load
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.designs.designs import sweep_curves
 from linkwright.designs.tolerance.pin_turning_law import TurnedByReaction
 from linkwright.designs.tolerance.problem import Clearance, Tolerances

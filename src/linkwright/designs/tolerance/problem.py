@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -13,7 +13,6 @@ import numpy as np
 from linkwright import units
 from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.designs.ranges import dimension_of
 from linkwright.fields.base import Quantity, Text, Word, file_key
 from linkwright.fields.tables import ByAddress, Either, Integer, Listed, Named, Table

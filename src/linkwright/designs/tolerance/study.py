@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from linkwright import units
 from linkwright.analysis.base import METRICS
 from linkwright.analysis.by_name import is_metric, wanted
-from linkwright.core.dataclass import dataclass
 from linkwright.designs.ranges import dimension_of
 from linkwright.designs.tolerance.problem import LEAST, Clearance, Tolerance, Tolerances
 from linkwright.designs.tolerance.result import Spread

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.core.dataclass import dataclass
 from linkwright.elements.topology import Connection, TreeJoint
 from linkwright.exporters.results import Results
 from linkwright.kinematics.motion import Motion

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 
-from linkwright.core.dataclass import dataclass
 from linkwright.exporters.modelica.laws import Names, law_text, number, quoted
 from linkwright.exporters.results import Results
 from linkwright.joints.base import Joint

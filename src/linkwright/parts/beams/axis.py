@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import Polynomial, legendre
 
 from linkwright.core.arrays import Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross
 from linkwright.mechanism.link import Link
 

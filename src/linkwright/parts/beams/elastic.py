@@ -8,6 +8,7 @@ follow by integration of the load.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -15,7 +16,6 @@ from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.search import first_largest
 
 #: A value below this share of the largest along the beam is zero but for rounding.

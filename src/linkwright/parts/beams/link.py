@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
@@ -12,7 +13,6 @@ import numpy as np
 from linkwright.analysis import Analysis
 from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats, Indices
-from linkwright.core.dataclass import dataclass
 from linkwright.core.plane import cross
 from linkwright.core.quantity import shown
 from linkwright.core.rows import Block, Row

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
-from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Quantity, Text, file_key
 from linkwright.fields.tables import Table
 from linkwright.parts.fields import Known

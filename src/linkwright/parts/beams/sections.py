@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import Finding, RequestError, fault
 from linkwright.fields.base import Field, Quantities, Quantity, Text
 from linkwright.fields.nodes import Node

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.expressions import Expression
 from linkwright.errors import QuantityError
 from linkwright.words import _

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.parts.programs.problem import Model
 
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
 from linkwright import units
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.parts.programs.formula import Constraint, Formula
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.equations.matrix import ROUNDING
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import applied_rows

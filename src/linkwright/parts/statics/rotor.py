@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.rows import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, fault

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 
 #: Distributions that can be fitted: their names in SciPy, and the parameters that are held.
 DISTRIBUTIONS: dict[str, tuple[str, dict[str, float]]] = {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -11,7 +12,6 @@ import numpy as np
 
 from linkwright import units
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
 from linkwright.core.rows import Block, Row
 from linkwright.core.table import PARTS_PER_MILLION, Scale, in_si

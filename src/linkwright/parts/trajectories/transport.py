@@ -4,11 +4,11 @@ between positions."""
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 
 REST, FORWARD, BACKWARD, FLIGHT = "rest", "forward", "backward", "flight"
 MODES = (REST, FORWARD, BACKWARD, FLIGHT)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.fields.base import Quantities, Quantity, Text
 from linkwright.fields.tables import Listed, Table
 from linkwright.parts.fields import AnyQuantity

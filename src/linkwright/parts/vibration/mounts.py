@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
@@ -11,7 +12,6 @@ import numpy as np
 
 from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number, shown
 from linkwright.core.rows import Block, Row
 from linkwright.equations.steps import Step

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar
@@ -12,7 +12,6 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
 from linkwright.core.rows import Block, Row
 from linkwright.equations.matrix import named_matrix

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, largest
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import SHOWN, significant
 from linkwright.pictures.diagram import INK, Axes, Figure
 from linkwright.units import si_unit

@@ -7,11 +7,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, ClassVar, TypeVar
 
-from linkwright.core.dataclass import dataclass
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.pictures.diagram import INK, Figure
 from linkwright.pictures.drawing import Drawing

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,6 @@ from linkwright.analysis.analysis import Kind
 from linkwright.applied_loads.over_cycle import activity
 from linkwright.applied_loads.phases import Always
 from linkwright.core.arrays import Flags, Floats, largest
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import significant
 from linkwright.core.search import first_largest

@@ -8,12 +8,11 @@ relative one along the guide (Norton, Design of Machinery, chapters 6 and 7).
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.errors import LinkwrightError
 from linkwright.joints.lower import SlidingJoint
 from linkwright.kinematics.motion import Motion

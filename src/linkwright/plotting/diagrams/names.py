@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.motion import Motion
 from linkwright.pictures.diagram import INK, Axes, Figure
 from linkwright.pictures.labels import Label, Obstacles, place

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, largest
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import Output
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
 from linkwright.plotting.diagrams.axes import (

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import singledispatch
 from math import atan2, pi, sqrt
 
 import numpy as np
 
-from linkwright.core.dataclass import dataclass
 from linkwright.joints.base import HigherPair, Joint
 from linkwright.joints.belt import BeltPair
 from linkwright.joints.cam import CamJoint

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import singledispatch
 
 from linkwright.applied_loads.base import Load
@@ -11,7 +12,6 @@ from linkwright.applied_loads.magnitude import Magnitude
 from linkwright.applied_loads.pressure import Pressure
 from linkwright.applied_loads.sizes import Constant, Ramp
 from linkwright.applied_loads.torque import Torque
-from linkwright.core.dataclass import dataclass
 from linkwright.kinematics.motion import Motion
 
 

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.outputs import owners_of
 from linkwright.kinetostatics.applied_wrenches import AppliedWrench, applied_wrenches
 from linkwright.kinetostatics.forces import Forces

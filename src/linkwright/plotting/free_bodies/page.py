@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import fixed
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces

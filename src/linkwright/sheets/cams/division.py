@@ -9,6 +9,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -16,7 +17,6 @@ import numpy as np
 from linkwright.cams.curves import RollerCurve
 from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.laws.base import MotionLaw
 from linkwright.laws.program import TURN, MotionProgram, Program
 

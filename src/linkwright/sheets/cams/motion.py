@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import significant
 from linkwright.laws.program import TURN
 from linkwright.pictures.picture import LEAST, TEXT, Picture, Runs, as_runs, indexed, joined, runs_width

@@ -13,6 +13,7 @@ import re
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -21,7 +22,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes, Floats, Indices, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.cache import folder
 from linkwright.formula.threads import cores, spread_over
 from linkwright.synthesis.free_curve.curve_similarity import ANGLES, MARKS, POINTS, REACH, RINGS, TURNS

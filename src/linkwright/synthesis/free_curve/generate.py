@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes
-from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress, current_progress
 from linkwright.designs.finished_parts import RESUME, surrounding
 from linkwright.formula.machine_code import available

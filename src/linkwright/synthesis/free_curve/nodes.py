@@ -6,12 +6,12 @@ pivots, pins, slides, points of links and the drawing point.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.formula.kernel import Kernels
 from linkwright.synthesis.free_curve.curve_similarity import LIKENESS
 from linkwright.synthesis.free_curve.descent import DESCENT

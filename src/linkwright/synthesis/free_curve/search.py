@@ -16,7 +16,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from itertools import islice, pairwise
 from typing import Any, NamedTuple, TypeVar
@@ -24,7 +24,6 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from linkwright.core.arrays import Floats, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress
 from linkwright.designs.cluster import current, hands, in_turn
 from linkwright.designs.finished_parts import identity, once, surrounding

@@ -13,12 +13,12 @@ Sources: Freudenstein 1955, Trans. ASME 77; Hartenberg and Denavit 1964, Kinemat
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.motion_generation.burmester import five_poses
 
 ZEROS = 72

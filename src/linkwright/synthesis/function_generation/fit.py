@@ -7,10 +7,11 @@ only the linkage's own numbers.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import Progress
 from linkwright.synthesis.function_generation.generators import Generator, TurningFourBar
 from linkwright.synthesis.least_squares import minimise, with_differences

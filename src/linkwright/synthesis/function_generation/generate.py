@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arguments import real
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.progress import current_progress, part_of
 from linkwright.core.quantity import number
 from linkwright.synthesis.assessment import assess_four_bars

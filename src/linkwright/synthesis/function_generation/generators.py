@@ -10,13 +10,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.crank_family import CrankFamily
 from linkwright.synthesis.function_generation.proven_extremes import least_sine
 from linkwright.synthesis.linkage import Guide, Linkage

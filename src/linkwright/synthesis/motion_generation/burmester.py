@@ -13,11 +13,12 @@ Source: Burmester 1888, Lehrbuch der Kinematik; Bottema and Roth 1979, Theoretic
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes, Flags, Floats
-from linkwright.core.dataclass import dataclass
 
 #: A solution is real where its conjugate differs by less than this, relative; centres farther than FAR are sliders.
 REAL, FAR = 1e-6, 1e7

@@ -12,12 +12,12 @@ Source: Bottema and Roth 1979, Theoretical Kinematics, ch. 8; McCarthy and Soh 2
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.least_squares import minimise
 from linkwright.synthesis.motion_generation.burmester import (
     FAR,

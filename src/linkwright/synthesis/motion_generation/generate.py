@@ -5,13 +5,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import Assessment, assess_four_bars, assess_slider_cranks
 from linkwright.synthesis.build import (
     candidate,

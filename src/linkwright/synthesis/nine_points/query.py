@@ -7,10 +7,11 @@ other ways: to the points turned about the first one, from where the solutions a
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.nine_points.classes import (
     CLASSES,
     class_keys,

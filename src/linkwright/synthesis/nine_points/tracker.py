@@ -20,11 +20,11 @@ Source: Wampler, Morgan and Sommese 1992, J. Mech. Des. 114; Allgower and Georg 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.designs.finished_parts import once
 from linkwright.formula.machine_code import available
 from linkwright.formula.threads import cores, spread_over

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.designs.finished_parts import once
 from linkwright.formula.threads import cores, spread_over
 from linkwright.synthesis.crank_family import CrankFamily

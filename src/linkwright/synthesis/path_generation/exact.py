@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes
-from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.merit import extent_of, merit

@@ -9,10 +9,11 @@ fixed z, α, β).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
-from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.crank_family import CrankFamily, coupler_rates, couplers
 
 

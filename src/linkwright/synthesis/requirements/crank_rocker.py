@@ -9,11 +9,11 @@ Sources: Alt 1932 (Totlagenkonstruktion); Brodell and Soni 1970, J. Mechanisms 5
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
 from linkwright.synthesis.assessment import Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate

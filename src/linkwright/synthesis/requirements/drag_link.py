@@ -13,11 +13,11 @@ Source: the condition is the law of cosines at both ends; the aim is Tsai's (198
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import TYPES, Assessment, assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, positive

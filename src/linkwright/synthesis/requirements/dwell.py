@@ -9,12 +9,11 @@ Source: Norton, Design of Machinery, sec. 3.9; Kåsa 1976, IEEE Trans. Instrum. 
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
 from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.function_generation.generators import Stephenson

@@ -9,12 +9,11 @@ Sources: Volmer, Getriebetechnik; Norton, Design of Machinery, ch. 3 and 4.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from linkwright.core.arguments import real
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import number
 from linkwright.synthesis.assessment import assess_slider_cranks
 from linkwright.synthesis.build import candidate, slider_crank

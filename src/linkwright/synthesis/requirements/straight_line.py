@@ -13,12 +13,11 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes
-from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import coupler_unit, four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.linkage import Linkage

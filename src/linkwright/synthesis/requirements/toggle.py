@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import cmath
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.core.dataclass import dataclass
 from linkwright.synthesis.build import slider_crank
 from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkwright.core.dataclass import dataclass
 from linkwright.core.quantity import fixed
 from linkwright.equations.matrix import Entries, side_by_side
 from linkwright.equations.steps import Step, Tabulated
