@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from functools import partial
+from functools import cached_property, partial
 from math import isnan, nan
 from typing import Any, Literal, TypeAlias
 
@@ -18,7 +18,6 @@ from linkwright.analysis.ways import Signal, Ways
 from linkwright.applied_loads.signals import Limit
 from linkwright.applied_loads.strokes import outermost
 from linkwright.core.arrays import Floats
-from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, row_names
 from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.machine import Machine, NotTogether

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from math import ceil
 from typing import Any
 
@@ -11,7 +12,6 @@ import numpy as np
 from linkwright.applied_loads.base import Load
 from linkwright.applied_loads.over_cycle import activity
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.cached_property import cached_property
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.cycle import over_cycle

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 
 from linkwright.analysis.ways import SIDE, Signal, SignalsOnWays, Ways
 from linkwright.applied_loads.signals import Limit
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output
 from linkwright.core.search import first_largest
 from linkwright.curves.pieces import LOW, Pieces

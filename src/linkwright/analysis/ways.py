@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +17,6 @@ import numpy as np
 from linkwright.analysis.one_sided_limits import AWAY, SLOWED, STEEPEST, limit, weights
 from linkwright.analysis.solved_again import Resolver
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.cached_property import cached_property
 from linkwright.curves.curve import increasing
 from linkwright.curves.pieces import HIGH, LOW, Columns, Layout, Pieces, Wanted
 from linkwright.cycle.solved import PIECES

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
-from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output
 from linkwright.equations.terms import APPLY, Term
 from linkwright.worked_solutions.solution import Worked

@@ -7,6 +7,7 @@ import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
@@ -17,7 +18,6 @@ from linkwright.analysis import metrics
 from linkwright.analysis.transmission_angle import TransmissionAngle
 from linkwright.core.arguments import integer, require
 from linkwright.core.attached import attached
-from linkwright.core.cached_property import cached_property
 from linkwright.core.progress import Progress, current_progress
 from linkwright.course.mistakes import Consequence, Sheet
 from linkwright.course.task import Question, Task, task

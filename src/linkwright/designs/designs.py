@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,6 @@ from linkwright.analysis.by_name import wanted
 from linkwright.core.arguments import STEPS, integer, one_of, require
 from linkwright.core.arrays import Flags, Floats, Integers
 from linkwright.core.attached import Plotted
-from linkwright.core.cached_property import cached_property
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, columns_table, unused

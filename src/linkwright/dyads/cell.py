@@ -9,10 +9,9 @@ their states are inputs of the program instead. Positions, rates and forces come
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from linkwright.applied_loads.site import Wrench
-from linkwright.core.cached_property import cached_property
 from linkwright.files.model_file import loads
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program

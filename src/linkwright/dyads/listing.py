@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import POINT, SLIDE, Output
 from linkwright.dyads.listed_forces import CROSS, ForceLines
 from linkwright.dyads.listed_numbers import WIDE, ZERO, angle, call, column, number, pair, quoted, series

@@ -7,6 +7,7 @@ import io
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
@@ -18,7 +19,6 @@ from linkwright.analysis.by_name import wanted
 from linkwright.core import VERSION
 from linkwright.core.arguments import integer, require
 from linkwright.core.arrays import Floats
-from linkwright.core.cached_property import cached_property
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.core.table import Amount, Cell, Table, Tabular
 from linkwright.designs.cluster import connected, current, in_turn

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import row_name
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.change_points import closes, passages, signs

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.cached_property import cached_property
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.positions import CycleError, Positions

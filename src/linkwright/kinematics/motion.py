@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.attached import Plotted, attached
-from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import KINDS, NAMED, SLIDE, Output, row_name
 from linkwright.core.read_only import FrozenDict, locked
 from linkwright.errors import RequestError

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import chain
 from math import cos, sin
 
@@ -12,7 +13,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats, Indices
-from linkwright.core.cached_property import cached_property
 from linkwright.core.expressions import amount
 from linkwright.core.inputs import driven
 from linkwright.core.quantity import shown

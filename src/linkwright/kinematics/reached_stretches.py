@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.cached_property import cached_property
 from linkwright.core.search import ends
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.fold import fold

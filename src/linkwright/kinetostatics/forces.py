@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import Plotted, attached
-from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import kind_of, row_name, row_names
 from linkwright.core.read_only import locked
 from linkwright.errors import RequestError

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, NoReturn
 
-from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, NoReturn
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, kind_of
 from linkwright.core.quantity import shown
 from linkwright.errors import SelfCheckError

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 
 from linkwright.applied_loads.signals import FullCycle, Limit
 from linkwright.core.arrays import Flags, Floats
-from linkwright.core.cached_property import cached_property
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.drivers.base import Law
 from linkwright.events.limit_positions import limit_positions

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.cached_property import cached_property
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solver import MotionSolver

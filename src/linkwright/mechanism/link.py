@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Literal, TypeVar
 
-from linkwright.core.cached_property import cached_property
 from linkwright.fields.base import Field, Quantities, Quantity
 from linkwright.fields.references import Coordinates, LinkPoints, PlaceOrPoint
 from linkwright.words import _

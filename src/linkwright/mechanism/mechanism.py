@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from linkwright.applied_loads.base import Load
 from linkwright.core.arguments import require
 from linkwright.core.attached import attached
-from linkwright.core.cached_property import cached_property
 from linkwright.core.read_only import Frozen, FrozenDict, frozen
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError
