@@ -66,7 +66,6 @@ KNOWN_TO_FORMULAS = (
     "linkwright.errors",
     "linkwright.words",
     "linkwright.core.arrays",
-    "linkwright.core.spline",
 )
 FORMULA = [module for module in MODULES if package_of(module) == "formula"]
 ANALYSIS = [

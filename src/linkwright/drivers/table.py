@@ -13,7 +13,8 @@ from linkwright.fields.base import Field, TimeTable, TimeTableValues
 from linkwright.words import _
 
 if TYPE_CHECKING:
-    from linkwright.core.spline import Spline
+    from scipy.interpolate import CubicSpline
+
     from linkwright.drivers.base import Array
 
 
@@ -42,17 +43,19 @@ class TableLaw(Law):
         if np.any(t < first - slack) or np.any(t > last + slack):
             raise LinkwrightError(BEYOND_LAW.format(first=first, last=last, begin=np.min(t), end=np.max(t)))
         inside = np.clip(t, first, last)
-        return self._linear(inside) if self.interpolation == "linear" else self._spline(inside)
+        return self._linear(inside) if self.interpolation == "linear" else self._cubic(inside)
 
     @cached_property
-    def _spline(self) -> Spline:
-        from linkwright.core.spline import Spline
+    def _spline(self) -> CubicSpline:
+        from scipy.interpolate import CubicSpline
 
         if self.interpolation != "periodic":
-            return Spline.not_a_knot(self.times, self.positions)
-        return Spline.periodic(
-            self.times, [q - self._drift * t for t, q in zip(self.times, self.positions, strict=True)]
-        )
+            return CubicSpline(self.times, self.positions)
+        rest = [q - self._drift * t for t, q in zip(self.times, self.positions, strict=True)]
+        return CubicSpline(self.times, [*rest[:-1], rest[0]], bc_type="periodic")
+
+    def _cubic(self, t: Array) -> tuple[Array, Array, Array]:
+        return self._spline(t), self._spline(t, 1), self._spline(t, 2)
 
     @property
     def _drift(self) -> float:
@@ -60,7 +63,7 @@ class TableLaw(Law):
         return (self.positions[-1] - self.positions[0]) / (self.times[-1] - self.times[0])
 
     def _periodic(self, t: Array) -> tuple[Array, Array, Array]:
-        position, rate, second = self._spline(t)
+        position, rate, second = self._cubic(t)
         return position + self._drift * t, rate + self._drift, second
 
     def _linear(self, t: Array) -> tuple[Array, Array, Array]:

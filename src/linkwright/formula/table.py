@@ -68,20 +68,22 @@ class Table:
 
     @classmethod
     def spline(cls, x: ArrayLike, y: ArrayLike, *, periodic: bool = False) -> Table:
-        """The cubic through the points with continuous second derivative (:mod:`linkwright.core.spline`).
+        """The cubic through the points with continuous second derivative.
 
         The third derivative is continuous at the first and last inner points as well (two points: a line, three: a
         parabola). ``periodic``: slope and curvature repeat instead, and y may rise from turn to turn, which is the
         table's drift.
         """
-        from linkwright.core.spline import Spline
+        from scipy.interpolate import CubicSpline
 
         xs, ys = _points(x, y)
         if not periodic:
-            return cls(xs, Spline.not_a_knot(xs, ys).coefficients.T)
+            return cls(xs, CubicSpline(xs, ys).c[::-1].T)
         drift = float(ys[-1] - ys[0])
         slope = drift / (xs[-1] - xs[0])
-        coefficients = Spline.periodic(xs, ys - slope * (xs - xs[0])).coefficients.T.copy()
+        level = ys - slope * (xs - xs[0])
+        level[-1] = level[0]
+        coefficients = CubicSpline(xs, level, bc_type="periodic").c[::-1].T.copy()
         coefficients[:, 0], coefficients[:, 1] = ys[:-1], coefficients[:, 1] + slope
         return cls(xs, coefficients, True, drift)
 

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.spline import Spline
 from linkwright.laws.program import TURN, Program
 
 if TYPE_CHECKING:
@@ -156,12 +155,12 @@ def row_at(x: Scalar, edges: Floats, rows: Floats) -> list[Scalar]:
     return chosen(0, len(rows))
 
 
-def traced_spline(spline: Spline, x: Scalar) -> tuple[Scalar, Scalar, Scalar]:
-    """Value and first two derivatives of a spline at a traced place; beyond the ends the first or the last cubic.
+def traced_spline(spline: PPoly, x: Scalar) -> tuple[Scalar, Scalar, Scalar]:
+    """Value and first two derivatives of a cubic spline at a traced place; beyond the ends the first or last cubic.
 
     For the equations of joints (:meth:`linkwright.joints.ends.Ends.function`).
     """
-    start, *row = row_at(x, spline.knots, np.column_stack([spline.knots[:-1], spline.coefficients.T]))
+    start, *row = row_at(x, spline.x, np.column_stack([spline.x[:-1], spline.c[::-1].T]))
     first = [row[1], 2.0 * row[2], 3.0 * row[3]]
     h = x - start
     return horner(row, h), horner(first, h), horner([first[1], 2.0 * first[2]], h)

@@ -172,3 +172,26 @@ def test_a_spline_through_points_of_a_cubic_is_that_cubic() -> None:
     at = np.linspace(0, 1.5, 7)
     for order, values in every(enumerate(found.coordinate(at)), least=3):
         assert values == pytest.approx(cubic.deriv(order)(at) if order else cubic(at), abs=1e-12)
+
+
+@pytest.mark.parametrize("first", [0.0, 0.7, -2.5])
+def test_a_periodic_table_with_drift_gains_it_every_period(first: float) -> None:
+    """A shaft that turns once per period and wobbles: q = 2πt/T + 0.1 sin(2πt/T), known with both rates."""
+    period = 0.8
+    times = first + np.linspace(0.0, period, 41)
+    turn = 2 * np.pi / period
+
+    def shaft(t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        phase = turn * t
+        return phase + 0.1 * np.sin(phase), turn * (1 + 0.1 * np.cos(phase)), -0.1 * turn**2 * np.sin(phase)
+
+    law = TableLaw(tuple(times.tolist()), tuple(shaft(times)[0].tolist()), "periodic")
+    t = np.linspace(-3.3, 5.1, 500)
+    h, fourth = period / 40, 0.1 * turn**4  # bounds of Hall and Meyer (1976)
+    bounds = (5 / 384 * h**4 * fourth, h**3 / 24 * fourth, 3 / 8 * h**2 * fourth)
+    for found, expected, error in zip(law.coordinate(t), shaft(t), bounds, strict=True):
+        np.testing.assert_allclose(found, expected, rtol=0, atol=error)
+    before, after = law.coordinate(t), law.coordinate(t + 3 * period)
+    np.testing.assert_allclose(after[0] - before[0], 3 * 2 * np.pi, rtol=0, atol=1e-10)
+    np.testing.assert_allclose(after[1], before[1], rtol=0, atol=1e-8)
+    assert law.span() == (-np.inf, np.inf)

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, ClassVar, Self
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.spline import Spline
 from linkwright.drivers.base import Law
 from linkwright.drivers.table import TableLaw
 from linkwright.fields.base import TimeTableValues
 
 if TYPE_CHECKING:
+    from scipy.interpolate import PPoly
+
     from linkwright.drivers.base import Array
     from linkwright.fields.base import Field
 
@@ -29,10 +30,12 @@ class TurnedByReaction(Law):
     angles: tuple[float, ...]
     jumps: tuple[int, ...] = ()
     rotary: bool = True
-    spline: Spline = field(init=False, repr=False, compare=False)
+    spline: PPoly = field(init=False, repr=False, compare=False)
     drift: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        from scipy.interpolate import CubicSpline
+
         count, first = len(self.angles), self.jumps[0] + 1 if self.jumps else 0
         whole = np.roll(np.array(self.angles), -first)
         turned: Floats = np.unwrap(np.append(whole, whole[0]))
@@ -40,9 +43,11 @@ class TurnedByReaction(Law):
         drift = 0.0 if self.jumps else (turned[-1] - turned[0]) / self.period
         if self.jumps:
             ends = [*(jump - first + 1 for jump in self.jumps[1:]), count]
-            spline = _arcs(times, turned, ends, self.period)
+            spline = _arcs(times, turned, ends)
         else:
-            spline = Spline.periodic(times, turned - drift * times)
+            level = turned - drift * times
+            level[-1] = level[0]
+            spline = CubicSpline(times, level, bc_type="periodic")
         object.__setattr__(self, "spline", spline)
         object.__setattr__(self, "drift", drift)
 
@@ -52,8 +57,7 @@ class TurnedByReaction(Law):
         return cls(period, tuple(angles.tolist()), tuple(jumps))
 
     def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
-        position, rate, second = self.spline(t)
-        return position + self.drift * t, rate + self.drift, second
+        return self.spline(t) + self.drift * t, self.spline(t, 1) + self.drift, self.spline(t, 2)
 
     def natural_duration(self) -> float | None:
         return self.period
@@ -75,15 +79,17 @@ class TurnedByReaction(Law):
         return {"table": TimeTableValues(tuple(times.tolist()), (*self.angles, self.angles[0]), "linear")}
 
 
-def _arcs(times: Floats, angles: Floats, ends: Sequence[int], period: float) -> Spline:
+def _arcs(times: Floats, angles: Floats, ends: Sequence[int]) -> PPoly:
     """Arcs that end before the knots of the numbers ``ends``; each goes on through the interval of the jump."""
+    from scipy.interpolate import CubicSpline, PPoly
+
     pieces, begin = np.zeros((4, len(times) - 1)), 0
     for end in ends:
-        pieces[0, end - 1] = angles[end - 1]
+        pieces[3, end - 1] = angles[end - 1]
         if end - begin > 1:
-            arc = Spline.not_a_knot(times[begin:end], angles[begin:end])
-            pieces[:, begin : end - 1] = arc.coefficients
-            last = tuple(float(each[0]) for each in arc(times[end - 1 : end]))
-            pieces[:3, end - 1] = last[0], last[1], 0.5 * last[2]
+            arc = CubicSpline(times[begin:end], angles[begin:end])
+            pieces[:, begin : end - 1] = arc.c
+            last = times[end - 1]
+            pieces[1:, end - 1] = 0.5 * arc(last, 2), arc(last, 1), arc(last)
         begin = end
-    return Spline(times, pieces, period)
+    return PPoly(pieces, times, extrapolate="periodic")
