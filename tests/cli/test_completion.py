@@ -1,8 +1,9 @@
-"""Completion: bash is asked as it asks; the other scripts hold every command and option."""
+"""Completion: shells ask the program, as their scripts do."""
 
-import re
+import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -15,60 +16,71 @@ from linkwright.cli import commands
 BASH = shutil.which("bash")
 
 
-def completed(script: str, line: str, folder: Path) -> set[str]:
-    """What bash offers for the last word of a line, its words split at colons as bash does."""
-    asked = f"""
-{script}
-COMP_LINE={line!r}
-COMP_POINT=${{#COMP_LINE}}
-COMP_WORDS=({line.replace(":", " : ")}{" ''" if line.endswith(" ") else ""})
-COMP_CWORD=$((${{#COMP_WORDS[@]}}-1))
-_linkwright
-printf '%s\\n' "${{COMPREPLY[@]}}"
-"""
-    assert BASH is not None
-    done = subprocess.run([BASH, "-c", asked], capture_output=True, text=True, check=True, cwd=folder)
+def asked(shell: str, line: str, language: str = "en") -> str:
+    """What the program answers to the script of a shell for the last word of a line."""
+    *before, last = line.split(" ")
+    environment = {
+        **os.environ,
+        "_LINKWRIGHT_COMPLETE": f"{shell}_complete",
+        "LINKWRIGHT_LANG": language,
+        "COMP_WORDS": line,
+        "COMP_CWORD": last if shell == "fish" else str(len(before)),
+    }
+    done = subprocess.run(
+        [sys.executable, "-m", "linkwright"], capture_output=True, text=True, check=False, env=environment
+    )
     assert done.stderr == ""
-    return set(done.stdout.split())
+    return done.stdout
+
+
+def completed(line: str) -> set[str]:
+    """The words that bash offers, files as ``FILE``."""
+    answers = (each.partition(",") for each in asked("bash", line).splitlines())
+    return {"FILE" if kind == "file" else word for kind, _comma, word in answers}
+
+
+def test_commands_options_choices_files_and_models() -> None:
+    expected = {name for name in commands.names() if name.startswith("st")}
+    assert {"structure", "study"} <= expected
+    assert completed("linkwright st") == expected
+    assert completed("linkwright solve --ste") == {"--steps"}
+    assert completed("linkwright study --sampling ") == {"grid", "sobol"}
+    assert completed("linkwright solve x.yaml --lang ") == {"en", "zh"}
+    assert completed("linkwright solve pr") == completed("linkwright solve x.yaml --output ") == {"FILE"}
+    assert completed("linkwright draw gallery:jaw_crusher_f") == {"gallery:jaw_crusher_fourbar"}
 
 
 @pytest.mark.skipif(BASH is None, reason="there is no bash")
-def test_bash_completes_commands_options_choices_files_and_models(tmp_path: Path) -> None:
-    (tmp_path / "press.yaml").write_text("format: 1\n")
-    script = shown("completion", "bash")
-    expected = {name for name in commands.names() if name.startswith("st")}
-    assert {"structure", "study"} <= expected
-    assert completed(script, "linkwright st", tmp_path) == expected
-    assert completed(script, "linkwright solve --ste", tmp_path) == {"--steps"}
-    assert completed(script, "linkwright study --sampling ", tmp_path) == {"grid", "sobol"}
-    assert completed(script, "linkwright solve x.yaml --lang ", tmp_path) == {"en", "zh"}
-    assert completed(script, "linkwright solve pr", tmp_path) == {"press.yaml"}
-    assert completed(script, "linkwright draw gallery:jaw_crusher_f", tmp_path) == {"jaw_crusher_fourbar"}
+def test_bash_takes_a_model_of_the_gallery_as_one_word(tmp_path: Path) -> None:
+    program = tmp_path / "linkwright"
+    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m linkwright "$@"\n')
+    program.chmod(0o755)
+    script = f"""{shown("completion", "bash")}
+COMP_WORDS=(linkwright draw gallery:jaw_crusher_f)
+COMP_CWORD=2
+_linkwright_completion "{program}"
+printf '%s ' "$COMP_WORDBREAKS" "${{COMPREPLY[@]}}"
+"""
+    assert BASH is not None
+    done = subprocess.run([BASH, "-c", script], capture_output=True, text=True, check=True)
+    breaks, found = done.stdout.rsplit(maxsplit=1)
+    assert (":" in breaks, found, done.stderr) == (False, "gallery:jaw_crusher_fourbar", "")
 
 
-def options_of(name: str) -> set[str]:
-    """The options that the help of a command lists."""
-    listed = re.findall(r"^  (-.*?)(?:  |$)", shown("help", name), re.MULTILINE)
-    return {word for line in listed for word in re.findall(r"(?<![\w-])--?[a-z][a-z-]*", line)}
+@pytest.mark.parametrize("language", words.LANGUAGES)
+def test_help_of_completions_is_in_the_language(language: str) -> None:
+    offered = asked("fish", "linkwright ", language)
+    for name in every(commands.names(), least=30):
+        assert f"plain,{name}\t{commands.command(name).summary.translate(language)}" in offered
+    steps = next(each for each in commands.command("solve").params if each.name == "steps")
+    assert str(getattr(steps, "help", "").translate(language)) in asked(
+        "fish", "linkwright solve --ste", language
+    )
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_every_command_and_option_is_in_the_script(shell: str) -> None:
-    script = shown("completion", shell)
-    for name in every(commands.names(), least=30):
-        assert name in script
-        for word in every(options_of(name), least=5):
-            dash = "-l" if word.startswith("--") else "-s"
-            spelled = f"{dash} {word.lstrip('-')}" if shell == "fish" else word
-            assert spelled in script, (name, word)
-
-
-def test_fish_says_what_a_command_does_in_the_language() -> None:
-    for language in words.LANGUAGES:
-        script = shown("completion", "fish", "--lang", language)
-        for name in every(commands.names()):
-            summary = commands.command(name).SUMMARY.translate(language).replace("'", "\\'")
-            assert f"-a {name} -d '{summary}'" in script
+def test_the_script_of_a_shell_asks_the_program(shell: str) -> None:
+    assert f"_LINKWRIGHT_COMPLETE={shell}_complete" in shown("completion", shell)
 
 
 def test_an_unknown_shell_is_refused() -> None:

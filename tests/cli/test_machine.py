@@ -167,7 +167,7 @@ def test_closeness_to_a_singular_position_is_told() -> None:
         ([*AREAS, "--scale", "5 N/mm, 1 deg/mm"], "machine.bad_scale", {"text": "5 N/mm, 1 deg/mm"}),
         ([*AREAS, "--scale", "5 N·m/mm, 1 dgr/mm"], "unknown-unit", {"text": "dgr/mm", "offer": "deg/mm"}),
         ([*AREAS, *SCALE, "--fluctuation", "0.01"], "machine.needs_speed", {}),
-        ([*AREAS, *SCALE, "--load", "3"], "cli.not_together", {"name": "--areas", "other": "--load"}),
+        ([*AREAS, *SCALE, "--load", "3"], "cli.not_together", {"name": "--load", "other": "--areas"}),
         ([*AREAS, *SCALE, "--mass", "36kg"], "machine.mass_and_gyration", {}),
         ([*ENGINE, "--disk"], "machine.shape_needs_fluctuation", {}),
         (["--torque", "5 + sin(tehta)"], "unknown-name", {"offer": "theta"}),

@@ -82,7 +82,7 @@ SLIPS: list[tuple[list[str], str, dict[str, object]]] = [
     (["gallery", "show", "kiet"], "gallery.unknown", {"name": "kiet", "offer": "kite"}),
     (["gallery", "copy"], "gallery.which", {"action": "copy"}),
     (["--verson"], "cli.unknown_option", {"offer": "--version"}),
-    (["--lang", "de"], "cli.bad_language", {"name": "de"}),
+    (["--lang", "de"], "cli.bad_choice", {"name": "--lang", "value": "de"}),
     (["--lang"], "cli.needs_value", {"name": "--lang"}),
 ]
 

@@ -29,8 +29,8 @@ def test_every_text_is_translated_with_the_same_values(language: str) -> None:
 @pytest.mark.parametrize("name", commands.names())
 def test_every_command_has_its_words(name: str) -> None:
     command = commands.command(name)
-    assert command.EXAMPLES
-    for message in (command.SUMMARY, command.DESCRIPTION):
+    assert command.examples
+    for message in (command.summary, command.description):
         assert all(message.translate(language) != message for language in words.LANGUAGES[1:])
 
 

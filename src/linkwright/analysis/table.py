@@ -12,7 +12,6 @@ from linkwright.core.table import Amount, Cell, Table, Tabular, dataframe
 from linkwright.errors import RequestError
 from linkwright.registry import offered
 from linkwright.words import _
-from linkwright.words.characters import aligned_within, cells
 from linkwright.words.sentence import in_language, in_words, together
 
 if TYPE_CHECKING:
@@ -21,8 +20,6 @@ if TYPE_CHECKING:
 #: How many values of one number and subject tables show at most.
 REPEATED = 6
 COLUMNS = ("metric", "subject", "value", "unit", "at", "at_unit", "limit", "exact", "warning", "remark")
-#: Behind numbers about which a warning stands beneath the table.
-MARK = "  !"
 
 
 def told(rows: Sequence[MetricValue], language: str) -> Iterator[tuple[tuple[Cell, ...], MetricValue | None]]:
@@ -57,7 +54,7 @@ def _remarks(row: MetricValue | None, language: str) -> str:
     if row is None:
         return ""
     said = [remark.text(language) for remark in row.remarks if not remark.warning]
-    mark = MARK.strip() if row.warnings else ""
+    mark = "!" if row.warnings else ""
     return f"{mark} {_('; ').translate(language).join(said)}".strip()
 
 
@@ -157,28 +154,6 @@ class MetricsTable(Plotted, Tabular, Sequence[MetricValue]):
             )
         )
 
-    def text(
-        self, language: str = "en", width: int | None = None, *, fold: bool = True, **_options: Any
-    ) -> str:
-        """Name, subject, value, unit, place, recommended limit and remarks; then the warnings.
-
-        ``width``: characters across; where the table is wider, remarks stand beneath their numbers, and with ``fold``
-        texts are folded.
-        """
-        (table,) = self.tables(language)
-        lines = table.lines(language)
-        rows = lines[2 : 3 + len(table.rows)]
-        if (
-            width is not None
-            and table.rows
-            and max(map(cells, rows)) > width
-            and (fold or table.head[-1] == REMARK)
-        ):
-            lines[2 : 3 + len(table.rows)] = self._beneath(
-                table, width - len(MARK) if fold else None, language
-            )
-        return "\n".join(lines)
-
     def tables(self, language: str = "en") -> tuple[Table]:
         """The rows, limits and remarks where there are any, and the warnings."""
         if not self.rows:
@@ -194,19 +169,6 @@ class MetricsTable(Plotted, Tabular, Sequence[MetricValue]):
         align = "".join("<<><>><"[i] for i in kept)
         cells = [[row[i] for i in kept] for row in rows]
         return (Table([head[i] for i in kept], cells, align, self.title, notes),)
-
-    def _beneath(self, table: Table, width: int | None, language: str) -> list[str]:
-        """Lines of the table with each remark on a line of its own beneath its number."""
-        rows, remarks, align = table.texts(language), [""] * len(table.rows), table.alignment
-        if table.head[-1] == REMARK:
-            remarks = [row[-1] for row in rows[1:]]
-            rows, align = [row[:-1] for row in rows], align[:-1]
-        head, *body = aligned_within(rows, align, width)
-        found = list(head)
-        for (first, *rest), said in zip(body, remarks, strict=True):
-            remark = said.removeprefix(MARK.strip()).strip()
-            found += [first + MARK * (said != remark), *rest, *([f"    {remark}"] if remark else [])]
-        return found
 
     def data(self, language: str = "en") -> dict[str, Any]:
         """Plain data, SI, one mapping per row; remarks and warnings in a language."""

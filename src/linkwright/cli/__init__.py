@@ -13,7 +13,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Without ``argv`` it is the whole process: an interrupt ends it at any time without a word of Python's.
     """
     if argv is not None:
-        from linkwright.cli.start import run
+        from linkwright.cli.program import run
 
         return run(argv)
     from linkwright.cli import process

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import Any
 
 from linkwright.cli.errors import OptionError
+from linkwright.cli.options import Option
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -16,18 +17,18 @@ from linkwright.files.reader import Reader
 from linkwright.words import _
 
 
-def read_declared(options: argparse.Namespace, given: Iterable[argparse.Action]) -> None:
+def read_declared(options: dict[str, Any], given: Iterable[Option]) -> None:
     """Puts values in the place of the texts of declared options; raises OptionError with all findings."""
     reader, fields, entries = Reader(""), dict[str, Field](), list[Entry]()
-    declared = [(vars(each), each) for each in given if "field" in vars(each)]
-    for own, each in sorted(declared, key=lambda pair: pair[0]["rank"]):
-        key, field = each.option_strings[0], own["field"]
-        fields[each.dest] = replace(field, key=key)
-        entries.append(Entry(_scalar(key), _node(reader, key, field, getattr(options, each.dest))))
+    for each in sorted(given, key=lambda option: option.rank):
+        if each.field is not None:
+            key, name = each.opts[0], str(each.name)
+            fields[name] = replace(each.field, key=key)
+            entries.append(Entry(_scalar(key), _node(reader, key, each.field, options[name])))
     values = reader.table(MappingNode(0, 0, 0, 0, entries), Place("", ""), fields)
     if reader.error_count:
         raise OptionError(reader.findings)
-    vars(options).update(values or {})
+    options.update(values or {})
 
 
 def _node(reader: Reader, key: str, field: Field, given: str | list[str]) -> Node:

@@ -1,19 +1,21 @@
-"""The list of commands, the help of one command, and the versions."""
+"""The help of the program and of its commands, in the user's language, as wide as the terminal."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import sys
+from collections.abc import Iterable
+from importlib import metadata
 from importlib.util import find_spec
+from io import StringIO
+from shutil import get_terminal_size
 
-from linkwright.cli import commands
-from linkwright.cli.parser import COMMON, CommandParser, Options, add_common
-from linkwright.cli.session import Session
+import click
+from rich.console import Console
+
+from linkwright.cli.session import Session, grid
 from linkwright.core import VERSION
-from linkwright.words import Say, _, language_of
-from linkwright.words.characters import aligned_within
-from linkwright.words.sentence import in_language
+from linkwright.words import Message, _, in_language
 
-INDENT = "  "
 EXIT_CODES = _(
     "0    done, nothing to complain about\n"
     "1    an error in the model, or a position that cannot be reached\n"
@@ -22,86 +24,105 @@ EXIT_CODES = _(
 )
 
 
-def overview(session: Session) -> None:
-    """All commands in one line each."""
-    say = session.say
-    room = session.room and session.room - len(INDENT)
-
-    def rows(pairs: Sequence[tuple[str, str]]) -> str:
-        return "\n".join(line for lines in aligned_within(pairs, "<<", room) for line in lines)
-
-    names = [(name, say(commands.command(name).SUMMARY)) for name in commands.names()]
-    options = [(option, say(what)) for option, what in COMMON.items()]
-    session.show(
-        "\n".join(
-            [
-                say(_("usage: ")) + say(_("linkwright COMMAND [options]")) + "\n",
-                say(_("Linkwright: analysis and design of planar machines.")) + "\n",
-                _section(say(_("commands")), rows(names)),
-                _section(say(_("options")), rows(options)),
-                _section(
-                    say(_("exit codes")),
-                    say(EXIT_CODES),
-                ),
-                say(_("linkwright COMMAND --help explains a command, with examples.")),
-            ]
-        )
-    )
-
-
-def command_parser(name: str, say: Say) -> CommandParser:
-    """The parser of a command with its help text."""
-    command = commands.command(name)
-    epilog = "\n".join(
+def program_help(group: click.Group, ctx: click.Context) -> str:
+    """All commands in one line each, and the options of all commands."""
+    names = [(name, each.get_short_help_str()) for name in group.list_commands(ctx)
+             if (each := group.get_command(ctx, name))]  # fmt: skip
+    return _joined(
+        ctx,
         [
-            _section(say(_("examples")), in_language(command.EXAMPLES, language_of(say))),
-            _section(
-                say(_("exit codes")),
-                say(EXIT_CODES),
-            ),
-        ]
+            _usage(_("linkwright COMMAND [options]"), ctx),
+            _("Linkwright: analysis and design of planar machines."),
+            _section(_("commands"), names, ctx),
+            _section(_("options"), _options(group.params), ctx),
+            _section(_("exit codes"), EXIT_CODES, ctx),
+            _("linkwright COMMAND --help explains a command, with examples."),
+        ],
     )
-    parser = CommandParser(f"linkwright {name}", say, description=say(command.DESCRIPTION), epilog=epilog)
-    command.arguments(Options(parser, say))
-    parser.surplus = getattr(command, "surplus", parser.surplus)
-    add_common(parser, say)
-    return parser
+
+
+def command_help(ctx: click.Context, description: str, examples: str) -> str:
+    """Usage, description, arguments, options and examples of a command."""
+    params = ctx.command.params
+    arguments = [each for each in params if isinstance(each, click.Argument)]
+    needed = [f"{each.opts[0]} {_metavar(each)}" for each in params
+              if isinstance(each, click.Option) and each.required]  # fmt: skip
+    usage = " ".join(
+        [ctx.command_path, *needed, "[options]", *(each.make_metavar(ctx) for each in arguments)]
+    )
+    return _joined(
+        ctx,
+        [
+            _usage(usage, ctx),
+            description,
+            _section(_("arguments"), [(each.make_metavar(ctx), each.help or "") for each in arguments], ctx),
+            _section(_("options"), _options(params), ctx),
+            _section(_("examples"), examples, ctx),
+            _section(_("exit codes"), EXIT_CODES, ctx),
+        ],
+    )
+
+
+def _usage(text: str, ctx: click.Context) -> str:
+    return _("usage: ").translate(ctx.obj.language) + in_language(text, ctx.obj.language)
+
+
+def _metavar(each: click.Option) -> str:
+    return f"{each.metavar or ''}{' …' if each.multiple else ''}"
+
+
+def _options(params: Iterable[click.Parameter]) -> list[tuple[str, str]]:
+    options = (each for each in params if isinstance(each, click.Option))
+    return [
+        (", ".join([*each.opts, *each.secondary_opts]) + f" {_metavar(each)}".rstrip(), each.help or "")
+        for each in options
+    ]
+
+
+def _section(title: Message, body: str | list[tuple[str, str]], ctx: click.Context) -> str:
+    """A title with its rows or its text set in; nothing where there are none."""
+    language = ctx.obj.language
+    if isinstance(body, str):
+        lines = in_language(body, language).split("\n")
+    else:
+        console = Console(
+            file=StringIO(), width=get_terminal_size().columns - 2, color_system=None, emoji=False
+        )
+        with console.capture() as found:
+            console.print(grid([[name, in_language(text, language)] for name, text in body], "<<"))
+        lines = found.get().splitlines()
+    if not body:
+        return ""
+    return "\n".join([f"{title.translate(language)}:", *(f"  {line}".rstrip() for line in lines)])
+
+
+def _joined(ctx: click.Context, parts: Iterable[str]) -> str:
+    return "\n\n".join(in_language(each, ctx.obj.language) for each in parts if each)
 
 
 def version(session: Session) -> None:
-    """Prints the versions, and whether compiled evaluation is there."""
-    import sys
-    from importlib.metadata import PackageNotFoundError
-    from importlib.metadata import version as version_of
-
-    found = {}
-    for package in ("numpy", "llvmlite"):
-        try:
-            found[package] = version_of(package) if find_spec(package) else None
-        except PackageNotFoundError:
-            found[package] = None
+    """Prints the versions, and whether compiled evaluation is available."""
+    found = {package: _version_of(package) for package in ("numpy", "llvmlite")}
     python = ".".join(map(str, sys.version_info[:3]))
     if session.json:
         session.show_data({"linkwright": VERSION, "python": python, **found})
         return
-    say = session.say
-    numpy = found["numpy"] or say(_("not installed"))
     session.show(
-        say(
+        session.say(
             _(
                 "linkwright {version}\nPython {python}, numpy {numpy}",
                 version=VERSION,
                 python=python,
-                numpy=numpy,
+                numpy=found["numpy"] or _("not installed"),
             )
         )
     )
     compiled = found["llvmlite"]
     session.show(
-        say(_("llvmlite {version}: sweeps of many designs run compiled", version=compiled))
-        if compiled
-        else say(
-            _(
+        session.say(
+            _("llvmlite {version}: sweeps of many designs run compiled", version=compiled)
+            if compiled
+            else _(
                 "llvmlite is not installed: everything works, sweeps of many designs are slower (pip "
                 "install llvmlite)",
             )
@@ -109,6 +130,8 @@ def version(session: Session) -> None:
     )
 
 
-def _section(title: str, body: str) -> str:
-    lines = "\n".join(f"{INDENT}{line}" if line else "" for line in body.split("\n"))
-    return f"{title}:\n{lines}\n"
+def _version_of(package: str) -> str | None:
+    try:
+        return metadata.version(package) if find_spec(package) else None
+    except metadata.PackageNotFoundError:
+        return None

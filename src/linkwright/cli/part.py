@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import argparse
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from linkwright.cli.command import Command, command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, argument, flag, fonts, force, option, together
 from linkwright.cli.session import Session
 from linkwright.fields.tables import Integer
 from linkwright.words import Message, _
@@ -16,29 +15,29 @@ if TYPE_CHECKING:
     from linkwright.parts.base import Problem, Result
 
 
-def part_arguments(option: Options) -> None:
-    """The options that all commands for machine parts have."""
-    option("file", "FILE", help=_("file with kind: …, or gallery:NAME"))
-    option.flag("--worked", help=_("show the way to the numbers, step by step"))
+#: The options that all commands for machine parts have.
+part_options = together(
+    argument("file", "FILE", model=True, help=_("file with kind: …, or gallery:NAME")),
+    flag("--worked", help=_("show the way to the numbers, step by step")),
     option(
         "--digits",
         "N",
         of=Integer(3, 15),
-        choices=tuple(map(str, range(3, 16))),
         default=6,
         help=_("significant digits of the numbers (3 to 15; default: 6)"),
-    )
-    option("--plot", "FILE", help=_("draw the diagram in a .svg, .pdf or .png file"))
+    ),
+    option("--plot", "FILE", help=_("draw the diagram in a .svg, .pdf or .png file")),
     option(
         "--output",
         "FILE",
         help=_("write curves to a .csv file, or all numbers to a .json, .xlsx, .md or .html file"),
-    )
-    option.fonts()
-    option.force()
+    ),
+    fonts,
+    force,
+)
 
 
-def run_part(options: argparse.Namespace, session: Session, command: str) -> int:
+def run_part(options: Options, session: Session, command: str) -> int:
     """Reads a file of a kind that the command takes, solves it, and shows or writes what came out."""
     from linkwright.parts.file import solve
 
@@ -47,7 +46,7 @@ def run_part(options: argparse.Namespace, session: Session, command: str) -> int
     return 0
 
 
-def refuse_outputs(options: argparse.Namespace, session: Session) -> None:
+def refuse_outputs(options: Options, session: Session) -> None:
     """Raises UsageError for files that could not be written, before any work is done."""
     from linkwright.cli.files import PICTURES, RESULTS, refuse_output
 
@@ -77,7 +76,7 @@ def read(source: str, command: str, session: Session) -> Problem:
     return problem
 
 
-def show(result: Result, options: argparse.Namespace, session: Session, *, kind: str | None = None) -> None:
+def show(result: Result, options: Options, session: Session, *, kind: str | None = None) -> None:
     """Prints the result; writes its curves and its diagram (``kind``: another than its usual one) where asked."""
     from linkwright.cli.files import write_diagram, write_result
 
@@ -87,26 +86,19 @@ def show(result: Result, options: argparse.Namespace, session: Session, *, kind:
     session.show_result(result, options.output, options.plot, text=text, digits=options.digits)
 
 
-@dataclass(frozen=True)
-class PartCommand:
+def part_command(name: str, summary: Message, description: Message, examples: str) -> Command:
     """A command that solves a file of its kinds and does nothing else."""
 
-    name: str
-    SUMMARY: Message
-    DESCRIPTION: Message
-    EXAMPLES: str
+    @command(summary, description, examples, name=name)
+    @part_options
+    def run(options: Options, session: Session) -> int:
+        return run_part(options, session, name)
 
-    def arguments(self, option: Options) -> None:
-        """The options that all commands for machine parts have."""
-        part_arguments(option)
-
-    def run(self, options: argparse.Namespace, session: Session) -> int:
-        """Solves the file's problem."""
-        return run_part(options, session, self.name)
+    return run
 
 
 PART_COMMANDS = {
-    "beam": PartCommand(
+    "beam": part_command(
         "beam",
         _("beams on any supports; bending of a mechanism's link over its cycle"),
         _(
@@ -121,7 +113,7 @@ linkwright beam gallery:cantilever
 linkwright beam gallery:propped_cantilever --worked
 linkwright beam gallery:pitman_bending --plot bending.svg""",
     ),
-    "program": PartCommand(
+    "program": part_command(
         "program",
         _("minimise or maximise under constraints: linear, integer, nonlinear"),
         _(
@@ -136,7 +128,7 @@ linkwright program gallery:production_mix
 linkwright program gallery:lightest_spring --worked
 linkwright program gallery:gear_pair --json""",
     ),
-    "statistics": PartCommand(
+    "statistics": part_command(
         "statistics",
         _("samples described, fitted, tested, regressed; process capability"),
         _(
@@ -151,7 +143,7 @@ linkwright statistics gallery:shaft_diameters
 linkwright statistics gallery:spring_rate --plot rate.svg
 linkwright statistics gallery:shaft_diameters --worked --lang zh""",
     ),
-    "trajectory": PartCommand(
+    "trajectory": part_command(
         "trajectory",
         _("a thrown particle with drag; the load on a swinging conveyor"),
         _(
@@ -165,7 +157,7 @@ linkwright trajectory gallery:thrown_ball
 linkwright trajectory gallery:conveyor_load --plot load.svg
 linkwright trajectory gallery:conveyor_load --worked""",
     ),
-    "vibration": PartCommand(
+    "vibration": part_command(
         "vibration",
         _("natural frequencies, modes and responses; cam followers; machines on mounts"),
         _(

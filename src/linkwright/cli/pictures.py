@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Decorator, Options, count, flag, fonts, force, option, together
 from linkwright.cli.session import Session
 from linkwright.errors import LinkwrightError, about
 from linkwright.fields.tables import Integer
@@ -19,38 +18,50 @@ if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
 
 
-def source_arguments(option: Options, *, steps: int) -> None:
-    """The model file, and the steps of its cycle."""
-    option.model()
-    option.count("--steps", steps, help=_("equal steps over the cycle (default: {steps})", steps=steps))
+def cycle_steps(steps: int) -> Decorator[Any]:
+    """The steps of the cycle."""
+    return count("--steps", steps, help=_("equal steps over the cycle (default: {steps})", steps=steps))
 
 
-def vector_arguments(option: Options) -> None:
-    """What may be drawn as arrows."""
-    option("--velocities", "POINT", nargs="*", help=_("velocities of these points; of all without names"))
+#: What may be drawn as arrows.
+arrows = together(
     option(
-        "--accelerations", "POINT", nargs="*", help=_("accelerations of these points; of all without names")
-    )
+        "--velocities",
+        "POINT",
+        several=True,
+        optional=True,
+        help=_("velocities of these points; of all without names"),
+    ),
+    option(
+        "--accelerations",
+        "POINT",
+        several=True,
+        optional=True,
+        help=_("accelerations of these points; of all without names"),
+    ),
     option(
         "--forces",
         "JOINT",
-        nargs="*",
+        several=True,
+        optional=True,
         help=_(
             "loads and forces in these joints (B: on its last link, rocker.B: on that link); in "
             "all without names",
         ),
-    )
-    option.flag("--static", help=_("forces without inertia"))
-    option.flag("--centres", help=_("mark the mass centres"))
+    ),
+    flag("--static", help=_("forces without inertia")),
+    flag("--centres", help=_("mark the mass centres")),
+)
 
 
-def file_arguments(option: Options, output: Message) -> None:
+def picture_file(output: Message) -> Decorator[Any]:
     """Where the picture goes (``output``: help for that), how large, and in which letters."""
-    group = option.group(_("file"))
-    group("--output", "FILE", required=True, help=output)
-    group.force()
-    group("--width", "PIXELS", of=Integer(1), help=_("pixels across (SVG and PDF: of the longer side)"))
-    group.fonts()
+    return together(
+        option("--output", "FILE", required=True, help=output),
+        force,
+        option("--width", "PIXELS", of=Integer(1), help=_("pixels across (SVG and PDF: of the longer side)")),
+        fonts,
+    )
 
 
 def names(words: Sequence[str] | None) -> tuple[str, ...]:
@@ -63,14 +74,14 @@ def names_or_all(words: Sequence[str] | None) -> tuple[str, ...] | bool:
     return False if words is None else names(words) or True
 
 
-def refuse_unknown_marks(mechanism: Mechanism, options: argparse.Namespace) -> None:
+def refuse_unknown_marks(mechanism: Mechanism, options: Options) -> None:
     """Raises UsageError for a point of a path, a point or a joint of an arrow that does not exist."""
     from linkwright.kinematics.names import point_key
     from linkwright.registry import no_such
 
-    for option in ("paths", "velocities", "accelerations"):
-        given = names(getattr(options, option))
-        refuse_unknown(lambda name: point_key(mechanism, name), f"--{option}", given)
+    for each in ("paths", "velocities", "accelerations"):
+        given = names(getattr(options, each))
+        refuse_unknown(lambda name: point_key(mechanism, name), f"--{each}", given)
     joints = mechanism.joints
     for name in names(options.forces):
         if (joint := name.rpartition(".")[2]) not in joints:
@@ -118,7 +129,7 @@ def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
     return motion
 
 
-def told(path: Path, options: argparse.Namespace, session: Session) -> None:
+def told(path: Path, options: Options, session: Session) -> None:
     """Says what was written; as data with ``--json``."""
     if options.json:
         session.show_data({"ok": True, "written": str(path)})

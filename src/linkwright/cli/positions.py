@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import did_you_mean
+from linkwright.cli.usage import did_you_mean
 from linkwright.errors import LinkwrightError, RequestError, about
 from linkwright.events.position_list import known_outputs, of_text, values_of
 from linkwright.kinematics.positions import rotary

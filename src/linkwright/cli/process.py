@@ -26,7 +26,7 @@ def main() -> int:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, and threads that wait spin
     _open_streams()
     _draw_flat()
-    from linkwright.cli.start import run
+    from linkwright.cli.program import run
 
     try:
         sys.unraisablehook = _interrupt_again

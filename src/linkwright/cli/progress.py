@@ -1,79 +1,52 @@
-"""How far long work has come, on the standard error where that is a terminal."""
+"""Progress of long work on the standard error, where that is a terminal."""
 
 from __future__ import annotations
 
-import sys
-import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
+from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
+from rich.progress import Progress as Bar
+
 from linkwright.cli.session import Session
 from linkwright.core.progress import Progress, reporting
-from linkwright.words import Message, Say, _
-
-BAR = 24
-CLEAR = "\r\x1b[K"
-#: Seconds of work after which the time that is left is estimated.
-KNOWN = 1.0
+from linkwright.words import Message, _
 
 
 @contextmanager
-def progress(say: Say, what: Message) -> Iterator[Progress | None]:
-    """A function that is told (done, total) and shows a bar with the time that is left; None where nobody would see
-    it. All long work within the block tells it as well.
-
-    The bar is wiped when all is done, also where the work is interrupted.
-    """
-    stream = sys.stderr
-    if not stream.isatty():
+def progress(session: Session, what: Message) -> Iterator[Progress | None]:
+    """A function that is called with (done, total) and moves a bar with the remaining time; None where there is no
+    terminal. All long work within the block calls it as well. The bar is removed at the end."""
+    console = session.errors
+    if not console.is_terminal:
         yield None
         return
-    begun, before, title = time.monotonic(), 0, say(what)
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Bar(*columns, console=console, transient=True, redirect_stdout=False) as bar:
+        task = bar.add_task(session.say(what), total=None)
 
-    def report(done: int, total: int) -> None:
-        nonlocal begun, before
-        full = BAR * done // max(total, 1)
-        bar = f"{title} [{'#' * full}{' ' * (BAR - full)}] {done}/{total}"
-        now = time.monotonic()
-        if done < before:  # the next one of several works
-            begun = now
-        before, spent = done, now - begun
-        if done and spent > KNOWN:
-            bar += "  " + say(_("about {time} left", time=_time(spent * (total - done) / done)))
-        stream.write(CLEAR + (bar if done < total else ""))  # results may be shown at once
-        stream.flush()
+        def report(done: int, total: int) -> None:
+            if done < bar.tasks[0].completed:  # the next one of several pieces of work
+                bar.reset(task, total=total)
+            bar.update(task, completed=done, total=total)
 
-    try:
-        stream.write(f"{CLEAR}{title} …")
-        stream.flush()
         with reporting(report):
             yield report
-    finally:
-        stream.write(CLEAR)
-        stream.flush()
 
 
 @contextmanager
-def kept(
-    state: str | None, name: str, asked: Iterable[object], session: Session
+def resumable(
+    state: str | None, name: str, inputs: Iterable[object], session: Session
 ) -> Iterator[Progress | None]:
-    """``kept_in`` of a command, with a bar; an interruption names the file that is left."""
+    """Work with a bar whose finished parts are stored in ``state``; an interruption names the file to resume from."""
     from linkwright.designs.finished_parts import RESUME, Interrupted, kept_in
 
     try:
         with (
-            progress(session.say, _("computing designs")) as report,
-            kept_in(state, name, *asked, progress=report),
+            progress(session, _("computing designs")) as report,
+            kept_in(state, name, *inputs, progress=report),
         ):
             yield report
     except Interrupted as stopped:
         session.tell(session.say(RESUME.format(path=stopped.state)))
         raise
-
-
-def _time(seconds: float) -> str:
-    """A time as it is estimated: seconds, minutes, hours."""
-    for unit, size in (("h", 3600.0), ("min", 60.0)):
-        if seconds >= 2 * size:
-            return f"{seconds / size:.0f} {unit}"
-    return f"{max(seconds, 1.0):.0f} s"

@@ -6,43 +6,55 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal, cast
+
+from rich.console import Console, Group, RenderableType
+from rich.table import Table as Columns
+from rich.text import Text
 
 from linkwright.cli.errors import OutputError
 from linkwright.errors import Finding
 from linkwright.words import Say, _
-from linkwright.words.characters import folded_lines, terminal_text
-from linkwright.words.sentence import reason_of
+from linkwright.words.characters import terminal_text
+from linkwright.words.sentence import in_language, reason_of
 
 if TYPE_CHECKING:
-    from linkwright.core.table import Tabular
+    from linkwright.core.table import Table, Tabular
 
 #: Width of tables where there is no terminal, as in a pipe or a file.
 PIPE_WIDTH = 100
-BOLD = "1"
-#: Red, yellow, cyan.
-COLOURS = {"error": "31", "warning": "33", "note": "36"}
+STYLES = {"error": "red", "warning": "yellow", "note": "cyan"}
+_SIDES: dict[str, Literal["left", "right", "center"]] = {"<": "left", ">": "right", "^": "center"}
 
 
-@dataclass(frozen=True)
 class Session:
-    """``say`` gives words in the chosen language, ``json`` asks for data, ``force`` lets files be replaced."""
+    """``say`` gives words in the chosen language, ``json`` asks for data, ``debug`` for tracebacks."""
 
-    say: Say
-    language: str = "en"
-    json: bool = False
-    debug: bool = False
+    def __init__(self, say: Say, language: str = "en", *, json: bool = False, debug: bool = False) -> None:
+        self.say, self.language, self.json, self.debug = say, language, json, debug
 
-    def show(self, text: str = "") -> None:
-        """Prints sentences and tables to the standard output, folded where that is a terminal.
+    @cached_property
+    def output(self) -> Console:
+        """The standard output."""
+        return _console(stderr=False)
 
-        Raises OutputError where it is full or closed.
+    @cached_property
+    def errors(self) -> Console:
+        """The standard error, for what is not part of the result."""
+        return _console(stderr=True)
+
+    def show(self, *lines: str | Text) -> None:
+        """Prints sentences and tables; raises OutputError where the standard output is full or closed.
+
+        On a terminal they are wrapped to its width; elsewhere every line is as long as it is.
         """
-        self.show_as_is(folded_lines(text, self.width) if sys.stdout.isatty() else text)
+        self._print(
+            Text("\n").join(each if isinstance(each, Text) else plain(each) for each in lines or [""])
+        )
 
     def show_as_is(self, text: str) -> None:
-        """Prints a file or data to the standard output; raises OutputError where that is full or closed."""
+        """Prints a file or data without wrapping; raises OutputError where the output is full or closed."""
         with _writing():
             print(terminal_text(text), file=sys.stdout)
 
@@ -52,83 +64,127 @@ class Session:
 
         self.show_as_is(json_text(value))
 
+    def show_tables(self, found: Tabular, **options: Any) -> None:
+        """Prints the tables of a result; on a terminal in its width, the title bold and warnings yellow."""
+        if not self.output.is_terminal:
+            self.show(found.text(self.language, **options))
+            return
+        for number, table in enumerate(found.tables(self.language, **options)):
+            self._print(Group(*([Text("")] if number else []), *self._parts(table, first=not number)))
+
     def show_result(
-        self, found: Tabular, *written: object, text: str = "", apart: bool = True, **options: object
+        self, found: Tabular, *written: object, text: str = "", apart: bool = True, **options: Any
     ) -> None:
-        """Prints a result (``options``: of its tables) or ``text`` in its place, the first line bold, and which files
-        were written; with ``json`` its data."""
+        """Prints a result (``options``: of its tables) or ``text`` in its place, and which files were written; with
+        ``json`` its data."""
         if self.json:
             self.show_data({"ok": True, **found.data()})
             return
-        title, *lines = (text or found.text(self.language, self.room, **options)).split("\n")
-        self.show("\n".join([self.strong(title), *self.table(lines, heads=0)]))
+        if text:
+            self.show(text)
+        else:
+            self.show_tables(found, **options)
         self.show_written(*written, apart=apart)
 
     def show_written(self, *paths: object, apart: bool = False) -> None:
-        """Says which files were written, but for those that are None; ``apart``: each behind an empty line."""
+        """Names the files that were written, but for those that are None; ``apart``: each behind an empty line."""
         for path in paths:
             if path is not None:
                 self.show("\n" * apart + self.say(_("written: {path}", path=path)))
 
     def flush(self) -> None:
-        """Sees to it that everything shown is written."""
+        """Flushes the standard output; raises OutputError where that fails."""
         with _writing():
             sys.stdout.flush()
 
-    def tell(self, text: str) -> None:
+    def tell(self, text: str | Text) -> None:
         """Prints to the standard error: what is not part of the result."""
         with suppress(OSError):
-            folds = folded_lines(text, self.width) if sys.stderr.isatty() else text
-            print(terminal_text(folds), file=sys.stderr)
+            said = plain(text) if isinstance(text, str) else text
+            self.errors.print(said, soft_wrap=not self.errors.is_terminal)
 
     def tell_error(self, sentence: str) -> None:
         """Prints an error to the standard error."""
-        head = self.alarm(self.say(_("error")))
-        self.tell(self.say(_("{head}: {sentence}", head=head, sentence=sentence)))
-
-    @property
-    def room(self) -> int | None:
-        """Columns that a table must not leave; None where there is no terminal."""
-        return self.width if sys.stdout.isatty() else None
+        head = self.say(_("error"))
+        said = Text(terminal_text(self.say(_("{head}: {sentence}", head=head, sentence=sentence))))
+        said.stylize(STYLES["error"], 0, len(head))
+        self.tell(said)
 
     @property
     def width(self) -> int:
         """Columns that a table may take."""
-        with suppress(KeyError, ValueError):
-            if (told := int(os.environ["COLUMNS"])) > 0:
-                return told
-        with suppress(AttributeError, ValueError, OSError):  # no terminal, or none that tells
-            return os.get_terminal_size(sys.__stdout__.fileno()).columns or PIPE_WIDTH  # type: ignore[union-attr]
-        return PIPE_WIDTH
+        return self.output.width if self.output.is_terminal or "COLUMNS" in os.environ else PIPE_WIDTH
 
-    def strong(self, text: str) -> str:
-        """Bold text where the standard output is a terminal that wants it."""
-        return _in(BOLD, text) if _coloured(sys.stdout.isatty()) else text
-
-    def alarm(self, text: str) -> str:
-        """Red text where the standard error is a terminal that wants it."""
-        return _in(COLOURS["error"], text) if _coloured(sys.stderr.isatty()) else text
-
-    def finding(self, found: Finding) -> str:
-        """A finding in the chosen language; on a terminal the place bold, the rest by its severity."""
-        said = found.say(self.language)
-        if not _coloured(sys.stdout.isatty()):
-            return said
+    def finding(self, found: Finding) -> Text:
+        """A finding in the chosen language: the place bold, the rest by its severity."""
+        said = Text(terminal_text(found.say(self.language)))
         place = "".join(f"{part}: " for part in (found.where, found.key) if part)
-        return (
-            self.strong(place.rstrip()) + " " * bool(place) + _in(COLOURS[found.severity], said[len(place) :])
+        said.stylize("bold", 0, len(place.rstrip()))
+        said.stylize(STYLES[found.severity], len(place))
+        return said
+
+    def _parts(self, table: Table, *, first: bool) -> Iterator[RenderableType]:
+        """A table as rich prints it: title, columns within the terminal, notes."""
+        title, notes = (
+            in_language(table.title, self.language),
+            [in_language(n, self.language) for n in table.notes],
         )
+        head, *rows = table.texts(self.language)
+        if title:
+            yield Text(title, "bold" if first else "")
+            yield from [Text("")] if head else []
+        if rows:
+            lines = [head, *rows] if head else rows
+            yield grid(lines, table.alignment, indent=0 if head else 2, heads=bool(head))
+            yield from [Text("")] if head and notes else []
+        yield from (Text(note, STYLES["warning"] if note.startswith("!") else "") for note in notes)
 
-    def table(self, lines: Sequence[str], heads: int = 1) -> list[str]:
-        """Lines of a table, the first ``heads`` bold and those that begin with ! yellow on a terminal."""
-        if not _coloured(sys.stdout.isatty()):
-            return list(lines)
-        body = (_in(COLOURS["warning"], line) if line.startswith("!") else line for line in lines[heads:])
-        return [*map(self.strong, lines[:heads]), *body]
+    def _print(self, shown: RenderableType) -> None:
+        with _writing():
+            self.output.print(shown, soft_wrap=not self.output.is_terminal)
 
 
-def _in(code: str, text: str) -> str:
-    return f"\x1b[{code}m{text}\x1b[0m" if text else text
+def grid(rows: Sequence[Sequence[str]], align: str, *, indent: int = 0, heads: int = 0) -> Columns:
+    """Rows as columns two spaces apart; texts are wrapped where the terminal is too narrow, numbers are not."""
+    table = Columns.grid(padding=(0, 2, 0, 0), pad_edge=False)
+    for side in align:
+        table.add_column(justify=_SIDES[side], no_wrap=side == ">", overflow="fold")
+    for number, row in enumerate(rows):
+        cells = (Text(" " * indent * (not i) + cell) for i, cell in enumerate(row))
+        table.add_row(*cells, style="bold" if number < heads else None)
+    return table
+
+
+def plain(text: str) -> Text:
+    """A text without what no terminal should get."""
+    return Text(terminal_text(text))
+
+
+def bold(text: str) -> Text:
+    """A text that is bold on a terminal."""
+    return Text(terminal_text(text), "bold")
+
+
+def styled_lines(lines: Sequence[str], heads: int = 0) -> list[Text]:
+    """Lines of a table: the first ones bold, and those that begin with ! yellow."""
+    return [
+        Text(terminal_text(line), "bold" if k < heads else STYLES["warning"] if line.startswith("!") else "")
+        for k, line in enumerate(lines)
+    ]
+
+
+class _Console(Console):
+    """A console that leaves a reader who went away to the program."""
+
+    def on_broken_pipe(self) -> None:
+        raise  # noqa: PLE0704
+
+
+def _console(*, stderr: bool) -> Console:
+    colours = None if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb" else "auto"
+    return _Console(
+        stderr=stderr, color_system=cast(Any, colours), highlight=False, markup=False, emoji=False
+    )
 
 
 @contextmanager
@@ -141,7 +197,3 @@ def _writing() -> Iterator[None]:
         raise OutputError(
             _("the output cannot be written ({reason})", code="cli.output_lost", reason=reason_of(problem))
         ) from None
-
-
-def _coloured(terminal: bool) -> bool:
-    return terminal and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from functools import partial
 import numpy as np
 
 from linkwright.analysis.analysis import Kind
+from linkwright.cli.options import Options
 from linkwright.cli.solving import Solved, named_columns
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.search import first_largest
@@ -216,7 +216,7 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
     return rows
 
 
-def data(solved: Solved, options: argparse.Namespace) -> dict[str, object]:
+def data(solved: Solved, options: Options) -> dict[str, object]:
     """Everything that the table and what stands beneath it say."""
     motion, forces = solved.motion, solved.forces
     failed = [int(row) for row in solved.rows if not motion.ok[row]]

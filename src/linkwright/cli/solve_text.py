@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
+from rich.text import Text
+
 from linkwright.cli import solve_remarks
-from linkwright.cli.session import Session
+from linkwright.cli.options import Options
+from linkwright.cli.session import Session, bold, styled_lines
 from linkwright.cli.solving import Solved, leading, point_keys
 from linkwright.core.table import Column
 from linkwright.mechanism.mechanism import Mechanism
@@ -22,16 +24,16 @@ GUIDE = ("displacement", "velocity", "acceleration")
 POINT = tuple(f"{kind}.{axis}" for kind in ("position", "velocity", "acceleration") for axis in "xy")
 
 
-def report(solved: Solved, options: argparse.Namespace, session: Session) -> list[str]:
+def report(solved: Solved, options: Options, session: Session) -> list[str | Text]:
     """Lines of heading, table, largest forces, checks, notes and warnings."""
     say, degrees = session.say, not options.si
-    lines = [session.strong(solved.motion.mechanism.name), _structure_line(solved, say)]
+    lines: list[str | Text] = [bold(solved.motion.mechanism.name), _structure_line(solved, say)]
     lines += turned_against(solved.motion.structure, say)
     for paragraph in (
         *_table(solved, options, session),
         solve_remarks.extremes(solved, say, degrees=degrees),
         solve_remarks.checks(solved, say),
-        session.table(solve_remarks.closeness(solved.motion, session.language), heads=0),
+        styled_lines(solve_remarks.closeness(solved.motion, session.language)),
         solve_remarks.failures(solved, say, session.language, degrees=degrees),
         [say(_("Note: {text}", text=in_language(note, session.language))) for note in solved.notes],
         [say(_("Note: {text}", text=solved.proof.explain(session.language)))] if options.prove else [],
@@ -41,13 +43,13 @@ def report(solved: Solved, options: argparse.Namespace, session: Session) -> lis
     return lines
 
 
-def _table(solved: Solved, options: argparse.Namespace, session: Session) -> tuple[list[str], list[str]]:
+def _table(solved: Solved, options: Options, session: Session) -> tuple[list[Text], list[str]]:
     """Lines of the table, and of what found no place in it; nothing for a structure at rest."""
     if not solved.motion.inputs and not options.columns:
         return [], []
     shown, left_out = _chosen(solved, options, session)
     lines = table(_headed(shown, solved, session.say), session.say)
-    return session.table(lines, heads=len(lines) - len(solved.rows)), [left_out] if left_out else []
+    return styled_lines(lines, heads=len(lines) - len(solved.rows)), [left_out] if left_out else []
 
 
 def _structure_line(solved: Solved, say: Say) -> str:
@@ -55,7 +57,7 @@ def _structure_line(solved: Solved, say: Say) -> str:
     return say(_("mobility {mobility}: {chain}", mobility=structure.mobility, chain=structure.chain))
 
 
-def _chosen(solved: Solved, options: argparse.Namespace, session: Session) -> tuple[list[Column], str]:
+def _chosen(solved: Solved, options: Options, session: Session) -> tuple[list[Column], str]:
     """Columns of the table, and a sentence on those that found no place."""
     found = (Column.of(*item) for item in solved.results().items())
     columns = {column.name: column if options.si else column.in_degrees() for column in found}
@@ -73,7 +75,7 @@ def _fitted(
     solved: Solved,
     columns: Mapping[str, Column],
     first: list[Column],
-    options: argparse.Namespace,
+    options: Options,
     session: Session,
 ) -> tuple[list[Column], str]:
     """The points that were asked for or the first output, then efforts and links as the width allows."""

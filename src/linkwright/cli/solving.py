@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,6 +13,7 @@ import numpy as np
 
 from linkwright.analysis.analysis import Analysis
 from linkwright.cli.errors import UsageError
+from linkwright.cli.options import Options
 from linkwright.cli.positions import inputs, joined, places
 from linkwright.core.arrays import Floats, Indices, largest
 from linkwright.core.outputs import Output
@@ -120,7 +120,7 @@ class Solved:
         return found
 
 
-def solve(mechanism: Mechanism, warnings: list[Finding], options: argparse.Namespace) -> Solved:
+def solve(mechanism: Mechanism, warnings: list[Finding], options: Options) -> Solved:
     """Solves as the options say; raises LinkwrightError."""
     motion, rows, turns = _motion(mechanism, options)
     wanted = options.forces
@@ -145,9 +145,7 @@ def _turns(mechanism: Mechanism) -> int:
     return ceil(turns - 1e-9) if turns > MOST_TURNS else 0
 
 
-def chosen_motion(
-    mechanism: Mechanism, options: argparse.Namespace, failures: Failures = "raise"
-) -> Motion | None:
+def chosen_motion(mechanism: Mechanism, options: Options, failures: Failures = "raise") -> Motion | None:
     """The motion at the positions of ``--at`` or ``--times``, in their order; None where neither is given."""
     if options.at is not None:
         return solve_motion(mechanism, at=inputs(joined(options.at), mechanism), failures=failures)
@@ -157,7 +155,7 @@ def chosen_motion(
     return None
 
 
-def _motion(mechanism: Mechanism, options: argparse.Namespace) -> tuple[Motion, Indices, int]:
+def _motion(mechanism: Mechanism, options: Options) -> tuple[Motion, Indices, int]:
     """The motion, the rows that are shown, and of how many turns these are the first."""
     failures: Failures = "mark" if options.mark else "raise"
     motion = chosen_motion(mechanism, options, failures)
@@ -186,12 +184,12 @@ def point_keys(motion: Motion, names: Sequence[str] | None) -> list[str]:
         return [motion.point(name).name for name in names or ()]
 
 
-def named_columns(solved: Solved, options: argparse.Namespace) -> dict[str, Floats]:
+def named_columns(solved: Solved, options: Options) -> dict[str, Floats]:
     """The chosen columns by their names with units."""
     return {f"{column.name} [{column.unit}]": column.values for column in chosen(solved, options)}
 
 
-def chosen(solved: Solved, options: argparse.Namespace) -> list[Column]:
+def chosen(solved: Solved, options: Options) -> list[Column]:
     """The columns that are asked for behind time and inputs; all of them if none is asked for."""
     columns = {column.name: column for column in (Column.of(*item) for item in solved.results().items())}
     patterns = [*(options.columns or ()), *point_keys(solved.motion, options.points)]

@@ -13,9 +13,11 @@ def test_a_command_is_added_by_files_alone(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "greet.py").write_text(
+        "from linkwright.cli.command import command\n"
+        "from linkwright.cli.options import argument\n"
         "from linkwright.words import _\n"
-        "SUMMARY, DESCRIPTION, EXAMPLES = _('greets'), _('d'), 'e'\n"
-        "def arguments(option):\n    option('who', help=_('w'))\n"
+        "@command(_('greets'), _('d'), 'e')\n"
+        "@argument('who', 'WHO', help=_('w'))\n"
         "def run(options, session):\n    session.show(f'hello {options.who}')\n    return 0\n"
     )
     monkeypatch.setattr(commands, "__path__", [*commands.__path__, str(tmp_path)])

@@ -4,7 +4,7 @@ import inspect
 
 from linkwright.cli.commands import export as command
 from linkwright.cli.commands.export import OPTIONS
-from linkwright.cli.help import command_parser
+from linkwright.cli.session import Session
 from linkwright.errors import speaker
 from linkwright.exporters.export import FORMATS
 
@@ -22,9 +22,8 @@ def test_every_option_of_every_format_is_on_the_command_line() -> None:
     }
     assert len(options) > 5
     assert options - {"text", "model"} <= set(OPTIONS)  # the text and the name are those of the file itself
-    parser = command_parser("export", speaker("en"))
-    found = parser.read(
-        ["m.yaml", "--output", "a.dxf", "--curve", "spline", "--no-labels", "--timestep", "0.001"]
-    )
-    assert (found.curve, found.labels, found.dimensions, found.timestep) == ("spline", False, None, 0.001)
-    assert set(OPTIONS) <= set(vars(found))
+    asked = ["m.yaml", "--output", "a.dxf", "--curve", "spline", "--no-labels", "--timestep", "0.001"]
+    found = command.run.make_context("linkwright export", asked, obj=Session(speaker("en"))).params
+    chosen = {"curve": "spline", "labels": False, "dimensions": None, "timestep": 0.001, "degrees": None}
+    assert {name: found[name] for name in chosen} == chosen
+    assert set(OPTIONS) <= set(found)

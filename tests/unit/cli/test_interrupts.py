@@ -46,7 +46,7 @@ except KeyboardInterrupt:
 def test_an_interrupted_command_says_so(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("linkwright.cli.commands.solve.run", interrupt)
+    monkeypatch.setattr("linkwright.cli.source.read_text", interrupt)
     assert main(["solve", "gallery:kite"]) == 130
     assert capsys.readouterr().err == INTERRUPTED
 
@@ -59,7 +59,7 @@ def test_an_interrupt_while_a_class_is_made_says_so(
     def interrupted(*_: object, **__: object) -> None:
         raise RuntimeError("Error calling __set_name__") from KeyboardInterrupt()
 
-    monkeypatch.setattr("linkwright.cli.commands.solve.run", interrupted)
+    monkeypatch.setattr("linkwright.cli.source.read_text", interrupted)
     assert main(["solve", "gallery:kite"]) == 130
     assert capsys.readouterr().err == INTERRUPTED
 
@@ -68,13 +68,13 @@ def test_an_interrupted_process_does_not_wait_for_its_threads() -> None:
     program = """
 import sys, threading
 from linkwright.cli import main
-from linkwright.cli.commands import solve
+from linkwright.cli import source
 
 def interrupted(*_):
     print("begun")
     raise KeyboardInterrupt
 
-solve.run = interrupted
+source.read_text = interrupted
 threading.Thread(target=threading.Event().wait).start()
 sys.argv = ["linkwright", "solve", "gallery:kite"]
 raise SystemExit(main())

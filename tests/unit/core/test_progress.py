@@ -1,15 +1,11 @@
-"""Progress of work: pieces of a time that is aimed at, parts of a whole, and the bar."""
+"""Progress of work: pieces of a time that is aimed at, and parts of a whole."""
 
-import io
-import re
 from types import SimpleNamespace
 
 import pytest
 
 import linkwright as lw
-from linkwright.cli import progress as bars
 from linkwright.core.progress import PACE, paced, part_of
-from linkwright.errors import speaker
 from linkwright.validation.published import from_gallery
 
 
@@ -42,26 +38,3 @@ def test_validations_tell_of_their_cases() -> None:
     with lw.reporting(lambda done, total: calls.append((done, total))):
         lw.validate(cases)
     assert calls == [(k, len(cases)) for k in range(1, len(cases) + 1)]
-
-
-class Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
-
-
-@pytest.mark.parametrize("language", ["en", "zh"])
-def test_the_bar_tells_the_time_that_is_left(language: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A quarter after a minute: three minutes are left; nothing where nobody looks."""
-    terminal, clock = Terminal(), iter([0.0, 0.5, 60.0])
-    monkeypatch.setattr(bars.sys, "stderr", terminal)
-    monkeypatch.setattr(bars.time, "monotonic", lambda: next(clock))
-    with bars.progress(speaker(language), "sweep.computing") as report:
-        assert report is not None
-        report(1, 400)
-        report(100, 400)
-    first, second = re.findall(r"\d+/400[^\r]*", terminal.getvalue())
-    assert " min" not in first and "3 min" in second
-    quiet = io.StringIO()
-    monkeypatch.setattr(bars.sys, "stderr", quiet)
-    with bars.progress(speaker(language), "sweep.computing") as report:
-        assert report is None and not quiet.getvalue()

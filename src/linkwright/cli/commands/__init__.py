@@ -1,46 +1,21 @@
 """The commands, one module each, imported only when the command is called.
 
-A module ``NAME`` has ``arguments(option)``, which declares its options, and ``run(options, session)``, which
-returns the exit code; it may have ``surplus(word)``, what to write for a word that it does not take. Its help says
-``SUMMARY`` (one line for the list of commands), ``DESCRIPTION`` and ``EXAMPLES``. The commands ``PARTS`` have help
-alone, in :mod:`linkwright.cli.part`.
+A module ``NAME`` has ``run``, a function of options and session that returns the exit code, declared by
+:func:`linkwright.cli.command.command`. The commands ``PARTS`` are all in :mod:`linkwright.cli.part`.
 """
 
 from __future__ import annotations
 
-import argparse
 import importlib
-from typing import Protocol, cast
+from typing import TYPE_CHECKING, cast
 
-from linkwright.cli.parser import Options
-from linkwright.cli.session import Session
 from linkwright.core.entry_points import modules_within
-from linkwright.words import Message
+
+if TYPE_CHECKING:
+    from linkwright.cli.command import Command
 
 #: Commands that solve the file of a machine part and do nothing else.
 PARTS = ("beam", "program", "statistics", "trajectory", "vibration")
-
-
-class Command(Protocol):
-    """What a command's module has."""
-
-    @property
-    def SUMMARY(self) -> Message:
-        """What it does, in one line."""
-
-    @property
-    def DESCRIPTION(self) -> Message:
-        """What it does, in one paragraph."""
-
-    @property
-    def EXAMPLES(self) -> str:
-        """Commands that do something."""
-
-    def arguments(self, option: Options) -> None:
-        """Declares the command's own options."""
-
-    def run(self, options: argparse.Namespace, session: Session) -> int:
-        """Does the work and returns the exit code."""
 
 
 def names() -> tuple[str, ...]:
@@ -49,9 +24,9 @@ def names() -> tuple[str, ...]:
 
 
 def command(name: str) -> Command:
-    """The module of a command, or what does its work."""
+    """A command by its name."""
     if name in PARTS:
         from linkwright.cli.part import PART_COMMANDS
 
         return PART_COMMANDS[name]
-    return cast(Command, importlib.import_module(f"{__name__}.{name}"))
+    return cast("Command", importlib.import_module(f"{__name__}.{name}").run)

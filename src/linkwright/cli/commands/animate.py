@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import argparse
 from typing import TYPE_CHECKING
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import ONE_VALUE, UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, count, model, option, switch
 from linkwright.cli.pictures import (
+    arrows,
     cycle,
-    file_arguments,
+    cycle_steps,
     names,
     names_or_all,
+    picture_file,
     refuse_unknown_marks,
-    source_arguments,
     told,
-    vector_arguments,
 )
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
@@ -42,39 +42,30 @@ FRAMES = 60
 WIDTH = 640
 
 
-def arguments(option: Options) -> None:
-    source_arguments(option, steps=STEPS)
-    what = option.group(_("contents"))
-    what(
-        "--paths",
-        "POINT",
-        "--traces",
-        nargs="+",
-        help=_("paths of points with a dot that runs along: C,jaw.D"),
-    )
-    what(
-        "--curves",
-        "RESULT",
-        nargs="+",
-        help=_("results drawn below: jaw.angle, C.velocity.x; with --forces also driver.effort"),
-    )
-    vector_arguments(what)
-    what.either("--labels", True, help=_("names of points"))
-    pace = option.group(_("pace"))
-    pace(
-        "--seconds",
-        "TIME",
-        help=_("time of one cycle on the screen (default: the true one, within 2 to 6 s)"),
-    )
-    pace.count(
-        "--frames",
-        FRAMES,
-        help=_("positions shown in one cycle (default: {frames})", frames=FRAMES),
-    )
-    file_arguments(option, _("write FILE.svg, FILE.gif or FILE.mp4"))
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@model
+@cycle_steps(STEPS)
+@option(
+    "--paths",
+    "POINT",
+    "--traces",
+    help=_("paths of points with a dot that runs along: C,jaw.D"),
+    several=True,
+)
+@option(
+    "--curves",
+    "RESULT",
+    help=_("results drawn below: jaw.angle, C.velocity.x; with --forces also driver.effort"),
+    several=True,
+)
+@arrows
+@switch("--labels", True, help=_("names of points"))
+@option(
+    "--seconds", "TIME", help=_("time of one cycle on the screen (default: the true one, within 2 to 6 s)")
+)
+@count("--frames", FRAMES, help=_("positions shown in one cycle (default: {frames})", frames=FRAMES))
+@picture_file(_("write FILE.svg, FILE.gif or FILE.mp4"))
+def run(options: Options, session: Session) -> int:
     """Writes the moving picture; 1 where positions of the cycle were left out."""
     from linkwright.cli.files import refuse_output
     from linkwright.cli.progress import progress
@@ -102,13 +93,13 @@ def run(options: argparse.Namespace, session: Session) -> int:
         size=options.width,
         language=session.language,
     )
-    with progress(session.say, _("drawing")) as report:
+    with progress(session, _("drawing")) as report:
         path = animation.save(options.output, width=options.width or WIDTH, progress=report, force=True)
     told(path, options, session)
     return int(not motion.whole)
 
 
-def _forces(motion: Motion, options: argparse.Namespace) -> Forces | None:
+def _forces(motion: Motion, options: Options) -> Forces | None:
     """Forces where arrows need them."""
     if options.forces is None:
         return None

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import argparse
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options, did_you_mean
+from linkwright.cli.options import Options, count, force, model, option
 from linkwright.cli.session import Session
+from linkwright.cli.usage import did_you_mean
 from linkwright.core.arguments import STEPS
 from linkwright.fields.base import Number, Quantity
 from linkwright.fields.tables import ByAddress, Either
@@ -35,31 +36,29 @@ ENDINGS = (".yaml", ".yml")
 RADIUS = Quantity("length", above=0.0)
 
 
-def arguments(option: Options) -> None:
-    option.model()
-    option(
-        "--radius",
-        "LENGTH",
-        of=Either(RADIUS, ByAddress(RADIUS)),
-        required=True,
-        help=_(
-            "distance of the counterweights from the pins that carry them, one (80mm) or by link "
-            '("crank=80 mm, rod=40 mm")',
-        ),
-    )
-    option(
-        "--share",
-        "NUMBER",
-        of=Number(minimum=0.0, maximum=1.0),
-        default=1.0,
-        help=_("share that is balanced, from 0 to 1 (default 1: the shaking force vanishes)"),
-    )
-    option.count("--steps", STEPS, help=_("positions over the cycle for the comparison (default 360)"))
-    option("--output", "FILE", help=_("write the balanced model to a .yaml file"))
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@model
+@option(
+    "--radius",
+    "LENGTH",
+    of=Either(RADIUS, ByAddress(RADIUS)),
+    required=True,
+    help=_(
+        "distance of the counterweights from the pins that carry them, one (80mm) or by link "
+        '("crank=80 mm, rod=40 mm")',
+    ),
+)
+@option(
+    "--share",
+    "NUMBER",
+    of=Number(minimum=0.0, maximum=1.0),
+    default=1.0,
+    help=_("share that is balanced, from 0 to 1 (default 1: the shaking force vanishes)"),
+)
+@count("--steps", STEPS, help=_("positions over the cycle for the comparison (default 360)"))
+@option("--output", "FILE", help=_("write the balanced model to a .yaml file"))
+@force
+def run(options: Options, session: Session) -> int:
     """Prints the counterweights and their effect, and writes the balanced model."""
     from linkwright.cli.files import atomic_write, refuse_output
     from linkwright.cli.source import read_model

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkwright.cli.parser import Options
-from linkwright.cli.part import part_arguments, read, refuse_outputs, show
+from linkwright.cli.command import command
+from linkwright.cli.options import Options, count, option
+from linkwright.cli.part import part_options, read, refuse_outputs, show
 from linkwright.cli.session import Session
 from linkwright.core.arguments import PROFILE_POINTS
 from linkwright.fields.base import Number
@@ -35,24 +35,18 @@ DIAGRAMS = ("cam_motion", "cam_checks", "cam_profile", "cam_vibration")
 PROFILES, DRAWINGS = (".dxf", ".csv", ".txt"), (".svg", ".pdf", ".png")
 
 
-def arguments(option: Options) -> None:
-    part_arguments(option)
-    option("--kind", choices=DIAGRAMS, default=DIAGRAMS[0], help=_("kind of diagram for --plot"))
-    option(
-        "--profile", "FILE", help=_("write the profile to a .dxf, .csv or .txt file (x y z in mm for a mill)")
-    )
-    option.count("--points", PROFILE_POINTS, help=_("points of the profile (default: 720)"))
-    option("--draw", "FILE", help=_("draw cam and follower in a .svg, .pdf or .png file"))
-    option(
-        "--at",
-        "DEG",
-        of=Number(),
-        default=0.0,
-        help=_("angle of the cam in the drawing, degrees (default: 0)"),
-    )
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@part_options
+@option("--kind", choices=DIAGRAMS, default=DIAGRAMS[0], help=_("kind of diagram for --plot"))
+@option(
+    "--profile", "FILE", help=_("write the profile to a .dxf, .csv or .txt file (x y z in mm for a mill)")
+)
+@count("--points", PROFILE_POINTS, help=_("points of the profile (default: 720)"))
+@option("--draw", "FILE", help=_("draw cam and follower in a .svg, .pdf or .png file"))
+@option(
+    "--at", "DEG", of=Number(), default=0.0, help=_("angle of the cam in the drawing, degrees (default: 0)")
+)
+def run(options: Options, session: Session) -> int:
     """Solves the file's cam, shows its numbers and writes what is asked for."""
     from linkwright.cli.files import refuse_output
 
@@ -69,7 +63,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _write(design: CamDesign, options: argparse.Namespace, session: Session) -> None:
+def _write(design: CamDesign, options: Options, session: Session) -> None:
     written = []
     if options.profile is not None:
         written.append(design.save_profile(options.profile, options.points, force=options.force))

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import argparse
 from typing import TYPE_CHECKING
 
-from linkwright.cli.parser import Options
-from linkwright.cli.session import Session
+from linkwright.cli.command import command
+from linkwright.cli.options import Options, argument, flag
+from linkwright.cli.session import Session, bold
 from linkwright.errors import NO_FILE
 from linkwright.words import _
 
@@ -29,12 +29,10 @@ linkwright check crusher.yaml --json  findings for an editor or a script"""
 )
 
 
-def arguments(option: Options) -> None:
-    option("files", "FILE", nargs="+", help=_("model files, or gallery:NAME"))
-    option.flag("--strict", help=_("warnings count as errors"))
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@argument("files", "FILE", help=_("model files, or gallery:NAME"), nargs=-1, required=True, model=True)
+@flag("--strict", help=_("warnings count as errors"))
+def run(options: Options, session: Session) -> int:
     """Reads, analyses and turns each model once; 1 if any has an error, 2 if a file is not there."""
     from linkwright.file_check import checked
 
@@ -57,7 +55,7 @@ def _show(name: str, found: Checked, session: Session) -> None:
         session.show(session.finding(finding))
     fact = found.fact
     if found.errors:
-        session.show(session.strong(session.say(_("{name}: errors: {count}", name=name, count=found.errors))))
+        session.show(bold(session.say(_("{name}: errors: {count}", name=name, count=found.errors))))
     elif "kind" in fact:
         session.show(session.say(_("{name}: fine (kind {kind})", name=name, kind=fact["kind"])))
     else:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import argparse
 from typing import TYPE_CHECKING
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, argument, count, fonts, force, option
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
 from linkwright.fields.base import Number
@@ -36,47 +36,47 @@ linkwright compare a.yaml b.yaml --of jaw ram          the output of each"""
 ENDINGS = (".csv", ".json")
 
 
-def arguments(option: Options) -> None:
-    option("files", "FILE", nargs="+", help=_("two or more model files, or gallery:NAME"))
-    option(
-        "--metrics",
-        "METRIC",
-        nargs="+",
-        help=_(
-            "what to compare by: design numbers, travel, output_velocity, output_acceleration, "
-            'pivot_reaction, flywheel, or a summary of an output in quotes ("driver.effort rms")',
-        ),
-    )
-    option(
-        "--weights",
-        "NAME=NUMBER",
-        of=ByAddress(Number()),
-        nargs="+",
-        default={},
-        help=_("weights in the ranking, NAME=NUMBER each (1 where none is given)"),
-    )
-    option(
-        "--of",
-        "NAME",
-        nargs="+",
-        help=_("the link or guide that does the work: one name for all, or one per file"),
-    )
-    option(
-        "--fluctuation",
-        "δ",
-        of=COEFFICIENT,
-        default=FLUCTUATION,
-        help=_("coefficient of speed fluctuation for the flywheels (default 0.02)"),
-    )
-    option.count("--steps", STEPS, help=_("positions over the cycle (default 360)"))
-    option("--output", "FILE", help=_("write the numbers to a .csv, .json, .xlsx, .md or .html file"))
-    option("--curves", "FILE", help=_("write the curves to overlay to a .csv or .json file"))
-    option("--plot", "FILE", help=_("draw the curves over each other in a .svg, .pdf or .png file"))
-    option.fonts()
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@argument(
+    "files", "FILE", help=_("two or more model files, or gallery:NAME"), nargs=-1, required=True, model=True
+)
+@option(
+    "--metrics",
+    "METRIC",
+    help=_(
+        "what to compare by: design numbers, travel, output_velocity, output_acceleration, "
+        'pivot_reaction, flywheel, or a summary of an output in quotes ("driver.effort rms")',
+    ),
+    several=True,
+)
+@option(
+    "--weights",
+    "NAME=NUMBER",
+    of=ByAddress(Number()),
+    default={},
+    help=_("weights in the ranking, NAME=NUMBER each (1 where none is given)"),
+    several=True,
+)
+@option(
+    "--of",
+    "NAME",
+    help=_("the link or guide that does the work: one name for all, or one per file"),
+    several=True,
+)
+@option(
+    "--fluctuation",
+    "δ",
+    of=COEFFICIENT,
+    default=FLUCTUATION,
+    help=_("coefficient of speed fluctuation for the flywheels (default 0.02)"),
+)
+@count("--steps", STEPS, help=_("positions over the cycle (default 360)"))
+@option("--output", "FILE", help=_("write the numbers to a .csv, .json, .xlsx, .md or .html file"))
+@option("--curves", "FILE", help=_("write the curves to overlay to a .csv or .json file"))
+@option("--plot", "FILE", help=_("draw the curves over each other in a .svg, .pdf or .png file"))
+@fonts
+@force
+def run(options: Options, session: Session) -> int:
     """Compares the machines and prints or writes what came out."""
     if len(options.files) < 2:
         raise UsageError(
@@ -95,7 +95,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     refuse_output(options.curves, ENDINGS, force=options.force)
     refuse_output(options.plot, PICTURES, force=options.force)
     machines = [read_model(name, session)[0] for name in options.files]
-    with progress(session.say, _("computing designs")):
+    with progress(session, _("computing designs")):
         found = compare(
             machines,
             metrics=options.metrics,
@@ -108,7 +108,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _outputs(options: argparse.Namespace) -> str | list[str] | None:
+def _outputs(options: Options) -> str | list[str] | None:
     if options.of is None or len(options.of) == 1:
         return None if options.of is None else str(options.of[0])
     if len(options.of) != len(options.files):
@@ -123,7 +123,7 @@ def _outputs(options: argparse.Namespace) -> str | list[str] | None:
     return list(options.of)
 
 
-def _show(found: Comparison, options: argparse.Namespace, session: Session) -> None:
+def _show(found: Comparison, options: Options, session: Session) -> None:
     from linkwright.cli.files import curve_columns, curve_data, write_diagram, write_result, write_table
     from linkwright.core.table import csv_text
 

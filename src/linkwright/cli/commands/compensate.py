@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 import re
 from pathlib import Path
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, argument, count, force, model, option
 from linkwright.cli.session import Session
 from linkwright.errors import about
 from linkwright.words import _
@@ -30,23 +30,20 @@ linkwright compensate press.yaml lead --span "567 deg" --output press_with_cam.y
 ENDINGS = (".yaml", ".yml", ".csv")
 
 
-def arguments(option: Options) -> None:
-    option.model()
-    option("of", "OUTPUT", help=_("what is to be constant: an output of the model"))
-    option("--joint", "NAME", default="", help=_("the cam (needed where the machine has several)"))
-    zone = option.exclusive()
-    zone("--zone", "FROM..TO", help=_("values of the input between which it is to be constant"))
-    zone("--span", "WAY", help=_("how long the zone is to be, of the input; its place is found"))
-    option.count("--steps", 1440, help=_("positions over the cycle (default 1440)"))
-    option(
-        "--output",
-        "FILE",
-        help=_("write the model with the cam to a .yaml file, or the table of lifts to a .csv file"),
-    )
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES, exclusive=[("zone", "span")])
+@model
+@argument("of", "OUTPUT", help=_("what is to be constant: an output of the model"))
+@option("--joint", "NAME", default="", help=_("the cam (needed where the machine has several)"))
+@option("--zone", "FROM..TO", help=_("values of the input between which it is to be constant"))
+@option("--span", "WAY", help=_("how long the zone is to be, of the input; its place is found"))
+@count("--steps", 1440, help=_("positions over the cycle (default 1440)"))
+@option(
+    "--output",
+    "FILE",
+    help=_("write the model with the cam to a .yaml file, or the table of lifts to a .csv file"),
+)
+@force
+def run(options: Options, session: Session) -> int:
     """Finds the cam, shows what it does, and writes the model with it, or the table of its lift."""
     from linkwright.cams.compensating_cam import compensating_cam
     from linkwright.cli.files import atomic_write, refuse_output

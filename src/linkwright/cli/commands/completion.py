@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
-
-from linkwright.cli.parser import Options
+from linkwright.cli.command import command
+from linkwright.cli.options import Options, argument
 from linkwright.cli.session import Session
-from linkwright.cli.shells import SHELLS, script
 from linkwright.words import _
 
+SHELLS = ("bash", "zsh", "fish")
 SUMMARY = _("shell completion: bash, zsh, fish")
 DESCRIPTION = _(
     """\
@@ -21,11 +20,18 @@ linkwright completion zsh > ~/.zfunc/_linkwright
 linkwright completion fish > ~/.config/fish/completions/linkwright.fish"""
 
 
-def arguments(option: Options) -> None:
-    option("shell", "|".join(SHELLS), choices=SHELLS, help=_("the shell"))
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@argument("shell", "|".join(SHELLS), choices=SHELLS, help=_("the shell"))
+def run(options: Options, session: Session) -> int:
     """Prints the script."""
-    session.show_as_is(script(options.shell, session.say).rstrip())
+    from click.shell_completion import get_completion_class
+
+    from linkwright.cli.program import COMPLETE, PROGRAM
+
+    shell = get_completion_class(options.shell)
+    assert shell is not None
+    script = shell(PROGRAM, {}, "linkwright", COMPLETE).source()
+    if options.shell == "bash":
+        script = f"COMP_WORDBREAKS=${{COMP_WORDBREAKS//:}}\n{script}"  # gallery:NAME is one word
+    session.show_as_is(script.rstrip())
     return 0

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import ONE_VALUE, UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, model, option, switch
 from linkwright.cli.pictures import (
+    arrows,
     cycle,
-    file_arguments,
+    cycle_steps,
     names,
     names_or_all,
+    picture_file,
     refuse_unknown,
     refuse_unknown_marks,
-    source_arguments,
     told,
-    vector_arguments,
 )
 from linkwright.cli.session import Session
 from linkwright.core.arguments import DRAWING_STEPS
@@ -48,40 +48,37 @@ ENDINGS = (".svg", ".png", ".pdf")
 LABELS: dict[str, bool | str] = {"all": True, "points": "points", "none": False}
 
 
-def arguments(option: Options) -> None:
-    source_arguments(option, steps=DRAWING_STEPS)
-    where = option.group(_("positions"))
-    one = where.exclusive()
-    one(
-        "--at",
-        "INPUTS",
-        help=_('draw at this input of the first driver: "30 deg"; several drivers: "NAME=…; NAME=…"'),
-    )
-    one("--time", "TIME", help=_('draw at this time: "0.5 s"'))
-    where(
-        "--overlay",
-        "WHICH",
-        default="",
-        help=_(
-            "positions beneath: limits (of the last output), limits:jaw (of a link or guide), "
-            "faded:8 (as many over the cycle)",
-        ),
-    )
-    what = option.group(_("contents"))
-    what("--paths", "POINT", "--traces", nargs="+", help=_("paths of points over the cycle: C,jaw.D"))
-    vector_arguments(what)
-    what(
-        "--dimensions",
-        "LENGTH",
-        nargs="*",
-        help=_("lengths and angles of links (pitman, frame), between points (O1:O3); default: of all"),
-    )
-    what("--labels", choices=tuple(LABELS), default="all", help=_("names of points and links (default: all)"))
-    what.either("--inputs", True, help=_("arrows at what is driven"))
-    file_arguments(option, _("write FILE.svg, FILE.png or FILE.pdf"))
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES, exclusive=[("at", "time")])
+@model
+@cycle_steps(DRAWING_STEPS)
+@option(
+    "--at",
+    "INPUTS",
+    help=_('draw at this input of the first driver: "30 deg"; several drivers: "NAME=…; NAME=…"'),
+)
+@option("--time", "TIME", help=_('draw at this time: "0.5 s"'))
+@option(
+    "--overlay",
+    "WHICH",
+    default="",
+    help=_(
+        "positions beneath: limits (of the last output), limits:jaw (of a link or guide), "
+        "faded:8 (as many over the cycle)",
+    ),
+)
+@option("--paths", "POINT", "--traces", help=_("paths of points over the cycle: C,jaw.D"), several=True)
+@arrows
+@option(
+    "--dimensions",
+    "LENGTH",
+    help=_("lengths and angles of links (pitman, frame), between points (O1:O3); default: of all"),
+    several=True,
+    optional=True,
+)
+@option("--labels", choices=tuple(LABELS), default="all", help=_("names of points and links (default: all)"))
+@switch("--inputs", True, help=_("arrows at what is driven"))
+@picture_file(_("write FILE.svg, FILE.png or FILE.pdf"))
+def run(options: Options, session: Session) -> int:
     """Draws a model and writes the picture."""
     from linkwright.cli.files import refuse_output
     from linkwright.cli.source import read_model
@@ -138,7 +135,7 @@ def _time(mechanism: Mechanism, text: str | None) -> float | None:
     return values[0]
 
 
-def _forces(motion: Motion, options: argparse.Namespace) -> Forces | bool | None:
+def _forces(motion: Motion, options: Options) -> Forces | bool | None:
     """Forces where they are asked for; static ones solved here, as a drawing solves with inertia."""
     if options.forces is None:
         return None
@@ -160,9 +157,7 @@ def _dimensions(words: list[str] | None) -> list[Dimension] | bool:
     ] or True
 
 
-def _refuse_unknown_names(
-    mechanism: Mechanism, options: argparse.Namespace, dimensions: list[Dimension] | bool
-) -> None:
+def _refuse_unknown_names(mechanism: Mechanism, options: Options, dimensions: list[Dimension] | bool) -> None:
     from linkwright.kinematics.names import find_point, place_meant
 
     refuse_unknown_marks(mechanism, options)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, count, flag, fonts, force, model, option, positions, switch
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
 from linkwright.fields.base import Number
@@ -51,51 +51,48 @@ OPTIONS = (
 )  # fmt: skip
 
 
-def arguments(option: Options) -> None:
-    option.model()
-    option("--output", "FILE", "--to", required=True, help=_("the file; its ending chooses the format"))
-    option(
-        "--format",
-        "FORMAT",
-        choices=NAMES,
-        help=_("the format, where the ending does not say it: {names}", names=", ".join(NAMES)),
-    )
-    where = option.exclusive()
-    where.count("--steps", STEPS, help=_("positions over the cycle (default: 360)"))
-    where.places()
-    option("--degrees", action="store_true", default=None, help=_("csv, xlsx: angles in degrees"))
-    option("--unit", choices=("mm", "m"), help=_("dxf: unit of the drawing, mm (default) or m"))
-    option(
-        "--position",
-        "N",
-        of=Integer(),
-        help=_("dxf and pictures: number of the position that is drawn (default: 0)"),
-    )
-    option(
-        "--paths",
-        "POINT",
-        nargs="+",
-        help=_(
-            "dxf and pictures: points whose paths are drawn (default in dxf: all that move on curves)",
-        ),
-    )
-    option("--curve", choices=("polyline", "spline"), help=_("paths in DXF as polylines or splines"))
-    option.either("--dimensions", None, help=_("dimensions in DXF"))
-    option.either("--labels", None, help=_("names of points in DXF"))
-    option.either("--accelerations", None, help=_("acceleration equations in Modelica"))
-    option("--form", choices=("rates", "positions"), help=_("Modelica equations of rates or of positions"))
-    option("--name", "NAME", help=_("name of the Modelica model"))
-    option("--timestep", "S", of=Number(), help=_("time step in MuJoCo, s"))
-    option("--indent", "N", of=Integer(), help=_("spaces of indentation in JSON"))
-    option("--compression", "NAME", help=_("compression in Parquet"))
-    option.count("--width", help=_("width of PNG, pixels"))
-    option("--size", "N", of=Number(), help=_("size of SVG, pixels"))
-    option("--beside", "FILE", nargs="+", help=_("html: further models on the same page, for comparison"))
-    option.fonts()
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES, exclusive=[("steps", "at", "times")])
+@model
+@option("--output", "FILE", "--to", required=True, help=_("the file; its ending chooses the format"))
+@option(
+    "--format",
+    "FORMAT",
+    choices=NAMES,
+    help=_("the format, where the ending does not say it: {names}", names=", ".join(NAMES)),
+)
+@count("--steps", STEPS, help=_("positions over the cycle (default: 360)"))
+@positions
+@flag("--degrees", _("csv, xlsx: angles in degrees"), default=None)
+@option("--unit", choices=("mm", "m"), help=_("dxf: unit of the drawing, mm (default) or m"))
+@option(
+    "--position",
+    "N",
+    of=Integer(),
+    help=_("dxf and pictures: number of the position that is drawn (default: 0)"),
+)
+@option(
+    "--paths",
+    "POINT",
+    help=_(
+        "dxf and pictures: points whose paths are drawn (default in dxf: all that move on curves)",
+    ),
+    several=True,
+)
+@option("--curve", choices=("polyline", "spline"), help=_("paths in DXF as polylines or splines"))
+@switch("--dimensions", None, help=_("dimensions in DXF"))
+@switch("--labels", None, help=_("names of points in DXF"))
+@switch("--accelerations", None, help=_("acceleration equations in Modelica"))
+@option("--form", choices=("rates", "positions"), help=_("Modelica equations of rates or of positions"))
+@option("--name", "NAME", help=_("name of the Modelica model"))
+@option("--timestep", "S", of=Number(), help=_("time step in MuJoCo, s"))
+@option("--indent", "N", of=Integer(), help=_("spaces of indentation in JSON"))
+@option("--compression", "NAME", help=_("compression in Parquet"))
+@count("--width", help=_("width of PNG, pixels"))
+@option("--size", "N", of=Number(), help=_("size of SVG, pixels"))
+@option("--beside", "FILE", help=_("html: further models on the same page, for comparison"), several=True)
+@fonts
+@force
+def run(options: Options, session: Session) -> int:
     """Solves a model and writes the file."""
     from linkwright.cli.files import refuse_existing
     from linkwright.cli.solving import chosen_motion
@@ -152,7 +149,7 @@ def _of_page(file: str, beside: Sequence[str]) -> dict[str, Any]:
     return {"text": read_source(file)[0], "beside": [read_document(each) for each in beside]}
 
 
-def _checked(path: Path, options: argparse.Namespace) -> tuple[str, dict[str, Any]]:
+def _checked(path: Path, options: Options) -> tuple[str, dict[str, Any]]:
     """The format and its options; raises UsageError before any work is done."""
     from linkwright.errors import LinkwrightError
     from linkwright.exporters.export import FORMATS, check_options, chosen_format

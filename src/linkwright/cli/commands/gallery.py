@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
+from rich.text import Text
+
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
 from linkwright.cli.files import atomic_write
-from linkwright.cli.parser import Options, did_you_mean
+from linkwright.cli.options import Options, argument, force
 from linkwright.cli.session import Session
+from linkwright.cli.usage import did_you_mean
 from linkwright.errors import with_remedy
 from linkwright.registry import nearest
 from linkwright.words import _
@@ -33,14 +36,14 @@ CALCULATIONS = _("Calculations of machine parts (linkwright beam, statics, vibra
 TASKS = _("Tasks of synthesis (linkwright synthesize gallery:NAME):")
 
 
-def arguments(option: Options) -> None:
-    option("action", "list|show|copy", nargs="?", default="list", help=_("what to do (default: list)"))
-    option("name", "NAME", nargs="?", help=_("name of a model; for list: a part of names"))
-    option("folder", "DIR", nargs="?", default=".", help=_("folder for the copy (default: the current one)"))
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@argument("action", "list|show|copy", default="list", help=_("what to do (default: list)"), required=False)
+@argument("name", "NAME", help=_("name of a model; for list: a part of names"), required=False)
+@argument(
+    "folder", "DIR", default=".", help=_("folder for the copy (default: the current one)"), required=False
+)
+@force
+def run(options: Options, session: Session) -> int:
     """Lists the gallery, prints one of its files or copies it."""
     actions = {"list": _list, "show": _show, "copy": _copy}
     if options.action not in actions:
@@ -58,7 +61,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return actions[options.action](options, session)
 
 
-def _list(options: argparse.Namespace, session: Session) -> int:
+def _list(options: Options, session: Session) -> int:
     from linkwright import gallery
 
     models, parts, tasks = (
@@ -76,7 +79,7 @@ def _list(options: argparse.Namespace, session: Session) -> int:
         if tasks and entry is tasks[0]:
             session.show(f"\n{session.say(TASKS)}")
         name, title = entry["name"], in_language(entry["title"], session.language)
-        session.show(f"{session.strong(name)}{' ' * (wide - len(name))}  {title}")
+        session.show(Text.assemble((name.ljust(wide), "bold"), f"  {title}"))
     session.show()
     session.show(
         session.say(_("linkwright gallery show NAME prints a file; linkwright solve gallery:NAME solves it."))
@@ -84,7 +87,7 @@ def _list(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _show(options: argparse.Namespace, session: Session) -> int:
+def _show(options: Options, session: Session) -> int:
     name, text = _text(options)
     if session.json:
         session.show_data({**title_and_purpose(name), "text": text})
@@ -93,7 +96,7 @@ def _show(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _copy(options: argparse.Namespace, session: Session) -> int:
+def _copy(options: Options, session: Session) -> int:
     name, text = _text(options)
     path = Path(options.folder) / f"{name}.yaml"
     atomic_write(path, text, force=options.force)
@@ -104,7 +107,7 @@ def _copy(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _text(options: argparse.Namespace) -> tuple[str, str]:
+def _text(options: Options) -> tuple[str, str]:
     """Name and text of the model that is asked for; raises UsageError with the nearest name."""
     from linkwright import gallery
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import argparse
-
-from linkwright.cli.parser import Options
+from linkwright.cli.command import command
+from linkwright.cli.options import Options, argument, force, option
 from linkwright.cli.session import Session
 from linkwright.words import _
 
@@ -21,14 +20,12 @@ EXAMPLES = """\
 linkwright grade exercise/key.json answers.csv"""
 
 
-def arguments(option: Options) -> None:
-    option("key", "KEY", help=_("key.json of the variants"))
-    option("answers", "ANSWERS", help=_("CSV file of the answers"))
-    option("--output", "FILE", help=_("write the grades to a .csv, .json, .xlsx, .md or .html file"))
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@argument("key", "KEY", help=_("key.json of the variants"))
+@argument("answers", "ANSWERS", help=_("CSV file of the answers"))
+@option("--output", "FILE", help=_("write the grades to a .csv, .json, .xlsx, .md or .html file"))
+@force
+def run(options: Options, session: Session) -> int:
     """Grades, prints a row per sheet, writes them where asked; 1 where a sheet cannot be graded."""
     from linkwright.cli.files import RESULTS, refuse_output, write_result
     from linkwright.course.grade import grade

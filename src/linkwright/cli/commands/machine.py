@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import argparse
 from functools import partial
 from typing import TYPE_CHECKING
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.machine_options import Wanted
+from linkwright.cli.options import Options, argument, count, fields, force, option
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
 from linkwright.core.rows import Block
+from linkwright.fields.base import file_keys
 from linkwright.words import _
 
 if TYPE_CHECKING:
-    from linkwright.cli.machine_options import Wanted
     from linkwright.cli.machine_rows import Layout
 
 SUMMARY = _("motor and flywheel for steady running, and the speed that results")
@@ -36,6 +37,7 @@ linkwright machine --torque "20000 + 9500*sin(2*theta) - 5700*cos(2*theta)" \\
 linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(theta)" \\
     --speed 150rpm --mass 500kg --gyration 0.4m"""
 
+FIELDS = file_keys(Wanted)
 CURVE_OPTIONS = ("scale", "load", "period", "speed", "inertia", "mass", "gyration")
 #: Options that say the same, or of which one says nothing of the other's diagram.
 APART = (
@@ -43,44 +45,33 @@ APART = (
 )  # fmt: skip
 
 
-def arguments(option: Options) -> None:
-    option(
-        "file",
-        "FILE",
-        nargs="?",
-        help=_("model file, or gallery:NAME; leave it out with --areas or --torque"),
-    )
-    from linkwright.cli.machine_options import Wanted
-    from linkwright.fields.base import file_keys
-
-    fields = file_keys(Wanted)
-    what = option.group(_("motor and flywheel"))
-    what.fields(fields, {"fluctuation": "δ", "ratio": "i", "efficiency": "η", "margin": "NUMBER"})
-    what.exclusive().fields(fields, {"disk": "KEY=VALUE,…", "rim": "KEY=VALUE,…"})
-    curves = option.group(_("a torque diagram instead of a machine"))
-    curves.exclusive().fields(fields, {"areas": "MM²,…", "torque": "EXPRESSION"})
-    curves.fields(fields, {name: name.upper() for name in CURVE_OPTIONS})
-    form = option.group(_("form"))
-    form.count(
-        "--steps",
-        STEPS,
-        help=_("positions over the cycle (default 360); what lies between them is found exactly"),
-    )
-    form(
-        "--output",
-        "FILE",
-        help=_("write curves to a .csv file, or all numbers to a .json, .xlsx, .md or .html file"),
-    )
-    form.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES, exclusive=[("disk", "rim"), ("areas", "torque"), *APART])
+@argument(
+    "file",
+    "FILE",
+    help=_("model file, or gallery:NAME; leave it out with --areas or --torque"),
+    required=False,
+    model=True,
+)
+@fields(FIELDS, {"fluctuation": "δ", "ratio": "i", "efficiency": "η", "margin": "NUMBER"})
+@fields(FIELDS, {"disk": "KEY=VALUE,…", "rim": "KEY=VALUE,…"})
+@fields(FIELDS, {"areas": "MM²,…", "torque": "EXPRESSION"})
+@fields(FIELDS, {name: name.upper() for name in CURVE_OPTIONS})
+@count(
+    "--steps",
+    STEPS,
+    help=_("positions over the cycle (default 360); what lies between them is found exactly"),
+)
+@option(
+    "--output",
+    "FILE",
+    help=_("write curves to a .csv file, or all numbers to a .json, .xlsx, .md or .html file"),
+)
+@force
+def run(options: Options, session: Session) -> int:
     """Lays out motor and flywheel and prints them."""
-    from linkwright.cli.machine_options import Wanted
-    from linkwright.fields.base import file_keys
-
     _refuse_contradictions(options)
-    texts = {name: getattr(options, name) for name in file_keys(Wanted)}
+    texts = {name: getattr(options, name) for name in FIELDS}
     asked = Wanted(**{name: each for name, each in texts.items() if each is not None})
     if options.file is not None:
         return _mechanism(options, asked, session)
@@ -103,7 +94,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _refuse_contradictions(options: argparse.Namespace) -> None:
+def _refuse_contradictions(options: Options) -> None:
     curves = "--areas" if options.areas is not None else "--torque" if options.torque is not None else None
     if options.file is None and curves is None:
         raise UsageError(
@@ -126,16 +117,6 @@ def _refuse_contradictions(options: argparse.Namespace) -> None:
         raise UsageError(
             _("--output writes the cycle of a mechanism; name a model file", code="machine.output_needs_file")
         )
-    for first, other in APART:
-        if getattr(options, first) is not None and getattr(options, other) is not None:
-            raise UsageError(
-                _(
-                    "{name} cannot be used together with {other}",
-                    code="cli.not_together",
-                    name=f"--{first}",
-                    other=f"--{other}",
-                )
-            )
     if options.areas is not None and options.areas[1] is None:
         raise UsageError(
             _(
@@ -152,7 +133,7 @@ def _refuse_contradictions(options: argparse.Namespace) -> None:
         )
 
 
-def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> int:
+def _mechanism(options: Options, asked: Wanted, session: Session) -> int:
     from linkwright.cli.files import RESULTS, refuse_output, write_result
     from linkwright.cli.machine_rows import Layout, dimensions
     from linkwright.cli.source import read_model
@@ -177,7 +158,7 @@ def _mechanism(options: argparse.Namespace, asked: Wanted, session: Session) -> 
     return 0
 
 
-def _curves(options: argparse.Namespace, asked: Wanted, session: Session) -> Layout:
+def _curves(options: Options, asked: Wanted, session: Session) -> Layout:
     from linkwright.cli.machine_rows import Layout, of_areas, of_curves
     from linkwright.machine.energy import fluctuation_from_areas
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import argparse
 from typing import TYPE_CHECKING
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, count, flag, force, model, option, switch
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
 from linkwright.errors import LinkwrightError, about
@@ -31,38 +31,36 @@ linkwright metrics press.yaml --names stroke,quick_return_ratio,transmission_ang
 linkwright metrics crusher.yaml --output numbers.csv"""
 
 
-def arguments(option: Options) -> None:
-    option.model()
-    option(
-        "--names",
-        "NAME,NAME",
-        nargs="+",
-        help=_(
-            "names of the numbers, separated by commas (default: all that apply; --json shows the names)",
-        ),
-    )
-    option.count(
-        "--steps",
-        STEPS,
-        help=_("equal steps over the cycle (default 360); extreme values are refined between them"),
-    )
-    option.either(
-        "--forces",
-        None,
-        help=_(
-            "joint forces and what follows from them (default: where the model has masses or loads)",
-        ),
-    )
-    option.flag("--mark", help=_("leave out positions that cannot be reached instead of refusing"))
-    option(
-        "--output",
-        "FILE",
-        help=_("write the numbers to a .csv or .json file (SI units), or a .xlsx, .md or .html file"),
-    )
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@model
+@option(
+    "--names",
+    "NAME,NAME",
+    help=_(
+        "names of the numbers, separated by commas (default: all that apply; --json shows the names)",
+    ),
+    several=True,
+)
+@count(
+    "--steps",
+    STEPS,
+    help=_("equal steps over the cycle (default 360); extreme values are refined between them"),
+)
+@switch(
+    "--forces",
+    None,
+    help=_(
+        "joint forces and what follows from them (default: where the model has masses or loads)",
+    ),
+)
+@flag("--mark", help=_("leave out positions that cannot be reached instead of refusing"))
+@option(
+    "--output",
+    "FILE",
+    help=_("write the numbers to a .csv or .json file (SI units), or a .xlsx, .md or .html file"),
+)
+@force
+def run(options: Options, session: Session) -> int:
     """Prints or writes the numbers; 1 where the joint forces failed that some of them need, 2 where some of those
     that are named do not apply."""
     from linkwright.cli.files import RESULTS, refuse_output, write_result
@@ -80,8 +78,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     if session.json:
         session.show_data(data)
     else:
-        text = table.text(session.language, session.width, fold=session.room is not None)
-        session.show("\n".join(session.table(text.split("\n"), heads=3)))
+        session.show_tables(table)
         session.show_written(options.output, apart=True)
     for each in troubles:
         session.tell_error(each)
@@ -110,7 +107,7 @@ def _names(texts: list[str] | None) -> list[str] | None:
 
 
 def _evaluated(
-    mechanism: Mechanism, names: list[str] | None, options: argparse.Namespace
+    mechanism: Mechanism, names: list[str] | None, options: Options
 ) -> tuple[MetricsTable, list[str], LinkwrightError | None]:
     """The numbers, why some of the ``names`` do not apply, and why there are no forces where they failed.
 
@@ -138,9 +135,7 @@ def _evaluated(
     return metrics(analysis, chosen), list(refused.values()), None
 
 
-def _all(
-    motion: Motion, options: argparse.Namespace
-) -> tuple[MetricsTable, list[str], LinkwrightError | None]:
+def _all(motion: Motion, options: Options) -> tuple[MetricsTable, list[str], LinkwrightError | None]:
     """All numbers that apply, those of the motion alone where the forces fail, and why they do."""
     from linkwright.analysis import metrics
     from linkwright.kinetostatics.run import solve_forces

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from linkwright.cli.parser import Options
+from linkwright.cli.command import command
+from linkwright.cli.options import Options, argument, cluster, fields, fonts, force, option
 from linkwright.cli.session import Session
+from linkwright.designs.optimise.problem import SECTION
 from linkwright.words import Say, _
 
 if TYPE_CHECKING:
@@ -36,24 +37,16 @@ SETTINGS = {
 }  # fmt: skip
 
 
-def arguments(option: Options) -> None:
-    from linkwright.designs.optimise.problem import SECTION
-
-    option("file", "FILE", help=_("a model file, or gallery:NAME"))
-    option.fields(SECTION.fields, SETTINGS)
-    option(
-        "--state", "FILE", help=_("keep the search's state in this file, and go on from it where it exists")
-    )
-    option(
-        "--output", "FILE", help=_("write the model file with the best values (a front: NAME_2 … as well)")
-    )
-    option("--plot", "FILE", help=_("draw the front, or the search's progress, in a .svg, .pdf or .png file"))
-    option.cluster()
-    option.fonts()
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@argument("file", "FILE", help=_("a model file, or gallery:NAME"), model=True)
+@fields(SECTION.fields, SETTINGS)
+@option("--state", "FILE", help=_("keep the search's state in this file, and go on from it where it exists"))
+@option("--output", "FILE", help=_("write the model file with the best values (a front: NAME_2 … as well)"))
+@option("--plot", "FILE", help=_("draw the front, or the search's progress, in a .svg, .pdf or .png file"))
+@cluster
+@fonts
+@force
+def run(options: Options, session: Session) -> int:
     """Optimises and prints or writes what came out."""
     try:
         return _searched(options, session)
@@ -62,7 +55,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         raise
 
 
-def _searched(options: argparse.Namespace, session: Session) -> int:
+def _searched(options: Options, session: Session) -> int:
     from linkwright.cli.files import PICTURES, refuse_output
     from linkwright.cli.progress import progress
     from linkwright.designs.cluster import on_cluster
@@ -73,7 +66,7 @@ def _searched(options: argparse.Namespace, session: Session) -> int:
     refuse_output(options.plot, PICTURES, force=options.force)
     settings = {"yield" if key == "least_yield" else key: getattr(options, key) for key in SETTINGS}
     try:
-        with on_cluster(options.cluster), progress(session.say, _("searching")) as report:
+        with on_cluster(options.cluster), progress(session, _("searching")) as report:
             found = optimize(options.file, state=options.state, progress=report, **settings)
     except OptimizeError as error:
         return _unmet(error, session)
@@ -102,7 +95,7 @@ def _unmet(error: OptimizeError, session: Session) -> int:
     return 1
 
 
-def _show(found: Optimum, options: argparse.Namespace, session: Session) -> None:
+def _show(found: Optimum, options: Options, session: Session) -> None:
     from linkwright.cli.files import atomic_write, write_diagram
 
     written: list[str] = []

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import ONE_VALUE, UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, argument, count, flag, fonts, force, option
 from linkwright.cli.session import Session
 from linkwright.core.arguments import CURVE_STEPS
 from linkwright.errors import LinkwrightError, about
 from linkwright.fields.base import Number
 from linkwright.machine.flywheel import COEFFICIENT
+from linkwright.plotting.diagrams.diagram_by_name import kinds
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -38,75 +39,67 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5"""
 ENDINGS = (".svg", ".pdf", ".png")
 
 
-def arguments(option: Options) -> None:
-    from linkwright.plotting.diagrams.diagram_by_name import kinds
-
-    option(
-        "files", "FILE", nargs="+", help=_("model files, or gallery:NAME; several are laid over each other")
-    )
-    what = option.group(_("what is drawn"))
-    what(
-        "--kind",
-        "KIND",
-        default="sva",
-        help=_("kind of diagram: {kinds} (default: sva)", kinds=", ".join(kinds())),
-    )
-    what(
-        "--of",
-        "NAME",
-        nargs="+",
-        default=[],
-        help=_(
-            "outputs, links or points that it is about: jaw, guide, C, jaw.D.x (default: the output)",
-        ),
-    )
-    what(
-        "--joint",
-        "JOINT",
-        help=_("joint of reactions and hodographs (default: the one on the frame that carries most)"),
-    )
-    what("--on", "LINK", help=_("link on which the joint's force acts"))
-    what(
-        "--axes",
-        "LINK",
-        help=_("frame, or a link in whose axes forces are resolved (hodograph: default both)"),
-    )
-    what(
-        "--at",
-        "INPUT",
-        help=_(
-            "input of a polygon: 30deg, 0.2m; 0.5s where a driver follows a law (default: the "
-            "first position)",
-        ),
-    )
-    what.count("--steps", CURVE_STEPS, help=_("equal steps over the cycle (default: 720)"))
-    what(
-        "--fluctuation",
-        "δ",
-        of=COEFFICIENT,
-        help=_("speed fluctuation that the flywheel of --kind speed allows (default: 0.02)"),
-    )
-    what.flag("--static", help=_("leave the inertia forces out"))
-    _form(option.group(_("form")))
-
-
-def _form(form: Options) -> None:
-    """The options that say how a diagram looks and where it goes."""
-    form.flag("--no-marks", help=_("leave out limit positions, peaks, phases and inputs along curves"))
-    form("--title", "TEXT", help=_('a title of your own; "" for none'))
-    form(
-        "--dpi",
-        "N",
-        of=Number(minimum=10.0, maximum=2400.0),
-        default=200.0,
-        help=_("dots per inch of a PNG (default: 200)"),
-    )
-    form("--output", "FILE", help=_("file to write: .svg, .pdf or .png (default: MODEL-KIND.svg here)"))
-    form.fonts()
-    form.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@argument(
+    "files",
+    "FILE",
+    help=_("model files, or gallery:NAME; several are laid over each other"),
+    nargs=-1,
+    required=True,
+    model=True,
+)
+@option(
+    "--kind",
+    "KIND",
+    default="sva",
+    help=_("kind of diagram: {kinds} (default: sva)", kinds=", ".join(kinds())),
+)
+@option(
+    "--of",
+    "NAME",
+    default=[],
+    help=_(
+        "outputs, links or points that it is about: jaw, guide, C, jaw.D.x (default: the output)",
+    ),
+    several=True,
+)
+@option(
+    "--joint",
+    "JOINT",
+    help=_("joint of reactions and hodographs (default: the one on the frame that carries most)"),
+)
+@option("--on", "LINK", help=_("link on which the joint's force acts"))
+@option(
+    "--axes", "LINK", help=_("frame, or a link in whose axes forces are resolved (hodograph: default both)")
+)
+@option(
+    "--at",
+    "INPUT",
+    help=_(
+        "input of a polygon: 30deg, 0.2m; 0.5s where a driver follows a law (default: the first position)",
+    ),
+)
+@count("--steps", CURVE_STEPS, help=_("equal steps over the cycle (default: 720)"))
+@option(
+    "--fluctuation",
+    "δ",
+    of=COEFFICIENT,
+    help=_("speed fluctuation that the flywheel of --kind speed allows (default: 0.02)"),
+)
+@flag("--static", help=_("leave the inertia forces out"))
+@flag("--no-marks", help=_("leave out limit positions, peaks, phases and inputs along curves"))
+@option("--title", "TEXT", help=_('a title of your own; "" for none'))
+@option(
+    "--dpi",
+    "N",
+    of=Number(minimum=10.0, maximum=2400.0),
+    default=200.0,
+    help=_("dots per inch of a PNG (default: 200)"),
+)
+@option("--output", "FILE", help=_("file to write: .svg, .pdf or .png (default: MODEL-KIND.svg here)"))
+@fonts
+@force
+def run(options: Options, session: Session) -> int:
     """Draws a diagram and writes it; 1 where a position is not reached."""
     _require_kind(options)
     path = _path(options)
@@ -116,19 +109,19 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return int(not all(motion.whole for motion in motions.values()))
 
 
-def _require_kind(options: argparse.Namespace) -> None:
+def _require_kind(options: Options) -> None:
     from linkwright.plotting.diagrams.base import OPTIONS
     from linkwright.plotting.diagrams.diagram_by_name import require_kind, require_options
 
     with about("--kind", UsageError, LinkwrightError):
         require_kind(options.kind)
-    for option in OPTIONS:
-        if getattr(options, option):
-            with about(f"--{option}", UsageError, LinkwrightError):
-                require_options(options.kind, [option])
+    for name in OPTIONS:
+        if getattr(options, name):
+            with about(f"--{name}", UsageError, LinkwrightError):
+                require_options(options.kind, [name])
 
 
-def _path(options: argparse.Namespace) -> Path:
+def _path(options: Options) -> Path:
     """Where the diagram goes; refused before any work is done."""
     from linkwright.cli.files import refuse_output
 
@@ -138,7 +131,7 @@ def _path(options: argparse.Namespace) -> Path:
     return path
 
 
-def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
+def _solved(options: Options, session: Session) -> dict[str, Motion]:
     """The motion of every model by a name that tells it from the others; says how far the work is."""
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
@@ -146,7 +139,7 @@ def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
 
     found: dict[str, Motion] = {}
     notes = []
-    with progress(session.say, _("solving")) as report:
+    with progress(session, _("solving")) as report:
         for done, file in enumerate(options.files, 1):
             mechanism, _unused = read_model(file, session)
             motion = solve_motion(mechanism, steps=options.steps, failures="mark")
@@ -173,7 +166,7 @@ def _solved(options: argparse.Namespace, session: Session) -> dict[str, Motion]:
     return found
 
 
-def _drawn(options: argparse.Namespace, session: Session, motions: dict[str, Motion]) -> Diagram:
+def _drawn(options: Options, session: Session, motions: dict[str, Motion]) -> Diagram:
     from linkwright.plotting.diagrams.diagram_by_name import plot
 
     return plot(
@@ -207,7 +200,7 @@ def _place(text: str | None, motions: dict[str, Motion], session: Session) -> fl
     return values[0]
 
 
-def _write(diagram: Diagram, path: Path, options: argparse.Namespace, session: Session) -> None:
+def _write(diagram: Diagram, path: Path, options: Options, session: Session) -> None:
     from linkwright.cli.files import atomic_write
 
     content = diagram.content(path.suffix.lower(), dpi=options.dpi)

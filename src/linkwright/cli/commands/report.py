@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
 from linkwright.cli.files import ENDING_SAYS
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, argument, fonts, force, option
 from linkwright.cli.session import Session
 from linkwright.words import _
 
@@ -43,41 +43,45 @@ SECTIONS = (
 )  # fmt: skip
 
 
-def arguments(option: Options) -> None:
-    option("files", "FILE", nargs="+", help=_("model files, or gallery:NAME; several are compared"))
-    names = ", ".join(SECTIONS)
-    option(
-        "--sections",
-        "NAME",
-        nargs="+",
-        default=[],
-        help=_(
-            "sections in the order wanted, of: {names}; titles of own chapters; rest: all others",
-            names=names,
-        ),
-    )
-    option(
-        "--position",
-        "INPUT",
-        default="",
-        help=_('input of the worked position: "60 deg" (default: a sixth of the cycle)'),
-    )
-    option(
-        "--positions",
-        "POSITIONS",
-        nargs="+",
-        help=_(
-            'positions of the tables: so many (default: 24), or a list: "0..-360 deg:15 deg", "0 '
-            'deg, 60 deg, limits"',
-        ),
-    )
-    option("--to", "pdf|html|docx", help=_("pdf, html or docx (default: what --output says, else pdf)"))
-    option("--output", "FILE", help=_("file to write (default: the model's name)"))
-    option.fonts()
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@argument(
+    "files",
+    "FILE",
+    help=_("model files, or gallery:NAME; several are compared"),
+    nargs=-1,
+    required=True,
+    model=True,
+)
+@option(
+    "--sections",
+    "NAME",
+    default=[],
+    help=_(
+        "sections in the order wanted, of: {names}; titles of own chapters; rest: all others",
+        names=", ".join(SECTIONS),
+    ),
+    several=True,
+)
+@option(
+    "--position",
+    "INPUT",
+    default="",
+    help=_('input of the worked position: "60 deg" (default: a sixth of the cycle)'),
+)
+@option(
+    "--positions",
+    "POSITIONS",
+    help=_(
+        'positions of the tables: so many (default: 24), or a list: "0..-360 deg:15 deg", "0 '
+        'deg, 60 deg, limits"',
+    ),
+    several=True,
+)
+@option("--to", "pdf|html|docx", help=_("pdf, html or docx (default: what --output says, else pdf)"))
+@option("--output", "FILE", help=_("file to write (default: the model's name)"))
+@fonts
+@force
+def run(options: Options, session: Session) -> int:
     """Writes the report; sections that have nothing to show are named on the console."""
     from linkwright.cli.files import atomic_write
     from linkwright.cli.positions import joined
@@ -96,7 +100,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         else:
             machines.append(read_model(file, session)[0])
             sources.append(file)
-    with progress(session.say, _("report")) as told:
+    with progress(session, _("report")) as told:
         found = report(
             machines,
             sources=sources,
@@ -119,7 +123,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return int(found.broken)
 
 
-def _path(options: argparse.Namespace) -> Path:
+def _path(options: Options) -> Path:
     """Where the report goes; refused before any work is done."""
     from linkwright.cli.files import refuse_existing
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import argparse
-
-from linkwright.cli.parser import Options
+from linkwright.cli.command import command
+from linkwright.cli.options import Options, force, option
 from linkwright.cli.session import Session
 from linkwright.words import _
 
@@ -20,12 +19,10 @@ linkwright schema --output linkwright.schema.json
 linkwright schema | less"""
 
 
-def arguments(option: Options) -> None:
-    option("--output", "FILE", help=_("write it to a file"))
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@option("--output", "FILE", help=_("write it to a file"))
+@force
+def run(options: Options, session: Session) -> int:
     """Prints the schema, or writes it."""
     from pathlib import Path
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
 from linkwright.cli.files import ENDING_SAYS
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, fonts, force, model, option
 from linkwright.cli.session import Session
 from linkwright.fields.sheet import SIZES
 from linkwright.words import _
@@ -29,26 +29,21 @@ linkwright sheet shaper.yaml --size A1 --lang zh"""
 ENDINGS = (".pdf", ".svg", ".dxf")
 
 
-def arguments(option: Options) -> None:
-    option.model()
-    option(
-        "--size",
-        choices=SIZES,
-        help=_("paper size, A0 to A4 (default: what the file says, else A1, A2 for a cam)"),
-    )
-    option("--kind", choices=("mechanism", "cam"), help=_("mechanism or cam (default: what the file holds)"))
-    option(
-        "--of",
-        "NAME",
-        default="",
-        help=_("the part that is meant, where there are several: the joint of a cam"),
-    )
-    option("--output", "FILE", help=_("file to write: .pdf, .svg or .dxf (default: the model's name, .pdf)"))
-    option.fonts("FILE")
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@model
+@option(
+    "--size",
+    choices=SIZES,
+    help=_("paper size, A0 to A4 (default: what the file says, else A1, A2 for a cam)"),
+)
+@option("--kind", choices=("mechanism", "cam"), help=_("mechanism or cam (default: what the file holds)"))
+@option(
+    "--of", "NAME", default="", help=_("the part that is meant, where there are several: the joint of a cam")
+)
+@option("--output", "FILE", help=_("file to write: .pdf, .svg or .dxf (default: the model's name, .pdf)"))
+@fonts
+@force
+def run(options: Options, session: Session) -> int:
     """Lays out the sheet and writes it."""
     from linkwright.cli.files import refuse_existing
     from linkwright.sheets.sheet import sheet

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import argparse
 from typing import TYPE_CHECKING
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, count, flag, force, model, option, positions, switch
 from linkwright.cli.session import Session
 from linkwright.words import _
 
@@ -34,45 +34,34 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json"""
 ENDINGS = (".csv", ".json")
 
 
-def arguments(option: Options) -> None:
-    option.model()
-    where = option.group(_("positions")).exclusive()
-    where.count("--steps", help=_("equal steps over the cycle (default: 24)"))
-    where.places()
-    what = option.group(_("results"))
-    what(
-        "--columns",
-        "PATTERN",
-        nargs="+",
-        help=_('columns by name: "jaw.*", "C.velocity.x", "O5 on jaw"; --json shows all names'),
-    )
-    what("--points", "POINT", nargs="+", help=_("position, velocity and acceleration of points: C, jaw.D"))
-    what.either(
-        "--forces",
-        None,
-        help=_("joint forces and driver effort (default: where the model has masses or loads)"),
-    )
-    what.flag("--static", help=_("forces without inertia"))
-    what.flag(
-        "--mark", help=_("leave gaps where a position cannot be reached, and say why, instead of refusing")
-    )
-    what.flag(
-        "--prove", help=_("prove that the assembly is kept in every step, where groups have no closed form")
-    )
-    what.flag(
-        "--worked",
-        help=_(
-            "the worked solution of the position (of each one named with --at or --times): every "
-            "equation, the numbers put in, the result",
-        ),
-    )
-    form = option.group(_("form"))
-    form.flag("--si", help=_("angles in rad"))
-    form("--output", "FILE", help=_("write all columns in SI units to FILE.csv or FILE.json"))
-    form.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES, exclusive=[("steps", "at", "times")])
+@model
+@count("--steps", help=_("equal steps over the cycle (default: 24)"))
+@positions
+@option(
+    "--columns",
+    "PATTERN",
+    help=_('columns by name: "jaw.*", "C.velocity.x", "O5 on jaw"; --json shows all names'),
+    several=True,
+)
+@option("--points", "POINT", help=_("position, velocity and acceleration of points: C, jaw.D"), several=True)
+@switch(
+    "--forces", None, help=_("joint forces and driver effort (default: where the model has masses or loads)")
+)
+@flag("--static", help=_("forces without inertia"))
+@flag("--mark", help=_("leave gaps where a position cannot be reached, and say why, instead of refusing"))
+@flag("--prove", help=_("prove that the assembly is kept in every step, where groups have no closed form"))
+@flag(
+    "--worked",
+    help=_(
+        "the worked solution of the position (of each one named with --at or --times): every "
+        "equation, the numbers put in, the result",
+    ),
+)
+@flag("--si", help=_("angles in rad"))
+@option("--output", "FILE", help=_("write all columns in SI units to FILE.csv or FILE.json"))
+@force
+def run(options: Options, session: Session) -> int:
     """Solves a model and prints or writes the results; 1 where a position or the forces failed."""
     _refuse_contradictions(options)
     from linkwright.cli.solving import solve
@@ -91,13 +80,13 @@ def run(options: argparse.Namespace, session: Session) -> int:
     elif options.output is None:
         from linkwright.cli.solve_text import report
 
-        session.show("\n".join(report(solved, options, session)))
+        session.show(*report(solved, options, session))
     if solved.trouble is not None:
         session.tell_error(solved.trouble.say(session.language))
     return int(solved.trouble is not None or not solved.motion.whole)
 
 
-def _show_worked(solved: Solved, options: argparse.Namespace, session: Session) -> None:
+def _show_worked(solved: Solved, options: Options, session: Session) -> None:
     """The worked solution of the positions that were named, or of the first one."""
     from linkwright.worked_solutions.solution import worked
 
@@ -110,7 +99,7 @@ def _show_worked(solved: Solved, options: argparse.Namespace, session: Session) 
         session.show("\n\n\n".join(page.text() for page in pages))
 
 
-def _refuse_contradictions(options: argparse.Namespace) -> None:
+def _refuse_contradictions(options: Options) -> None:
     if options.worked and options.output is not None:
         raise UsageError(
             _(
@@ -135,7 +124,7 @@ def _refuse_contradictions(options: argparse.Namespace) -> None:
         refuse_output(options.output, ENDINGS, force=options.force)
 
 
-def _write(solved: Solved, options: argparse.Namespace, session: Session) -> None:
+def _write(solved: Solved, options: Options, session: Session) -> None:
     from pathlib import Path
 
     from linkwright.cli.files import write_table

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import argparse
-
-from linkwright.cli.parser import Options
-from linkwright.cli.part import part_arguments, refuse_outputs, run_part, show
+from linkwright.cli.command import command
+from linkwright.cli.options import Options
+from linkwright.cli.part import part_options, refuse_outputs, run_part, show
 from linkwright.cli.session import Session
 from linkwright.words import _
 
@@ -23,11 +22,9 @@ linkwright statics gallery:two_bars_equilibrium --worked
 linkwright statics bracket.yaml --plot bracket.svg"""
 
 
-def arguments(option: Options) -> None:
-    part_arguments(option)
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@part_options
+def run(options: Options, session: Session) -> int:
     """Solves the file's problem; a file without ``kind`` is a structure of links and joints."""
     from linkwright.cli.source import read_model
     from linkwright.parts.file import kind_of

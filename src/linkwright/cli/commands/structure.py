@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import argparse
 from typing import TYPE_CHECKING
 
-from linkwright.cli.parser import Options
-from linkwright.cli.session import Session
+from linkwright.cli.command import command
+from linkwright.cli.options import Options, flag, model
+from linkwright.cli.session import Session, bold
 from linkwright.core.table import Cell, Table
 from linkwright.words import _
 
@@ -29,15 +29,11 @@ linkwright structure crusher.yaml --json"""
 )
 
 
-def arguments(option: Options) -> None:
-    option.model()
-    option.flag(
-        "--program", help=_("print the straight-line program of the motion, with its operation counts")
-    )
-    option.flag("--forces", help=_("print the program with the joint forces (implies --program)"))
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@model
+@flag("--program", help=_("print the straight-line program of the motion, with its operation counts"))
+@flag("--forces", help=_("print the program with the joint forces (implies --program)"))
+def run(options: Options, session: Session) -> int:
     """Prints the structure analysis; with ``--program`` the straight-line program as well."""
     from linkwright.cli.source import read_model
     from linkwright.kinematics.rank_of_motion import rank_sentence
@@ -53,7 +49,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
             data["program"] = {"operations": program.counts(), "lines": program.text().splitlines()}
         session.show_data(data)
         return 0
-    session.show(session.strong(mechanism.name))
+    session.show(bold(mechanism.name))
     session.show()
     session.show(built.text(session.language))
     if rank:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import argparse
-
-from linkwright.cli.parser import Options
+from linkwright.cli.command import command
+from linkwright.cli.options import Options, argument, count, flag
 from linkwright.cli.session import Session
 from linkwright.words import _
 from linkwright.words.sentence import reason_of
@@ -29,13 +28,17 @@ _PORT = _(
 )
 
 
-def arguments(option: Options) -> None:
-    option("file", "FILE", nargs="?", help=_("the model file, below this folder; a new one may be named"))
-    option.count("--port", 0, help=_("the port (default: a free one)"))
-    option.flag("--no-browser", help=_("only print the address"))
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@argument(
+    "file",
+    "FILE",
+    help=_("the model file, below this folder; a new one may be named"),
+    required=False,
+    model=True,
+)
+@count("--port", 0, help=_("the port (default: a free one)"))
+@flag("--no-browser", help=_("only print the address"))
+def run(options: Options, session: Session) -> int:
     """Serves the folder that it is started in until it is interrupted."""
     import webbrowser
     from contextlib import suppress

@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
-import argparse
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from linkwright.cli.parser import Options
+from linkwright.cli.command import command
+from linkwright.cli.options import (
+    Decorator,
+    Options,
+    cluster,
+    count,
+    fonts,
+    force,
+    model,
+    option,
+    state,
+    together,
+)
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
 from linkwright.fields.tables import PAIRS, Integer
@@ -29,66 +40,63 @@ linkwright study crusher.yaml --vary "pitman.length=1.2..1.3 m:5" "jaw.mass=700,
 linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --samples 256"""
 
 
-def arguments(option: Options) -> None:
-    option.model()
-    vary_argument(option)
-    option(
-        "--metrics",
-        "METRIC",
-        nargs="+",
-        help=_(
-            "design numbers (see linkwright.metrics), travel, flywheel, or summaries of outputs "
-            'in quotes ("driver.effort rms", "C.velocity max")',
+#: What varies.
+vary = option(
+    "--vary",
+    "RANGE",
+    of=PAIRS,
+    several=True,
+    required=True,
+    help=_('what varies: "ADDRESS=FROM..TO UNIT:NUMBER" or "ADDRESS=VALUE, VALUE UNIT"; several make a grid'),
+)
+
+
+def sampling(samples: int) -> Decorator[Any]:
+    """Which designs are taken."""
+    return together(
+        option(
+            "--sampling",
+            choices=("grid", "sobol"),
+            default="grid",
+            help=_("grid: every combination (default); sobol: evenly spread designs between the ends"),
         ),
-    )
-    sampling_arguments(option, samples=64)
-    option("--of", "NAME", help=_("the link or guide whose travel counts (default: the last one solved)"))
-    option(
-        "--fluctuation",
-        "δ",
-        of=COEFFICIENT,
-        help=_("coefficient of speed fluctuation for flywheels (default 0.02)"),
-    )
-    option.count("--steps", STEPS, help=_("positions over the cycle (default 360)"))
-    option.count("--rows", 40, help=_("rows of the printed table (default 40)"))
-    option.cluster()
-    option.state()
-    option("--output", "FILE", help=_("write all designs to a .csv, .json, .xlsx, .md or .html file"))
-    option("--plot", "FILE", help=_("draw the metrics over what varies in a .svg, .pdf or .png file"))
-    option.fonts()
-    option.force()
-
-
-def vary_argument(option: Options) -> None:
-    """The option that says what varies."""
-    option(
-        "--vary",
-        "RANGE",
-        of=PAIRS,
-        nargs="+",
-        required=True,
-        help=_(
-            'what varies: "ADDRESS=FROM..TO UNIT:NUMBER" or "ADDRESS=VALUE, VALUE UNIT"; several make a grid',
-        ),
+        count("--samples", samples, help=_("designs of a Sobol sequence (default 64)")),
+        option("--seed", "N", of=Integer(), default=0, help=_("seed of the Sobol sequence (default 0)")),
     )
 
 
-def sampling_arguments(option: Options, *, samples: int) -> None:
-    """The options that say which designs are taken."""
-    option(
-        "--sampling",
-        choices=("grid", "sobol"),
-        default="grid",
-        help=_("grid: every combination (default); sobol: evenly spread designs between the ends"),
-    )
-    option.count("--samples", samples, help=_("designs of a Sobol sequence (default 64)"))
-    option("--seed", "N", of=Integer(), default=0, help=_("seed of the Sobol sequence (default 0)"))
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@model
+@vary
+@option(
+    "--metrics",
+    "METRIC",
+    help=_(
+        "design numbers (see linkwright.metrics), travel, flywheel, or summaries of outputs "
+        'in quotes ("driver.effort rms", "C.velocity max")',
+    ),
+    several=True,
+)
+@sampling(64)
+@option("--of", "NAME", help=_("the link or guide whose travel counts (default: the last one solved)"))
+@option(
+    "--fluctuation",
+    "δ",
+    of=COEFFICIENT,
+    help=_("coefficient of speed fluctuation for flywheels (default 0.02)"),
+)
+@count("--steps", STEPS, help=_("positions over the cycle (default 360)"))
+@count("--rows", 40, help=_("rows of the printed table (default 40)"))
+@cluster
+@state
+@option("--output", "FILE", help=_("write all designs to a .csv, .json, .xlsx, .md or .html file"))
+@option("--plot", "FILE", help=_("draw the metrics over what varies in a .svg, .pdf or .png file"))
+@fonts
+@force
+def run(options: Options, session: Session) -> int:
     """Studies the designs and prints or writes what came out."""
     from linkwright.cli.files import PICTURES, RESULTS, refuse_output
-    from linkwright.cli.progress import kept
+    from linkwright.cli.progress import resumable
     from linkwright.cli.source import read_model
     from linkwright.designs.cluster import on_cluster
     from linkwright.designs.study import study
@@ -104,12 +112,12 @@ def run(options: argparse.Namespace, session: Session) -> int:
         "fluctuation": FLUCTUATION if options.fluctuation is None else options.fluctuation,
     }  # fmt: skip
     asked = dump(mechanism), options.vary, settings
-    with kept(options.state, mechanism.name, asked, session) as report, on_cluster(options.cluster):
+    with resumable(options.state, mechanism.name, asked, session) as report, on_cluster(options.cluster):
         _show(study(mechanism, options.vary, progress=report, **settings), options, session)
     return 0
 
 
-def _show(found: Study, options: argparse.Namespace, session: Session) -> None:
+def _show(found: Study, options: Options, session: Session) -> None:
     from linkwright.cli.files import write_diagram, write_result
 
     write_result(options.output, found, session, force=options.force)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import argparse
 from typing import TYPE_CHECKING
 
-from linkwright.cli.commands.study import sampling_arguments, vary_argument
-from linkwright.cli.parser import Options
+from linkwright.cli.command import command
+from linkwright.cli.commands.study import sampling, vary
+from linkwright.cli.options import Options, cluster, count, model, option
 from linkwright.cli.session import Session
 from linkwright.words import _
 
@@ -29,51 +29,49 @@ linkwright sweep crusher.yaml --vary pitman.length=1.1..1.4m --sampling sobol --
     --numbers peak_input_torque --folder torques --best peak_input_torque --cluster tcp://10.0.0.1:8786"""
 
 
-def arguments(option: Options) -> None:
-    option.model()
-    vary_argument(option)
-    option(
-        "--numbers",
-        "NUMBER",
-        nargs="+",
-        required=True,
-        help=_("summaries such as 'rocker.angle range' and design numbers such as peak_reaction"),
-    )
-    option(
-        "--folder",
-        "FOLDER",
-        required=True,
-        help=_(
-            "folder of the Parquet files; made where it does not exist, gone on with where it does",
-        ),
-    )
-    sampling_arguments(option, samples=65536)
-    option.count(
-        "--steps",
-        help=_(
-            "summaries of so many positions over the cycle (without it of the whole cycle, exact between them)"
-        ),
-    )
-    option.count("--part", 16384, help=_("designs of a part, rounded up to a power of two (default 16384)"))
-    option.cluster()
-    option(
-        "--best",
-        "NUMBER",
-        help=_(
-            "also the ten designs best in this number: the greatest where more is better, as of "
-            "a transmission angle, else the least",
-        ),
-    )
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@model
+@vary
+@option(
+    "--numbers",
+    "NUMBER",
+    required=True,
+    help=_("summaries such as 'rocker.angle range' and design numbers such as peak_reaction"),
+    several=True,
+)
+@option(
+    "--folder",
+    "FOLDER",
+    required=True,
+    help=_(
+        "folder of the Parquet files; made where it does not exist, gone on with where it does",
+    ),
+)
+@sampling(65536)
+@count(
+    "--steps",
+    help=_(
+        "summaries of so many positions over the cycle (without it of the whole cycle, exact between them)"
+    ),
+)
+@count("--part", 16384, help=_("designs of a part, rounded up to a power of two (default 16384)"))
+@cluster
+@option(
+    "--best",
+    "NUMBER",
+    help=_(
+        "also the ten designs best in this number: the greatest where more is better, as of "
+        "a transmission angle, else the least",
+    ),
+)
+def run(options: Options, session: Session) -> int:
     """Computes the missing parts and says what lies in the folder."""
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
     from linkwright.exporters.sweep_parts import sweep_parts
 
     mechanism, _unused = read_model(options.file, session)
-    with progress(session.say, _("designs")) as report:
+    with progress(session, _("designs")) as report:
         found = sweep_parts(
             mechanism, options.vary, options.folder, outputs=options.numbers, sampling=options.sampling,
             samples=options.samples, seed=options.seed, steps=options.steps, part=options.part,
@@ -83,7 +81,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
     return 0
 
 
-def _show(found: SweepParts, options: argparse.Namespace, session: Session) -> None:
+def _show(found: SweepParts, options: Options, session: Session) -> None:
     if session.json:
         best = found.best(options.best) if options.best is not None else {}
         data = found.data(session.language) | {"best": {name: each.tolist() for name, each in best.items()}}

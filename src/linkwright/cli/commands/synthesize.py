@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, argument, cluster, flag, fonts, force, option, state
 from linkwright.cli.session import Session
 from linkwright.core.table import Amount, Cell, Table
 from linkwright.fields.base import Number
+from linkwright.synthesis.names import TASK_NAMES
 from linkwright.words import _, pgettext
 
 if TYPE_CHECKING:
@@ -33,49 +34,43 @@ linkwright synthesize free_curve file=letter.svg joints=10 --output designs --pl
 linkwright synthesize press.yaml --json"""
 
 
-def arguments(option: Options) -> None:
-    from linkwright.synthesis.names import TASK_NAMES
-
-    option(
-        "task",
-        "FILE|TASK",
-        help=_(
-            "a file with a section synthesis, or the name of a task: {tasks}", tasks=", ".join(TASK_NAMES)
-        ),
-    )
-    option(
-        "demands",
-        "KEY=VALUE",
-        nargs="*",
-        help=_('demands of the task, such as stroke="40 mm"; lists in brackets as in a file'),
-    )
-    option("--output", "FOLDER", help=_("write every candidate as a model file into this folder"))
-    option("--plot", "FILE", help=_("draw target, candidates and curves in a .svg, .pdf or .png file"))
-    option.flag(
-        "--worked",
-        help=_(
-            "how the first candidate was found: given values, equations with their numbers, check, choice",
-        ),
-    )
-    option(
-        "--mass",
-        "KG/M",
-        of=Number(above=0.0),
-        help=_("also peak input torque and reaction, for links of this mass per length (kg/m)"),
-    )
-    option(
-        "--speed",
-        "SPEED",
-        default="60 rpm",
-        help=_("speed of the input link in model files and for --mass (default 60 rpm)"),
-    )
-    option.cluster()
-    option.state()
-    option.fonts()
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@argument(
+    "task",
+    "FILE|TASK",
+    help=_("a file with a section synthesis, or the name of a task: {tasks}", tasks=", ".join(TASK_NAMES)),
+)
+@argument(
+    "demands",
+    "KEY=VALUE",
+    help=_('demands of the task, such as stroke="40 mm"; lists in brackets as in a file'),
+    nargs=-1,
+)
+@option("--output", "FOLDER", help=_("write every candidate as a model file into this folder"))
+@option("--plot", "FILE", help=_("draw target, candidates and curves in a .svg, .pdf or .png file"))
+@flag(
+    "--worked",
+    help=_(
+        "how the first candidate was found: given values, equations with their numbers, check, choice",
+    ),
+)
+@option(
+    "--mass",
+    "KG/M",
+    of=Number(above=0.0),
+    help=_("also peak input torque and reaction, for links of this mass per length (kg/m)"),
+)
+@option(
+    "--speed",
+    "SPEED",
+    default="60 rpm",
+    help=_("speed of the input link in model files and for --mass (default 60 rpm)"),
+)
+@cluster
+@state
+@fonts
+@force
+def run(options: Options, session: Session) -> int:
     """Runs the task and shows or writes its candidates."""
     from linkwright.cli.files import PICTURES, refuse_output
     from linkwright.synthesis.linkage import input_speed
@@ -108,19 +103,18 @@ def _model_file(folder: Path, task: str, index: int) -> Path:
     return folder / f"{task}_{index + 1}.yaml"
 
 
-def _solve(task: str, demands: dict[str, Any], options: argparse.Namespace, session: Session) -> Synthesis:
-    from linkwright.cli.progress import kept
+def _solve(task: str, demands: dict[str, Any], options: Options, session: Session) -> Synthesis:
+    from linkwright.cli.progress import resumable
     from linkwright.designs.cluster import on_cluster
     from linkwright.synthesis.tasks import synthesize
 
-    with kept(options.state, task, (task, demands), session), on_cluster(options.cluster):
+    with resumable(options.state, task, (task, demands), session), on_cluster(options.cluster):
         return synthesize(task, **demands)
 
 
-def _asked(options: argparse.Namespace, session: Session) -> tuple[str, dict[str, Any]]:
+def _asked(options: Options, session: Session) -> tuple[str, dict[str, Any]]:
     """The task and its demands, from a file or the command line."""
     from linkwright.files.source import GALLERY
-    from linkwright.synthesis.names import TASK_NAMES
     from linkwright.synthesis.tasks import asked_in, asked_of
 
     if options.task not in TASK_NAMES and not options.demands:
@@ -142,7 +136,7 @@ def _asked(options: argparse.Namespace, session: Session) -> tuple[str, dict[str
     return asked_in("\n".join(["synthesis:", f"  task: {options.task}", *lines]), "synthesize")
 
 
-def _unmet(error: SynthesisError, options: argparse.Namespace, session: Session) -> int:
+def _unmet(error: SynthesisError, options: Options, session: Session) -> int:
     """Says which demand fails, and shows the nearest solution."""
     sentence = error.say(session.language)
     session.tell_error(sentence)
@@ -154,7 +148,7 @@ def _unmet(error: SynthesisError, options: argparse.Namespace, session: Session)
     return 1
 
 
-def _show(found: Synthesis, options: argparse.Namespace, session: Session) -> None:
+def _show(found: Synthesis, options: Options, session: Session) -> None:
     from linkwright.cli.files import atomic_write, write_diagram
     from linkwright.filesystem import make_folder
 
@@ -178,7 +172,10 @@ def _show(found: Synthesis, options: argparse.Namespace, session: Session) -> No
             each |= effort
         session.show_data({"ok": True, **data})
         return
-    session.show(found.text(session.language, session.room) if worked is None else worked.text())
+    if worked is None:
+        session.show_tables(found)
+    else:
+        session.show(worked.text())
     if efforts:
         session.show("\n" + "\n".join(_effort_table(efforts).lines(session.language)))
     session.show_written(*written)

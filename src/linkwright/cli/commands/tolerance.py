@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 from dataclasses import fields
 from typing import TYPE_CHECKING, cast
 
-from linkwright.cli.parser import Options
-from linkwright.cli.part import part_arguments, read, refuse_outputs, show
+from linkwright.cli.command import command
+from linkwright.cli.options import Options, cluster, state
+from linkwright.cli.part import part_options, read, refuse_outputs, show
 from linkwright.cli.session import Session
 from linkwright.words import _
 
@@ -28,27 +28,8 @@ linkwright tolerance gallery:pressed_pins --plot pins.svg
 linkwright tolerance study.yaml --output machines.csv"""
 
 
-def arguments(option: Options) -> None:
-    part_arguments(option)
-    option.cluster()
-    option.state()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
-    """Solves the file's problem; its drawn machines are computed by threads or a cluster."""
-    from linkwright.cli.progress import kept
-    from linkwright.designs.cluster import on_cluster
-    from linkwright.parts.file import solve
-
-    refuse_outputs(options, session)
-    problem = cast("ToleranceStudy", read(options.file, "tolerance", session))
-    with kept(options.state, problem.name, asked(problem), session), on_cluster(options.cluster):
-        show(solve(problem, options.file), options, session)
-    return 0
-
-
-def surplus(word: str) -> str:
-    """Where the numbers are named of which somebody asks for one."""
+def hint(word: str) -> str:
+    """Where the metrics are named that somebody asks for."""
     from linkwright.analysis.base import METRICS
     from linkwright.registry import nearest
 
@@ -58,6 +39,23 @@ def surplus(word: str) -> str:
         "rms, range, peak)",
         name=nearest(word[:100], list(METRICS)) or word,
     )
+
+
+@command(SUMMARY, DESCRIPTION, EXAMPLES, hint=hint)
+@part_options
+@cluster
+@state
+def run(options: Options, session: Session) -> int:
+    """Solves the file's problem; its drawn machines are computed by threads or a cluster."""
+    from linkwright.cli.progress import resumable
+    from linkwright.designs.cluster import on_cluster
+    from linkwright.parts.file import solve
+
+    refuse_outputs(options, session)
+    problem = cast("ToleranceStudy", read(options.file, "tolerance", session))
+    with resumable(options.state, problem.name, asked(problem), session), on_cluster(options.cluster):
+        show(solve(problem, options.file), options, session)
+    return 0
 
 
 def asked(problem: ToleranceStudy) -> tuple[object, ...]:

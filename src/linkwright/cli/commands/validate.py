@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import argparse
-
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, flag, option
 from linkwright.cli.session import Session
 from linkwright.words import _
 
@@ -23,12 +22,10 @@ linkwright validate --case crusher --every
 linkwright validate --json"""
 
 
-def arguments(option: Options) -> None:
-    option("--case", "TEXT", default="", help=_("only cases whose name or source contains this"))
-    option.flag("--every", help=_("a line for every number"))
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@option("--case", "TEXT", default="", help=_("only cases whose name or source contains this"))
+@flag("--every", help=_("a line for every number"))
+def run(options: Options, session: Session) -> int:
     """Compares and prints; 1 where a number differs."""
     from linkwright.cli.progress import progress
     from linkwright.validation.published import published
@@ -40,7 +37,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
         raise UsageError(
             _('no case has "{text}" in its name or source', code="validate.no_case", text=options.case)
         )
-    with progress(session.say, _("comparing")) as told:
+    with progress(session, _("comparing")) as told:
         found = validate(cases, told)
     session.show_result(found, every=options.every)
     return int(not found.ok)

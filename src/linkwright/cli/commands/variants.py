@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.parser import Options
+from linkwright.cli.options import Options, count, force, model, option
 from linkwright.cli.session import Session
 from linkwright.core.quantity import number
 from linkwright.fields.tables import Integer
@@ -33,39 +33,34 @@ linkwright variants crusher.yaml --count 30 --to sheets key moodle --output exer
 COUNT = 30
 
 
-def arguments(option: Options) -> None:
-    option.model()
-    option.count("--count", COUNT, help=_("how many (default 30)"))
-    option(
-        "--seed",
-        "N",
-        of=Integer(),
-        default=0,
-        help=_("seed of the random numbers (default 0): the same seed gives the same variants"),
-    )
-    option(
-        "--to",
-        "FORM",
-        nargs="+",
-        default=[],
-        help=_("what to write: sheets, key, prairielearn, moodle, qti (default: all)"),
-    )
-    option(
-        "--output",
-        "FOLDER",
-        help=_("folder (default: the model's name with -variants); it must not exist yet"),
-    )
-    option.force()
-
-
-def run(options: argparse.Namespace, session: Session) -> int:
+@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@model
+@count("--count", COUNT, help=_("how many (default 30)"))
+@option(
+    "--seed",
+    "N",
+    of=Integer(),
+    default=0,
+    help=_("seed of the random numbers (default 0): the same seed gives the same variants"),
+)
+@option(
+    "--to",
+    "FORM",
+    default=[],
+    help=_("what to write: sheets, key, prairielearn, moodle, qti (default: all)"),
+    several=True,
+)
+@option(
+    "--output", "FOLDER", help=_("folder (default: the model's name with -variants); it must not exist yet")
+)
+@force
+def run(options: Options, session: Session) -> int:
     """Finds the variants and writes their files."""
     from linkwright.cli.progress import progress
     from linkwright.cli.source import read_model
     from linkwright.course.questions import FORMS
     from linkwright.course.variants import variants
 
-    say = session.say
     unknown = next((form for form in options.to if form not in FORMS), None)
     if unknown is not None:
         raise UsageError(
@@ -87,7 +82,7 @@ def run(options: argparse.Namespace, session: Session) -> int:
             )
         )
     mechanism, _unused = read_model(options.file, session)
-    with progress(say, _("variants")) as told:
+    with progress(session, _("variants")) as told:
         found = variants(mechanism, options.count, seed=options.seed, progress=told)
         files = found.save(folder, options.to, session.language, force=True)
     if session.json:

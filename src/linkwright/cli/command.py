@@ -1,0 +1,159 @@
+"""Commands for Click: options that take lists, findings about all values at once, help in the user's language."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Sequence
+from functools import wraps
+from itertools import islice, takewhile
+from typing import Any
+
+import click
+from click.core import ParameterSource
+from click.shell_completion import CompletionItem
+
+from linkwright.cli.declared import read_declared
+from linkwright.cli.errors import UsageError
+from linkwright.cli.help import command_help
+from linkwright.cli.options import COMMON, Option, Options
+from linkwright.cli.session import Session
+from linkwright.cli.usage import extra_argument, is_model, not_together, usage_error
+from linkwright.errors import RequestError, about
+from linkwright.words import Message, in_language
+
+Run = Callable[[Options, Session], int]
+_is_option = re.compile(r"-(?![\d.]).").match
+
+
+class Command(click.Command):
+    """A command with its words.
+
+    ``exclusive``: options of which one may be given; ``hint``: what to write for a word that is not expected.
+    """
+
+    summary: Message
+    description: Message
+    examples: str
+    exclusive: Sequence[Sequence[str]] = ()
+    hint: Callable[[str], str] | None = None
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Reads the words of a command; raises UsageError, for values with all findings at once."""
+        if ctx.resilient_parsing:
+            return super().parse_args(ctx, args)
+        try:
+            options, free = self._separated(args)
+            if extra := free[len(self.arguments) :] if all(each.nargs > 0 for each in self.arguments) else []:
+                hint = self.hint(extra[0]) if self.hint else ""
+                raise extra_argument(extra[0], self, ctx.command_path, hint)
+            super().parse_args(ctx, [*options, "--", *free])
+        except click.UsageError as error:
+            raise usage_error(error, self, ctx.command_path) from None
+        given = [
+            each
+            for each in self.params
+            if ctx.get_parameter_source(each.name or "") is ParameterSource.COMMANDLINE
+        ]
+        for each in self.params:
+            if isinstance(each, Option) and each.multiple:
+                values = [value for value in ctx.params[each.name] if value or not each.optional]
+                ctx.params[each.name] = values if each in given else each.initial
+        for names in self.exclusive:
+            if len(both := [each.opts[0] for each in given if each.name in names]) > 1:
+                raise not_together(both[1], both[0], ctx.command_path)
+        read_declared(ctx.params, [each for each in given if isinstance(each, Option)])
+        return ctx.args
+
+    @property
+    def arguments(self) -> list[click.Argument]:
+        """The arguments, without the options."""
+        return [each for each in self.params if isinstance(each, click.Argument)]
+
+    def _separated(self, args: Sequence[str]) -> tuple[list[str], list[str]]:
+        """``--vary a b --steps 9 FILE`` as ``--vary=a --vary=b --steps=9`` and ``FILE``.
+
+        A list takes all words up to the next option, but leaves the command its files.
+        """
+        options = [each for each in self.params if isinstance(each, Option)]
+        known = {name: each for each in options for name in (*each.opts, *each.secondary_opts)}
+        given: list[tuple[str, Option, list[str]]] = []
+        found, free, words = list[str](), list[str](), list(args)
+        while words:
+            word = words.pop(0)
+            each = known.get(word)
+            if word == "--":
+                free += words
+                break
+            if _is_option(word) and word.partition("=")[0] not in known:
+                raise click.NoSuchOption(word.partition("=")[0])
+            if each is None or each.is_flag:
+                (found if _is_option(word) else free).append(word)
+                continue
+            most = len(words) if each.multiple else 1
+            values = [*takewhile(lambda word: not _is_option(word), islice(words, most))]
+            del words[: len(values)]
+            if not values and not each.optional:
+                raise click.BadOptionUsage(word, "")
+            given.append((word, each, values))
+        needed = sum(each.required for each in self.arguments)
+        several = any(each.nargs < 0 for each in self.arguments)
+        for _word, each, values in reversed(given):
+            spare = 0 if each.optional else 1
+            while each.multiple and len(values) > spare and is_model(values[-1]):
+                if not several and len(free) >= needed:
+                    break
+                free.insert(0, values.pop())
+        if given and given[-1][1].multiple and len(free) < needed and len(given[-1][2]) > 1:
+            free.append(given[-1][2].pop())
+        found += [f"{word}={value}" for word, _each, values in given for value in values or [""]]
+        return found, free
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Runs the command, with the fonts that were named."""
+        if not ctx.params.get("fonts"):
+            return super().invoke(ctx)
+        from linkwright.pictures.svg.fonts import font_files, more_fonts
+
+        with about("--fonts", UsageError, RequestError):
+            fonts = font_files(ctx.params["fonts"])
+        with more_fonts(fonts):
+            return super().invoke(ctx)
+
+    def get_help(self, ctx: click.Context) -> str:
+        """The help in the language of the session."""
+        return command_help(ctx, self.description, self.examples)
+
+    def get_short_help_str(self, limit: int = 45) -> str:
+        """The summary."""
+        return self.summary
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        """Options that complete a word, with their help in the language of the session."""
+        return in_language_of(ctx, super().shell_complete(ctx, incomplete))
+
+
+def in_language_of(ctx: click.Context, items: Iterable[CompletionItem]) -> list[CompletionItem]:
+    """Completions with their help in the language of the session."""
+    found = list(items)
+    for each in found:
+        each.help = in_language(each.help or "", ctx.obj.language)
+    return found
+
+
+def command(
+    summary: Message, description: Message, examples: str, *, name: str = "", **settings: Any
+) -> Callable[[Run], Command]:
+    """Makes a function of options and session a command, by the name of its module unless another is given."""
+
+    def decorate(run: Run) -> Command:
+        @click.command(name or run.__module__.rpartition(".")[2], cls=Command, add_help_option=False)
+        @wraps(run)
+        def made(**values: Any) -> int:
+            return run(Options(**values), click.get_current_context().obj)
+
+        made.params += COMMON
+        made.summary, made.description, made.examples = summary, description, examples
+        made.exclusive, made.hint = settings.get("exclusive", ()), settings.get("hint")
+        return made
+
+    return decorate

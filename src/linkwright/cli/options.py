@@ -1,0 +1,238 @@
+"""Declarations of options and arguments, for Click: decorators with messages as help and fields as types."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any, TypeVar
+
+import click
+from click.shell_completion import CompletionItem
+
+from linkwright.cli.errors import UsageError
+from linkwright.fields.base import Field
+from linkwright.fields.tables import PAIRS, ByAddress, Integer, Listed, Table
+from linkwright.words import LANGUAGES, _
+
+Decorated = TypeVar("Decorated", bound=Callable[..., Any])
+Decorator = Callable[[Decorated], Decorated]
+_PATHS = ("FILE", "FOLDER", "DIR", "FILE|FOLDER")
+
+
+class Options(SimpleNamespace):
+    """The values of a command's options and arguments."""
+
+
+class Choice(click.Choice[str]):
+    """One of a few words."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The value itself; raises UsageError with the choices."""
+        if value is None or value in self.choices:
+            return value
+        name = (
+            param.opts[0] if isinstance(param, click.Option) else param.human_readable_name if param else ""
+        )
+        raise UsageError(
+            _(
+                '{name} cannot be "{value}"; choose from {choices}',
+                code="cli.bad_choice",
+                name=name,
+                value=value,
+                choices=tuple(self.choices),
+            )
+        )
+
+
+class Option(click.Option):
+    """An option: ``field`` reads its value after those of lower ``rank``; ``optional``: its value may be left out.
+
+    One that takes several values may be written once, with all of them behind it; ``initial``: where it is not given.
+    """
+
+    def __init__(
+        self,
+        *names: Any,
+        help: str,
+        field: Field | None = None,
+        rank: int = 0,
+        optional: bool = False,
+        initial: Any = None,
+        **settings: Any,
+    ) -> None:
+        super().__init__(*names, **settings)
+        self.help, self.field, self.rank, self.optional, self.initial = help, field, rank, optional, initial
+
+
+class Argument(click.Argument):
+    """An argument with its help."""
+
+    def __init__(self, *names: Any, help: str, **settings: Any) -> None:
+        super().__init__(*names, **settings)
+        self.help = help
+
+
+def _complete_path(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    return [CompletionItem(incomplete, type="file")]
+
+
+def _complete_model(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    from linkwright import gallery
+
+    names = (f"gallery:{name}" for name in (*gallery.names(), *gallery.calculations(), *gallery.tasks()))
+    found = [CompletionItem(name) for name in names if name.startswith(incomplete or "\0")]
+    return found or _complete_path(ctx, param, incomplete)
+
+
+def option(
+    name: str,
+    metavar: str | None = None,
+    *others: str,
+    help: str,
+    of: Field | None = None,
+    several: bool = False,
+    choices: Sequence[str] = (),
+    default: Any = None,
+    **settings: Any,
+) -> Decorator[Any]:
+    """An option with a value, or with several; ``of``: the field that reads it."""
+    return click.option(
+        name,
+        *others,
+        cls=Option,
+        **{"multiple": True, "initial": default}
+        if several
+        else {}
+        if default is None
+        else {"default": default},
+        metavar=metavar or "|".join(choices),
+        field=of,
+        help=help,
+        type=Choice(choices) if choices else click.UNPROCESSED,
+        shell_complete=_complete_path if metavar in _PATHS else None,
+        **settings,
+    )
+
+
+def argument(
+    name: str, metavar: str, *, help: str, choices: Sequence[str] = (), model: bool = False, **settings: Any
+) -> Decorator[Any]:
+    """An argument; ``model``: its values are names of model files."""
+    complete = _complete_model if model else _complete_path if metavar in _PATHS else None
+    kind = Choice(choices) if choices else click.UNPROCESSED
+    return click.argument(
+        name, cls=Argument, metavar=metavar, help=help, type=kind, shell_complete=complete, **settings
+    )
+
+
+def flag(name: str, help: str, default: bool | None = False) -> Decorator[Any]:
+    """An option without a value."""
+    return click.option(name, cls=Option, is_flag=True, default=default, help=help)
+
+
+def switch(name: str, default: bool | None, help: str) -> Decorator[Any]:
+    """An option that switches something on, or off with ``no-`` before its name."""
+    return click.option(f"{name}/--no-{name.removeprefix('--')}", cls=Option, default=default, help=help)
+
+
+def count(name: str, default: int | None = None, *, help: str) -> Decorator[Any]:
+    """An option with a whole number, 1 or more."""
+    return option(name, "N", of=Integer(1), default=default, help=help)
+
+
+def fields(declared: Mapping[str, Field], metavars: Mapping[str, str]) -> Decorator[Any]:
+    """Options of some fields of a table, by what stands for their values in the help."""
+
+    def decorate(function: Decorated) -> Decorated:
+        for name, metavar in reversed([*metavars.items()]):
+            field = declared[name]
+            pairs = replace(PAIRS, doc=field.doc) if isinstance(field, ByAddress) else field
+            function = option(
+                f"--{field.key or name}",
+                metavar,
+                name,
+                of=pairs,
+                rank=[*declared].index(name),
+                several=isinstance(field, ByAddress | Listed),
+                optional=isinstance(field, Table),
+                help=field.doc,
+            )(function)
+        return function
+
+    return decorate
+
+
+def together(*decorators: Decorator[Any]) -> Decorator[Any]:
+    """Several declarations as one, in their order."""
+
+    def decorate(function: Decorated) -> Decorated:
+        for each in reversed(decorators):
+            function = each(function)
+        return function
+
+    return decorate
+
+
+model = argument("file", "FILE", model=True, help=_("model file, or gallery:NAME"))
+force = flag("--force", _("replace files that exist"))
+fonts = option(
+    "--fonts",
+    "FILE|FOLDER",
+    several=True,
+    default=(),
+    help=_("font files, or folders of them, used before the system's"),
+)
+cluster = option(
+    "--cluster",
+    "ADDRESS",
+    help=_("address of a Dask scheduler, such as tcp://host:8786 (extra cluster); else threads here"),
+)
+state = option(
+    "--state", "FILE", help=_("store finished parts in this file, and go on from it where it exists")
+)
+positions = together(
+    option(
+        "--at",
+        "INPUTS",
+        several=True,
+        help=_(
+            'inputs of the first driver in the order wanted: "0 deg, 30 deg", 0..-360deg:15 '
+            '(from..to:step), limit positions: "rocker min, rocker max", limits; several '
+            'drivers: "NAME=…; NAME=…"',
+        ),
+    ),
+    option(
+        "--times",
+        "TIMES",
+        several=True,
+        help=_('times in the order wanted: "0 s, 0.1 s", "0..2 s:0.1", limit positions: limits, "boom max"'),
+    ),
+)
+
+
+def _show_help(ctx: click.Context, param: click.Parameter, value: bool) -> None:
+    if value and not ctx.resilient_parsing:
+        ctx.obj.show_as_is(ctx.get_help())
+        ctx.exit()
+
+
+#: Options of every command, and of the program before the command.
+COMMON = (
+    Option(["--json"], is_flag=True, help=_("print data (JSON, SI units) for programs")),
+    Option(
+        ["--lang"],
+        metavar="|".join(LANGUAGES),
+        type=Choice(LANGUAGES),
+        help=_("language of what is printed: en or zh (default: LINKWRIGHT_LANG, else en)"),
+    ),
+    Option(["--debug"], is_flag=True, help=_("show where in the program an unexpected error arose")),
+    Option(
+        ["-h", "--help"],
+        is_flag=True,
+        is_eager=True,
+        expose_value=False,
+        callback=_show_help,
+        help=_("show this help"),
+    ),
+)

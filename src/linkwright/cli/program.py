@@ -1,0 +1,216 @@
+"""From the arguments of the process to a command and its exit code."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+import click
+from click.shell_completion import CompletionItem, shell_complete
+
+from linkwright.cli import commands
+from linkwright.cli.command import Command, in_language_of
+from linkwright.cli.errors import OutputError, UsageError
+from linkwright.cli.help import program_help, version
+from linkwright.cli.options import COMMON, Option
+from linkwright.cli.session import Session
+from linkwright.cli.usage import did_you_mean, usage_error
+from linkwright.errors import NO_FILE, LinkwrightError, ModelError, RequestError, speaker
+from linkwright.words import LANGUAGES, _
+
+FINE, FAULTY, MISUSED, INTERRUPTED = 0, 1, 2, 130
+#: The variable by which a shell asks for completions.
+COMPLETE = "_LINKWRIGHT_COMPLETE"
+WELCOME = _(
+    "Linkwright reads a short text file that describes a planar machine, and answers\n"
+    "what its designer asks: can it move, where does it go, what do its joints carry.\n"
+    "\n"
+    "Three commands to begin with:\n"
+    "\n"
+    "  linkwright gallery list                      machines that come with Linkwright\n"
+    "  linkwright structure gallery:shaper_quick_return\n"
+    "                                               mobility and Assur groups\n"
+    "  linkwright solve gallery:jaw_crusher_sixbar  motion, forces and drive torque\n"
+    "\n"
+    "Every command takes your own model file in place of gallery:NAME.\n"
+    "All commands: linkwright --help",
+)
+
+
+class Program(click.Group):
+    """All commands, each imported when it is asked for."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Names of all commands."""
+        return [*commands.names()]
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> Command | None:
+        """A command by its name; raises UsageError with the nearest name."""
+        if cmd_name in commands.names():
+            return commands.command(cmd_name)
+        if ctx.resilient_parsing:
+            return None
+        said = _('there is no command "{name}"', code="cli.unknown_command", name=cmd_name)
+        hint = _("see {command} --help", command="linkwright")
+        raise UsageError(did_you_mean(said, cmd_name, commands.names(), hint))
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Reads the options before the command; raises UsageError."""
+        try:
+            return super().parse_args(ctx, args)
+        except click.UsageError as error:
+            raise usage_error(error, self, "linkwright") from None
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """``help COMMAND`` is ``COMMAND --help``."""
+        if args == ["help"]:
+            ctx.obj.show_as_is(self.get_help(ctx))
+            ctx.exit()
+        return super().resolve_command(ctx, [*args[1:], "--help"] if args[0] == "help" else args)
+
+    def get_help(self, ctx: click.Context) -> str:
+        """The list of commands in the language of the session."""
+        return program_help(self, ctx)
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        """Commands and options that complete a word, with their help in the language of the session."""
+        return in_language_of(ctx, super().shell_complete(ctx, incomplete))
+
+
+def _show_version(ctx: click.Context, param: click.Parameter, value: bool) -> None:
+    if value and not ctx.resilient_parsing:
+        version(ctx.obj)
+        ctx.exit()
+
+
+def _welcome(**_values: Any) -> int:
+    ctx = click.get_current_context()
+    if ctx.invoked_subcommand is None:
+        ctx.obj.show(ctx.obj.say(WELCOME))
+    return FINE
+
+
+VERSION = Option(
+    ["--version", "-V"],
+    is_flag=True,
+    expose_value=False,
+    callback=_show_version,
+    help=_("print the versions of what is at work"),
+)
+PROGRAM = Program(
+    "linkwright",
+    params=[*COMMON, VERSION],
+    callback=_welcome,
+    invoke_without_command=True,
+    add_help_option=False,
+)
+#: What is read of the words before all else, as mistakes in the others are reported in the language.
+SETTINGS = click.Command(
+    "linkwright",
+    params=[each for each in COMMON if each.expose_value],
+    add_help_option=False,
+    context_settings={"ignore_unknown_options": True, "allow_extra_args": True},
+)
+
+
+def run(argv: Sequence[str]) -> int:
+    """Runs one command and returns its exit code."""
+    _replace_unencodable()
+    usual = os.environ.get("LINKWRIGHT_LANG", "")
+    usual = usual if usual in LANGUAGES else LANGUAGES[0]
+    session = Session(speaker(usual), usual)
+    if instruction := os.environ.get(COMPLETE):
+        return shell_complete(PROGRAM, {"obj": session}, "linkwright", COMPLETE, instruction)
+    try:
+        session = _session(argv, usual)
+        with PROGRAM.make_context("linkwright", [*argv], obj=session) as ctx:
+            code = PROGRAM.invoke(ctx)
+        session.flush()
+        return int(code)
+    except click.exceptions.Exit as done:
+        return done.exit_code
+    except BrokenPipeError:
+        _discard_output()
+        return FINE
+    except OutputError as error:
+        _discard_output()
+        session.tell_error(error.say(session.language))
+        return FAULTY
+    except KeyboardInterrupt:
+        session.tell(session.say(_("interrupted")))
+        return INTERRUPTED
+    except LinkwrightError as error:
+        return _refused(error, session)
+    except MemoryError:
+        session.tell_error(session.say(_("there is not enough memory for this; ask for fewer steps")))
+        return FAULTY
+    except Exception as error:
+        if _caused_by_interrupt(error):
+            session.tell(session.say(_("interrupted")))
+            return INTERRUPTED
+        return _unexpected(error, session)
+
+
+def _session(argv: Sequence[str], usual: str) -> Session:
+    try:
+        asked = SETTINGS.make_context("linkwright", [*argv]).params
+    except click.UsageError as error:
+        raise usage_error(error, SETTINGS, "linkwright") from None
+    language = asked["lang"] or usual
+    return Session(speaker(language), language, json=asked["json"], debug=asked["debug"])
+
+
+def _caused_by_interrupt(error: BaseException | None) -> bool:
+    """Whether an interrupt caused an exception: Python replaces it while it makes a class."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
+
+
+def _refused(error: LinkwrightError, session: Session) -> int:
+    """Reports what is wrong; with ``--json`` as data as well."""
+    misused = isinstance(error, RequestError)
+    missing = isinstance(error, ModelError) and all(found.code in NO_FILE for found in error.findings)
+    said = error.say(session.language)
+    (session.tell if isinstance(error, ModelError) and not misused else session.tell_error)(said)
+    if session.json:
+        findings = [found.data() for found in getattr(error, "findings", ())]
+        session.show_data({"ok": False, "error": str(error), "code": error.code, "findings": findings})
+    return MISUSED if missing or misused else FAULTY
+
+
+def _unexpected(error: Exception, session: Session) -> int:
+    if session.debug:
+        import traceback
+
+        traceback.print_exception(error)
+    message = " ".join(str(error).split())
+    sentence = session.say(
+        _(
+            "this should not have happened ({kind}: {message}); please report it with the "
+            "command and the model file; --debug shows where it arose",
+            kind=type(error).__name__,
+            message=message,
+        )
+    )
+    session.tell_error(sentence)
+    return FAULTY
+
+
+def _replace_unencodable() -> None:
+    """Characters that the terminal's encoding lacks are shown as ? instead of ending the command."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+
+
+def _discard_output() -> None:
+    """Nobody reads any more: the rest goes nowhere, without a complaint at the end of the process."""
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
