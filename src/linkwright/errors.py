@@ -1,4 +1,4 @@
-"""What can go wrong, said so that the user knows where, what, and what to do about it."""
+"""Errors and findings that say where, what is wrong, and what to do about it."""
 
 from __future__ import annotations
 
@@ -66,9 +66,9 @@ def with_remedy(message: str, remedy: str) -> str:
 
 
 def fault(code: str, key: str, message: Message, remedy: Message, **values: object) -> Finding:
-    """An error at a key of what was given, with the values of its texts; numbers among them have six digits."""
-    said = {name: f"{value:.6g}" if isinstance(value, float) else value for name, value in values.items()}
-    return Finding("error", "", key, message.format(**said), remedy.format(**said), code)
+    """An error at a key of the input, with the values of its texts; numbers among them have six digits."""
+    shown = {name: f"{value:.6g}" if isinstance(value, float) else value for name, value in values.items()}
+    return Finding("error", "", key, message.format(**shown), remedy.format(**shown), code)
 
 
 class LinkwrightError(Exception):
@@ -87,7 +87,7 @@ class LinkwrightError(Exception):
 
     @property
     def sentence(self) -> str:
-        """The message, a ``Message`` where it can be said in other languages."""
+        """The message, a ``Message`` where it can be translated."""
         return self.args[0] if self.args and isinstance(self.args[0], str) else super().__str__()
 
     @property

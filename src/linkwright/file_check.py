@@ -39,7 +39,7 @@ READERS = {
     "course": "linkwright.course.task:task",
     "optimize": "linkwright.designs.optimise.problem:problem",
 }
-#: What is said of a load whose output never moves in a direction.
+#: Finding about a load whose output never moves in a direction.
 NEVER = {
     "increasing": _("the load never acts: {output} does not increase anywhere in the cycle"),
     "decreasing": _("the load never acts: {output} does not decrease anywhere in the cycle"),
@@ -84,7 +84,7 @@ def checked(source: str | Path) -> Checked:
 
 
 def checked_text(text: str, place: str, folder: str = "", source: str = "") -> Checked:
-    """The same of a text; ``place`` stands for the file in findings, ``source`` where they are about all of it.
+    """The same for a text; findings name ``place`` as the file, and ``source`` where they concern all of it.
 
     Files that it names lie in ``folder``.
     """
@@ -124,17 +124,17 @@ def _with_sections(
 
 
 def _placed(
-    more: Iterable[Finding], told: Collection[Finding], source: str, root: Node | None, place: str
+    more: Iterable[Finding], reported: Collection[Finding], source: str, root: Node | None, place: str
 ) -> list[Finding]:
-    """Findings that are not told yet, with line and column where their key stands in the text."""
-    known = {(each.key, each.message) for each in told}
+    """Findings that are not reported yet, with line and column of their key in the text."""
+    known = {(each.key, each.message) for each in reported}
     new = (each for each in more if (each.key, each.message) not in known)
     return [located(replace(each, where=each.where or source), root, place) for each in new]
 
 
 def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list[Finding], dict[str, object]]:
     """What only structure, motion and loads show to be wrong, and the structure in short; ``rests``: what an output
-    never does in a load's phase is told already."""
+    never does in a load's phase is reported already."""
     from linkwright.kinematics.assembly import AssemblyError
     from linkwright.kinematics.passing_proof import plainly_passed
     from linkwright.kinematics.structure_with_rank import analysed
@@ -148,7 +148,7 @@ def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list
         turned, notes = _turned(mechanism) if plain is None else ([], [])
     except LinkwrightError as error:
         parts = (isinstance(error, AssemblyError) and error.parts) or (("", error.sentence),)
-        return [Finding("error", "", key, said, code=code_of(said)) for key, said in parts], {}
+        return [Finding("error", "", key, message, code=code_of(message)) for key, message in parts], {}
     sure = plain or [False] * len(swings)
     unsure = [
         load
@@ -176,18 +176,18 @@ def _assumed(mechanism: Mechanism, structure: Structure) -> list[Finding]:
     for group, words in modal_groups(structure).values():
         inner = [each.joint for each in group.inner_joints]
         if not any(joint in mechanism.assembly for joint in inner) and not _drawn(mechanism, group):
-            told = {"signature": group.signature, "links": tuple(group.links), "joint": inner[0]}
+            values = {"signature": group.signature, "links": tuple(group.links), "joint": inner[0]}
             message = _(
                 "group {signature} ({links}) has two assemblies, and neither assembly nor drawing "
                 'says which: "{first}" is taken; write assembly: {{{joint}: {first}}} or {{{joint}: '
                 "{second}}}",
-            ).format(**told, first=words[0], second=words[1])
+            ).format(**values, first=words[0], second=words[1])
             found.append(Finding("note", "", "", message, code="assembly"))
     return found
 
 
 def _drawn(mechanism: Mechanism, group: Group) -> bool:
-    """Whether the drawing has a point of a group beside those by which it hangs."""
+    """Whether the drawing has a point of a group other than those of its outer joints."""
     outer = {each.joint for each in group.outer_joints}
     return any(
         point not in outer and not mechanism.drawing.keys().isdisjoint((point, f"{link}.{point}"))
@@ -233,16 +233,16 @@ def _hardly_determined(motion: Motion) -> Iterator[Finding]:
 
     if motion.mechanism.drivers:
         for group, best, limit in Singularity.throughout(Analysis.of(motion)):
-            said = {"links": group.links, "best": f"{best:.2g}", "limit": f"{limit:.2g}"}
-            told, remedy = (
+            values = {"links": group.links, "best": f"{best:.2g}", "limit": f"{limit:.2g}"}
+            message, remedy = (
                 _(
                     "group ({links}) is close to a singular position all the time (determinant of its "
                     "closure at most {best}, limit {limit}): its motion is hardly determined, and forces "
                     "grow very large",
-                ).format(**said),
+                ).format(**values),
                 _("change the lengths of its links or where they are joined"),
             )
-            yield Finding("warning", "", "", told, remedy, "singular")
+            yield Finding("warning", "", "", message, remedy, "singular")
 
 
 def _swings(mechanism: Mechanism) -> dict[str, Phase]:
@@ -274,11 +274,11 @@ def _of_loads(mechanism: Mechanism, loads: Sequence[str], varying: Sequence[str]
             found.append(Finding("error", "", key, error.sentence, code="no-motion"))
             continue
         if isinstance(phase, MovingPhase) and not (acts & (signals.output(phase.output)[1] != 0.0)).any():
-            told, remedy = (
+            message, remedy = (
                 NEVER[phase.direction].format(output=phase.output),
                 _("name an output that moves that way, or the other direction"),
             )
-            found.append(Finding("warning", "", key, told, remedy, "no-motion"))
+            found.append(Finding("warning", "", key, message, remedy, "no-motion"))
     for load in varying:
         try:
             magnitudes(mechanism.loads[load], signals)
@@ -293,17 +293,17 @@ def _of_friction(mechanism: Mechanism) -> list[Finding]:
     for joint in mechanism.joints.values():
         key, friction = f"joints.{joint.name}.friction", float(getattr(joint, "friction", 0.0))
         if friction and getattr(joint, "pin_radius", 0.0) is None:
-            told, remedy = (
+            message, remedy = (
                 _("the pin has friction, but no radius, so its forces cannot be found"),
                 _("add pin_radius, such as pin_radius: 20 mm"),
             )
-            found.append(Finding("error", "", key, told, remedy, "missing-key"))
+            found.append(Finding("error", "", key, message, remedy, "missing-key"))
         if friction > RUBS:
-            told, remedy = (
+            message, remedy = (
                 _("a coefficient of friction of {friction:g} is more than dry rubber has", friction=friction),
                 _("usual are 0.01 to 0.6; check it"),
             )
-            found.append(Finding("warning", "", key, told, remedy, "unlikely"))
+            found.append(Finding("warning", "", key, message, remedy, "unlikely"))
     return found
 
 
@@ -324,11 +324,11 @@ def _of_settings(mechanism: Mechanism, folder: str, *, moves: bool) -> list[Find
     return found
 
 
-def _of_report(given: Mapping[str, Any], mechanism: Mechanism | None, folder: str) -> list[Finding]:
+def _of_report(section: Mapping[str, Any], mechanism: Mechanism | None, folder: str) -> list[Finding]:
     from linkwright.reports.settings import settings
 
     try:
-        settings(given, mechanism=mechanism, folder=folder)
+        settings(section, mechanism=mechanism, folder=folder)
     except ModelError as error:
         return list(error.findings)
     return []

@@ -15,8 +15,8 @@ from linkwright.words.synonyms import nearest_in_meaning
 T = TypeVar("T")
 #: Names of which a sentence lists all, and among which the nearest is looked for, at most.
 MOST_SHOWN, MOST_COMPARED = 60, 300
-#: Likeness of two names above which one is the other with a slip of the pen, is probably meant, may be meant.
-SLIP, PROBABLE, POSSIBLE = 0.8, 0.7, 0.5
+#: Similarity of two names above which one is a misspelling of the other, is probably meant, may be meant.
+MISSPELT, PROBABLE, POSSIBLE = 0.8, 0.7, 0.5
 
 
 THERE_IS = _("there is {names}")
@@ -176,9 +176,9 @@ def nearest(
     from difflib import get_close_matches
 
     same, share = nearest_in_meaning(name, known)
-    slip = get_close_matches(name.casefold(), list(folded), n=1, cutoff=SLIP)
-    if slip and share < 1.0:
-        return folded[slip[0]]
+    misspelt = get_close_matches(name.casefold(), list(folded), n=1, cutoff=MISSPELT)
+    if misspelt and share < 1.0:
+        return folded[misspelt[0]]
     if share >= 0.5:
         return same
     within = [text for key, text in folded.items() if len(key) > 2 and name.casefold().startswith(key)]

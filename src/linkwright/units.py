@@ -51,8 +51,8 @@ NOUNS = {
 }
 
 NONE: Dimension = (0, 0, 0, 0)
-#: Dimensions by name: their powers, the SI unit, and what no machine reaches, in SI: a value beyond it is a slip in a
-#: number or its unit, and squares of it stay finite.
+#: Dimensions by name: their powers, the SI unit, and a bound that no machine reaches, in SI: beyond it is a mistake
+#: in a number or its unit, and squares of it stay finite.
 _DIMENSIONS: Mapping[str, tuple[Dimension, str, float]] = {
     "dimensionless": (NONE, "", 1e12),
     "length": ((1, 0, 0, 0), "m", 1e7),
@@ -342,17 +342,17 @@ def unknown_unit(text: str, column: int = 0) -> QuantityError:
 
 def suggestion(text: str) -> str | None:
     """A known spelling near ``text``, each factor of a product taken by itself."""
-    whole = text.replace(" ", "")
-    if re.search(r"[^\x00-\u2fff]", whole):
+    compact = text.replace(" ", "")
+    if re.search(r"[^\x00-\u2fff]", compact):
         from unicodedata import normalize
 
-        whole = normalize("NFKC", whole)
-    if whole in SPELLINGS:
-        return SPELLINGS[whole]
-    parts = re.split(r"([*·⋅/.\-])", whole)
+        compact = normalize("NFKC", compact)
+    if compact in SPELLINGS:
+        return SPELLINGS[compact]
+    parts = re.split(r"([*·⋅/.\-])", compact)
     offers = [part if index % 2 else _factor_suggestion(part) for index, part in enumerate(parts)]
     if any(offer is None for offer in offers):
-        return nearest(whole, list(UNITS)) if len(parts) == 1 else None
+        return nearest(compact, list(UNITS)) if len(parts) == 1 else None
     joined = "".join("·" if offer in (".", "-", "*") else str(offer) for offer in offers)
     try:
         return None if isinstance(_read(joined), int) else joined
@@ -493,11 +493,11 @@ def decimal_comma(text: str) -> QuantityError:
     remedy = _('write a point: "{right}"', code="units.point", right=right)
     if re.match(r"[+-]?[1-9]\d{0,2}([,，]\d{3})+(?!\d)", text):
         way = (
-            _('write "{whole}"')
+            _('write "{without_comma}"')
             if right.count(".") > 1
-            else _('write a point: "{right}"; or "{whole}", if thousands are meant')
+            else _('write a point: "{right}"; or "{without_comma}", if thousands are meant')
         )
-        remedy = way.format(right=right, whole=re.sub("[,，]", "", text))
+        remedy = way.format(right=right, without_comma=re.sub("[,，]", "", text))
     return QuantityError(_('decimal comma in "{text}"', text=text), remedy, code="decimal-comma")
 
 
@@ -528,12 +528,12 @@ def require(kind: Dimension, dimension: str, text: str, *, bare: bool = False) -
             code="missing-unit",
         )
     remedy = _of_weight(kind, dimension, text) or _('write it as in "{example}"', example=example(dimension))
-    said = _('"{text}" is {wrong}, where {noun} is needed', text=text, wrong=name_of(kind), noun=noun)
-    raise QuantityError(said, remedy, code="wrong-dimension")
+    message = _('"{text}" is {wrong}, where {noun} is needed', text=text, wrong=name_of(kind), noun=noun)
+    raise QuantityError(message, remedy, code="wrong-dimension")
 
 
 def _of_weight(kind: Dimension, dimension: str, text: str) -> Message | None:
-    """What to write where a mass stands in the place of its weight, alone or in a product, or a weight for a mass."""
+    """What to write where a mass is used for its weight, alone or in a product, or a weight for a mass."""
     acceleration, wanted = DIMENSIONS["acceleration"], DIMENSIONS[dimension]
     if dimension == "mass" and kind == UNITS["N"][1]:
         return _('a weight over 9.81 m/s² is a mass: write "({text})/(9.81 m/s^2)"', text=text)

@@ -13,7 +13,7 @@ from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Better, Metric, MetricValue, Number, Remark
 from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
-from linkwright.joints.lower import TurningJoint
+from linkwright.joints.lower_pair import TurningJoint
 from linkwright.words import _
 
 

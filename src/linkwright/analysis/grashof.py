@@ -14,7 +14,7 @@ from linkwright.analysis.base import METRICS, Metric, MetricValue, Number, Remar
 from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
 from linkwright.formula.trace import Scalar, maximum, minimum
-from linkwright.joints.lower import TurningJoint
+from linkwright.joints.lower_pair import TurningJoint
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 

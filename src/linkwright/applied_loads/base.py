@@ -84,7 +84,7 @@ __all__ = [
 class Load:
     """A load on the mechanism; ``name`` is its name in the model.
 
-    ``exactly_one`` lists groups of keys of which exactly one must be given.
+    ``exactly_one`` lists groups of keys of which exactly one must be set.
     """
 
     kind: ClassVar[str]
@@ -101,14 +101,14 @@ class Load:
         return found
 
     @classmethod
-    def of(cls, name: str, given: Mapping[str, Any]) -> Load:
-        """A load of this kind from what is given under the keys of :meth:`fields`."""
-        return cls(name=name, **cls._gathered(given))
+    def of(cls, name: str, values: Mapping[str, Any]) -> Load:
+        """A load of this kind from values by the keys of :meth:`fields`."""
+        return cls(name=name, **cls._gathered(values))
 
     @classmethod
-    def _gathered(cls, given: Mapping[str, Any]) -> dict[str, Any]:
-        """The attributes from what is given under the keys."""
-        found = dict(given)
+    def _gathered(cls, values: Mapping[str, Any]) -> dict[str, Any]:
+        """The attributes from values by key."""
+        found = dict(values)
         for each in dataclasses.fields(cls):
             if keys := each.metadata.get("magnitude"):
                 own = {key: found.pop(key, None) for key in keys}
@@ -150,8 +150,8 @@ class Load:
         doc = " ".join((cls.__doc__ or "").partition("\n\n")[0].split())
         return {"title": cls.kind, "description": doc, **found}
 
-    def given(self) -> Iterator[tuple[str, Field, Any]]:
-        """What the load has under the keys of :meth:`fields`."""
+    def fields_with_values(self) -> Iterator[tuple[str, Field, Any]]:
+        """Keys, fields and values of the load, see :meth:`fields`."""
         for each in dataclasses.fields(self):
             value = getattr(self, each.name)
             if "field" in each.metadata:
@@ -162,18 +162,22 @@ class Load:
     @property
     def acts_on(self) -> str | None:
         """The link that it names alone, of several the first."""
-        return next((value for _unused, each, value in self.given() if isinstance(each, LinkName)), None)
+        return next(
+            (value for _unused, each, value in self.fields_with_values() if isinstance(each, LinkName)), None
+        )
 
     @property
     def pair(self) -> tuple[str, ...]:
         """The two links between which it acts; none where it names no pair."""
-        return next((value for _unused, each, value in self.given() if isinstance(each, LinkNames)), ())
+        return next(
+            (value for _unused, each, value in self.fields_with_values() if isinstance(each, LinkNames)), ()
+        )
 
     @property
     def named_points(self) -> tuple[LinkPoint, ...]:
         """The points that it names."""
         found: list[LinkPoint] = []
-        for _unused, each, value in self.given():
+        for _unused, each, value in self.fields_with_values():
             if isinstance(each, PointName) and value is not None:
                 found.append(LinkPoint(getattr(self, each.of), value))
             elif isinstance(each, PointReference | PointReferences) and value is not None:
@@ -184,7 +188,7 @@ class Load:
         """Addresses ``loads.NAME.FIELD`` of the load's dimensions with their SI values."""
         return {
             f"loads.{self.name}.{each.key or name}{suffix}": number
-            for name, each, value in self.given()
+            for name, each, value in self.fields_with_values()
             for suffix, number in each.flatten(value).items()
         }
 
@@ -196,14 +200,24 @@ class Load:
             return each.rebuild(part, lambda suffix: value(address + suffix))
 
         return dataclasses.replace(
-            self, **self._gathered({name: rebuilt(name, each, part) for name, each, part in self.given()})
+            self,
+            **self._gathered(
+                {name: rebuilt(name, each, part) for name, each, part in self.fields_with_values()}
+            ),
         )
 
     def written(self) -> dict[str, Any]:
         """The load as plain data for a file."""
         usual = {each.name: each.default for each in dataclasses.fields(self)}
-        given = (each for each in self.given() if each[2] is not None and each[2] != usual.get(each[0]))
-        return {"kind": self.kind, **{each.key or name: each.written(value) for name, each, value in given}}
+        written_keys = (
+            each
+            for each in self.fields_with_values()
+            if each[2] is not None and each[2] != usual.get(each[0])
+        )
+        return {
+            "kind": self.kind,
+            **{each.key or name: each.written(value) for name, each, value in written_keys},
+        }
 
 
 LOADS: Registry[type[Load]] = Registry(
@@ -211,10 +225,10 @@ LOADS: Registry[type[Load]] = Registry(
 )
 
 
-#: What some take for a kind of load, by its meaning, and the sentence that says where it stands.
+#: What some take for a kind of load, by its meaning, and the message that says where it belongs.
 ELSEWHERE = {
-    "gravity": _("gravity is a key of the model, beside loads: gravity: [0, -9.81 m/s²]"),
-    "mass": _("gravity is a key of the model, beside loads: gravity: [0, -9.81 m/s²]"),
+    "gravity": _("gravity is a key of the model, not a load: gravity: [0, -9.81 m/s²]"),
+    "mass": _("gravity is a key of the model, not a load: gravity: [0, -9.81 m/s²]"),
     "friction": _(
         "friction is a key of pins and guides under joints: friction: 0.1, of a pin with pin_radius: 5 mm",
     ),
@@ -224,18 +238,18 @@ ELSEWHERE = {
 def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | None:
     """The load at a node of a file, or None after findings."""
     before = reader.error_count
-    said = node.get("kind") if isinstance(node, MappingNode) else None
-    text = said.text if isinstance(said, ScalarNode) and said.text not in LOADS else ""
+    kind_node = node.get("kind") if isinstance(node, MappingNode) else None
+    text = kind_node.text if isinstance(kind_node, ScalarNode) and kind_node.text not in LOADS else ""
     for concept in meaning(text) & ELSEWHERE.keys() if text else ():
         problem = _('"{text}" is not known here', code="model.unknown_word", text=text)
-        reader.error(said, place.child("kind"), problem, ELSEWHERE[concept], "unknown-word")
+        reader.error(kind_node, place.child("kind"), problem, ELSEWHERE[concept], "unknown-word")
         return None
     read = reader.of_kind(node, place, LOADS, _("the load has no kind"), _("write kind: one of {kinds}"))
     if read is None:
         return None
     mapping, cls, found = read
-    given = {name for name, each in cls.fields().items() if mapping.get(each.key or name) is not None}
-    _check_choices(reader, node, place, cls, given)
+    present = {name for name, each in cls.fields().items() if mapping.get(each.key or name) is not None}
+    _check_choices(reader, node, place, cls, present)
 
     def report(key: str, message: str, remedy: str) -> None:
         reader.error(mapping.get(key) or node, place.child(key) if key else place, message, remedy, "load")
@@ -244,24 +258,24 @@ def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | Non
         if isinstance(found.get("ramp"), Ramp) and found.get("phase") is None:
             report(
                 "ramp",
-                _("a ramp runs over a phase, and none is given", code="loads.ramp_without_phase"),
+                _("a ramp needs a phase, and there is none", code="loads.ramp_without_phase"),
                 _("add phase: {{input: [from, to]}} or another"),
             )
         cls.check(found, report)
     return cls.of(name, found) if reader.error_count == before else None
 
 
-def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], given: set[str]) -> None:
+def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], present: set[str]) -> None:
     for group in cls.exactly_one:
-        chosen = [name for name in group if name in given]
+        chosen = [name for name in group if name in present]
         if not chosen:
             problem, remedy = (
-                _("none of {words} is given", code="loads.none_given", words=group),
+                _("none of {words} is set", code="loads.none_given", words=group),
                 _("give exactly one of them"),
             )
             reader.error(node, place, problem, remedy, "choice")
         elif len(chosen) > 1:
-            problem = _("{given} are both given", code="loads.both_given", given=together(chosen))
+            problem = _("{keys} are both set", code="loads.both_given", keys=together(chosen))
             reader.error(node, place, problem, _("keep one of {words}", words=group), "choice")
 
 

@@ -40,7 +40,7 @@ class Damper(Load):
         between = end - start
         parting = site.velocity(b.link, b.point) - site.velocity(a.link, a.point)
         square = between.square
-        apart = square > 0.0
-        along = between * (between.dot(parting) / select(apart, square, 1.0))
-        pull = choose(apart, along, parting) * site.dimension("damping")
+        separated = square > 0.0
+        along = between * (between.dot(parting) / select(separated, square, 1.0))
+        pull = choose(separated, along, parting) * site.dimension("damping")
         return [Wrench(a.link, pull, start), Wrench(b.link, -pull, end)]

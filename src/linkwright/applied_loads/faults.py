@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 _HALVINGS = 60
 #: Any magnitude is below the largest torque.
 _LARGEST = LARGEST["torque"]
-#: Positions of a turning input that are further apart (rad) are not taken for neighbours.
-_APART = 0.5
+#: Positions of a turning input at a larger distance (rad) are not neighbours.
+_NEIGHBOURS = 0.5
 
 
 def formula_fault(expression: Expression, signals: Signals, where: Flags, found: Floats) -> Message | None:
@@ -72,7 +72,7 @@ def _pole_between(
     if signals.closes is not None:
         columns = {name: _with_next(name, values, signals) for name, values in columns.items()}
         where, q = np.append(where, where[0]), _with_next("input", q, signals)
-    both = where[:-1] & where[1:] & (np.abs(np.diff(q)) < (_APART if signals.rotary else np.inf))
+    both = where[:-1] & where[1:] & (np.abs(np.diff(q)) < (_NEIGHBOURS if signals.rotary else np.inf))
     for divisor in divisors:
         with np.errstate(all="ignore"):
             values = column(evaluate(divisor, columns, ON_VALUES), len(where))

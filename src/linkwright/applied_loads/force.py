@@ -75,7 +75,7 @@ class Force(Load):
             raise LinkwrightError(
                 _(
                     "loads.{name}: the points {p} and {q} of {on} coincide, so the ray {p}→{q} has no "
-                    "direction; name two points that are apart",
+                    "direction; name two points with different positions",
                     code="loads.no_ray",
                     name=self.name,
                     p=p,

@@ -119,7 +119,7 @@ class TableField(_Part):
                 fault,
                 "table",
                 _(
-                    "close it (whole turns, the last value as the first), or write interpolation: cubic",
+                    "close it (full turns, the last value as the first), or write interpolation: cubic",
                     code="model.periodic_or_cubic",
                 ),
             )
@@ -140,22 +140,24 @@ class TableField(_Part):
         return shape
 
     def written(self, value: Any) -> Any:
-        given = {
+        mapping = {
             "over": str(value.over),
             "x": [written_quantity(x, value.across) for x in value.x],
             "y": [written_quantity(y, self.dimension) for y in value.y],
         }
-        return given if value.interpolation == "linear" else {**given, "interpolation": value.interpolation}
+        return (
+            mapping if value.interpolation == "linear" else {**mapping, "interpolation": value.interpolation}
+        )
 
 
 def _fault_of_period(table: Table) -> Message | None:
-    """What keeps a table that is said to be periodic from being so."""
+    """Why a table that is declared periodic is not."""
     if table.interpolation != "periodic":
         return None
     turns = (table.x[-1] - table.x[0]) / math.tau
     of_angle = table.over != "time" and table.across == "angle"
     if not of_angle or round(turns) < 1 or abs(turns - round(turns)) > 1e-6:
-        return _("a periodic table goes over whole turns of an angle, and this one does not")
+        return _("a periodic table covers full turns of an angle, and this one does not")
     close = abs(table.y[-1] - table.y[0]) <= 1e-9 * max(map(abs, table.y))
     return None if close else _("a periodic table must end where it begins")
 
@@ -253,7 +255,7 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
         reader.finding(
             node,
             place,
-            _("several parts of the stroke are given: {words}"),
+            _("several parts of the stroke are set: {words}"),
             "choice",
             _("keep one of them"),
             words=words,
@@ -293,8 +295,8 @@ class StrokePartField(Field):
             if way is None:
                 return None
             found = Amount(way, share=False)
-        whole = 1.0 if found.share else math.inf
-        if 0 < found.value < whole or found.value == (0 if self.word == "free" else whole):
+        maximum = 1.0 if found.share else math.inf
+        if 0 < found.value < maximum or found.value == (0 if self.word == "free" else maximum):
             return found
         example = "10 mm" if dimension == "length" else "5 deg"
         reader.finding(

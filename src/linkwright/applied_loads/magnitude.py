@@ -26,14 +26,14 @@ class Magnitude:
     phase: Phase = Always()
 
     @classmethod
-    def of(cls, given: Mapping[str, Any]) -> Magnitude:
-        """From what is given under the keys of a file."""
-        sizes = (given[key] for key in ("magnitude", "ramp", "table") if given.get(key) is not None)
-        return cls(next(sizes, One()), given.get("phase") or Always())
+    def of(cls, values: Mapping[str, Any]) -> Magnitude:
+        """From values by the keys of a file."""
+        sizes = (values[key] for key in ("magnitude", "ramp", "table") if values.get(key) is not None)
+        return cls(next(sizes, One()), values.get("phase") or Always())
 
     @property
     def by_key(self) -> dict[str, Size | Phase]:
-        """What is given under the keys of a file."""
+        """Values by the keys of a file."""
         found: dict[str, Size | Phase] = {self.size.key: self.size} if self.size.key else {}
         return found if isinstance(self.phase, Always) else {**found, "phase": self.phase}
 

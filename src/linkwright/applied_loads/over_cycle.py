@@ -9,7 +9,7 @@ from linkwright.applied_loads.base import Load
 from linkwright.applied_loads.phases import Always
 from linkwright.applied_loads.signals import BetweenLimits, Signals, column, named_column
 from linkwright.applied_loads.sizes import OverCycle
-from linkwright.applied_loads.strokes import ALIKE, TURN, Stretch, strokes
+from linkwright.applied_loads.strokes import EQUAL_VALUES, TURN, Stretch, strokes
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.outputs import Output
 from linkwright.errors import LinkwrightError, with_remedy
@@ -42,13 +42,13 @@ def magnitudes(load: Load, signals: Signals) -> Floats:
         LinkwrightError: an expression that has no finite value, a table that does not cover the positions, or
             a phase whose limit positions do not exist.
     """
-    given = load.magnitude
-    if isinstance(given.size, OverCycle):
-        return given.size.values(signals)
-    if given.size.ramp and isinstance(given.phase, Always):
+    magnitude = load.magnitude
+    if isinstance(magnitude.size, OverCycle):
+        return magnitude.size.values(signals)
+    if magnitude.size.ramp and isinstance(magnitude.phase, Always):
         raise LinkwrightError(
             with_remedy(
-                _("a ramp runs over a phase, and none is given", code="loads.ramp_without_phase"),
+                _("a ramp needs a phase, and there is none", code="loads.ramp_without_phase"),
                 _("add phase: {{input: [from, to]}} or another"),
             )
         )
@@ -58,10 +58,10 @@ def magnitudes(load: Load, signals: Signals) -> Floats:
     share: Any = active.share
     with np.errstate(all="ignore"):
         try:
-            found = column(given.size.at(course, share), count)
+            found = column(magnitude.size.at(course, share), count)
         except ZeroDivisionError:
             found = np.full(count, np.nan)
-    if fault := given.size.fault(signals, course, where, found):
+    if fault := magnitude.size.fault(signals, course, where, found):
         raise LinkwrightError(fault)
     return np.where(where, found, 0.0)
 
@@ -77,7 +77,7 @@ def activity(load: Load, signals: Signals) -> Activity:
 def switch_times(load: Load, signals: Signals) -> tuple[Floats, bool]:
     """Times, s, at which a load begins or ends to act or its size bends, and whether these are all of them.
 
-    Known beforehand: limit positions, and inputs of one driver of constant speed. Times may lie a whole number of
+    Known beforehand: limit positions, and inputs of one driver of constant speed. Times may lie an integer number of
     cycles away.
     """
     ends, complete = load.magnitude.phase.ends(signals)
@@ -150,7 +150,7 @@ class CycleCourse:
         count = len(self.signals.time)
         where, share = np.zeros(count, dtype=bool), np.zeros(count)
         for each in strokes(phase, self.signals):
-            if ramp and abs(each.rise) < ALIKE * (1.0 + abs(each.end.input)):
+            if ramp and abs(each.rise) < EQUAL_VALUES * (1.0 + abs(each.end.input)):
                 raise LinkwrightError(
                     _(
                         "the input is the same at both limit positions of '{output}', so a ramp over the "

@@ -50,8 +50,8 @@ class Phase(ABC):
         return {}
 
     def ends(self, signals: Signals) -> tuple[Floats, bool]:
-        """Times, s, at which it begins or ends, as far as these are known beforehand, perhaps whole cycles away; and
-        whether these are all."""
+        """Times, s, at which it begins or ends, as far as these are known beforehand, perhaps several cycles away;
+        and whether these are all."""
         limits = [limit.time for output in self.outputs for limit in signals.limits(output)]
         return np.array(limits), not self.in_part
 
@@ -62,7 +62,7 @@ class Phase(ABC):
 
 @dataclass(frozen=True)
 class Always(Phase):
-    """The whole cycle."""
+    """All of the cycle."""
 
     def passed(self, course: Course, ramp: bool) -> Passed:
         return True, 0.0, True
@@ -150,7 +150,7 @@ class SwingPhase(Phase):
         return inside, share_of((gone - begin) / (end - begin)), fits
 
     def part_ends(self, course: Course) -> tuple[Scalar, Scalar, Scalar]:
-        """Where the part begins and ends, as ways from the beginning, and the whole stroke with its sign."""
+        """Where the part begins and ends, as distances from the beginning, and the full stroke with its sign."""
         assert self.part is not None
         stroke = course.limit_value(self.output, self.end) - course.limit_value(self.output, self.start)
         size = absolute(stroke)

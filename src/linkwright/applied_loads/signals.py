@@ -45,7 +45,7 @@ class Signals(Protocol):
     ``input``: coordinate of the first driver, rad or m (raises LinkwrightError without a driver), ``rotary``: whether
     that turns, ``heading``: 1 where it only grows over the cycle, -1 where it only falls, else 0; ``ok``: which
     positions are solved; ``closes``: period (s) and gain of the input in it, where the first position follows the
-    last; ``whole``: the cycle over which ``limits`` are found.
+    last; ``full_cycle``: the cycle over which ``limits`` are found.
     """
 
     @property
@@ -63,14 +63,14 @@ class Signals(Protocol):
     @property
     def closes(self) -> tuple[float, float] | None: ...
     @property
-    def whole(self) -> FullCycle: ...
+    def full_cycle(self) -> FullCycle: ...
 
     def output(self, output: Output) -> tuple[Floats, Floats]:
         """Value and rate of an output; angles are continuous over the cycle, rates of rounding size zero."""
         ...
 
     def limits(self, output: Output) -> Sequence[Limit]:
-        """Where an output reverses within the whole cycle, by increasing time, to machine precision."""
+        """Where an output reverses within the full cycle, by increasing time, to machine precision."""
         ...
 
     def angle_between(self, a: str, b: str, near: float) -> Floats:

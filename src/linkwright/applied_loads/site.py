@@ -10,7 +10,7 @@ from linkwright.drivers.base import Driver
 from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import ZERO, Vec
 from linkwright.joints.base import Joint
-from linkwright.joints.lower import SlidingJoint
+from linkwright.joints.lower_pair import SlidingJoint
 
 
 @dataclass(frozen=True)
@@ -90,5 +90,5 @@ class Site(Protocol):
         ...
 
     def direction(self, angle: Scalar) -> Vec:
-        """Unit vector at an angle given as a dimension."""
+        """Unit vector at an angle that is a dimension."""
         ...

@@ -64,7 +64,7 @@ class Size(ABC):
         return None
 
     def bends(self, signals: Signals) -> Floats:
-        """Times, s, at which it bends, as far as these are known beforehand; whole cycles away perhaps."""
+        """Times, s, of its kinks, as far as these are known beforehand; perhaps several cycles away."""
         return np.empty(0)
 
     def fault(self, signals: Signals, course: Course, where: Flags, found: Floats) -> Message | None:
@@ -74,7 +74,7 @@ class Size(ABC):
 
 @dataclass(frozen=True)
 class One(Size):
-    """No size: what acts is given in full (a force by its components)."""
+    """No size: the load is set in full (a force by its components)."""
 
     def at(self, course: Course, share: Scalar) -> Scalar:
         return 1.0
@@ -136,7 +136,7 @@ class Table(Size):
     """Values ``y`` at increasing ``x`` of ``over``: the input, the time, or an output.
 
     ``linear``: straight lines between them; ``cubic``: a spline with continuous second derivative, its ends "not a
-    knot"; ``periodic``: one that goes on from its end as from its beginning, over whole turns of an angle.
+    knot"; ``periodic``: one that goes on from its end as from its beginning, over full turns of an angle.
     """
 
     key: ClassVar[str] = "table"
@@ -154,7 +154,7 @@ class Table(Size):
     def _place(self, course: Course) -> tuple[Scalar, Mask]:
         """Where it is looked up, and whether it does not reach there.
 
-        Angles count modulo one turn; a table over several whole turns repeats after them.
+        Angles count modulo one turn; a table over several full turns repeats after them.
         """
         over = self.over
         x = (
@@ -165,10 +165,10 @@ class Table(Size):
         first, last = course.constant("first"), course.constant("last")
         span = last - first
         if (over.dimension if isinstance(over, Output) else self.across) == "angle" and over != "time":
-            whole = TURN * maximum(1.0, floor(span / TURN + 0.5))
-            gone = x - first - whole * floor((x - first) / whole)
-            moved = first + select(gone > whole - COVERED, gone - whole, gone)
-            x = select(span > TURN, select(absolute(span - whole) > COVERED, x, moved), moved)
+            span_of_turns = TURN * maximum(1.0, floor(span / TURN + 0.5))
+            gone = x - first - span_of_turns * floor((x - first) / span_of_turns)
+            moved = first + select(gone > span_of_turns - COVERED, gone - span_of_turns, gone)
+            x = select(span > TURN, select(absolute(span - span_of_turns) > COVERED, x, moved), moved)
         slack = COVERED * span
         return x, (x < first - slack) | (x > last + slack)
 

@@ -46,7 +46,7 @@ class Spring(Load):
         stiffness = site.dimension("stiffness")
         steady = site.dimension("preload") - stiffness * site.dimension("free_length")
         square = between.square
-        apart = square > 0.0
-        inverse = select(apart, 1.0 / sqrt(select(apart, square, 1.0)), 0.0)
+        separated = square > 0.0
+        inverse = select(separated, 1.0 / sqrt(select(separated, square, 1.0)), 0.0)
         pull = between * stiffness + between * (steady * inverse)
         return [Wrench(a.link, pull, start), Wrench(b.link, -pull, end)]

@@ -22,7 +22,7 @@ TURN = 2 * math.pi
 #: Positions this near to the end of a phase (rad, m, or share of the cycle's time) are at it but for rounding.
 NEAR = 1e-12
 #: Limits nearer to the outermost ones than this share of the way are outermost, too.
-ALIKE = 1e-9
+EQUAL_VALUES = 1e-9
 PartWord = Literal["first", "last", "free"]
 
 
@@ -62,12 +62,12 @@ class Stretch:
     def place(self, signals: Signals) -> tuple[Flags, Floats]:
         """Whether the positions lie in it, ends included, and the share of the input's way that is passed; (n,)
         each."""
-        length, whole = self.end.time - self.begin.time, signals.whole
+        length, full_cycle = self.end.time - self.begin.time, signals.full_cycle
         since, gained = signals.time - self.begin.time, signals.input - self.begin.input
-        slack = NEAR * (whole.period or length)
-        if whole.period is not None:
-            laps = np.floor((since + slack) / whole.period)
-            since, gained = since - laps * whole.period, gained - laps * whole.drift
+        slack = NEAR * (full_cycle.period or length)
+        if full_cycle.period is not None:
+            laps = np.floor((since + slack) / full_cycle.period)
+            since, gained = since - laps * full_cycle.period, gained - laps * full_cycle.drift
         return (since >= -slack) & (since <= length + slack), np.clip(gained / self.rise, 0.0, 1.0)
 
 
@@ -91,7 +91,7 @@ def strokes(phase: BetweenLimits, signals: Signals) -> list[Stretch]:
             )
         )
     extreme = outermost(limits) if phase.outermost else limits
-    found = stretches(extreme, phase.start, phase.end, signals.whole)
+    found = stretches(extreme, phase.start, phase.end, signals.full_cycle)
     if found or not phase.outermost:
         return found
     dimension = input_dimension(signals)
@@ -116,7 +116,7 @@ def strokes(phase: BetweenLimits, signals: Signals) -> list[Stretch]:
 def outermost(limits: Sequence[Limit]) -> list[Limit]:
     """Of all reversals those with the largest and the smallest value of the output."""
     values = [each.value for each in limits]
-    slack = ALIKE * (max(values) - min(values))
+    slack = EQUAL_VALUES * (max(values) - min(values))
     best = {
         "max": max((each.value for each in limits if each.kind == "max"), default=np.inf) - slack,
         "min": min((each.value for each in limits if each.kind == "min"), default=-np.inf) + slack,
@@ -128,14 +128,14 @@ def outermost(limits: Sequence[Limit]) -> list[Limit]:
     ]
 
 
-def stretches(limits: Sequence[Limit], start: str, end: str, whole: FullCycle) -> list[Stretch]:
+def stretches(limits: Sequence[Limit], start: str, end: str, full_cycle: FullCycle) -> list[Stretch]:
     """From each limit of one kind to the other kind's next one, across the end of a cycle that closes."""
     found = []
     for index, last in enumerate(limits):
         first = limits[index - 1]
-        if (first.kind, last.kind) != (start, end) or (index == 0 and whole.period is None):
+        if (first.kind, last.kind) != (start, end) or (index == 0 and full_cycle.period is None):
             continue
-        period, drift = (whole.period or 0.0, whole.drift) if index == 0 else (0.0, 0.0)
+        period, drift = (full_cycle.period or 0.0, full_cycle.drift) if index == 0 else (0.0, 0.0)
         found.append(Stretch(replace(first, time=first.time - period, input=first.input - drift), last))
     return found
 
@@ -195,5 +195,5 @@ def share_of(ratio: Scalar) -> Scalar:
 
 
 def turned(angle: Scalar, lap: Scalar = TURN) -> Scalar:
-    """An angle modulo one lap, of one turn unless given: from 0 to that, rad."""
+    """An angle modulo one lap, by default one turn: from 0 to that, rad."""
     return angle - lap * floor(angle / lap)

@@ -26,8 +26,8 @@ def attached(declared: Method) -> Method:
     name = declared.__qualname__
 
     @wraps(declared)
-    def call(*given: Any, **options: Any) -> Any:
-        return loaded(ATTACHED[name])(*given, **options)
+    def call(*arguments: Any, **options: Any) -> Any:
+        return loaded(ATTACHED[name])(*arguments, **options)
 
     return cast("Method", call)
 

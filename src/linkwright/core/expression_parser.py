@@ -77,7 +77,7 @@ class Parser:
         """The error with the values of its texts at a column."""
         return ExpressionError(message.format(**values), remedy.format(**values), self.text, column, code)
 
-    def whole(self) -> Node:
+    def whole_expression(self) -> Node:
         tree = self._binary(0)
         kind, token, column = self.tokens[self.at]
         if kind != "end":
@@ -167,7 +167,7 @@ class Parser:
         return Number(value * factor, dimension, column)
 
     def _in_units(self, node: Node) -> Node:
-        """The node times the unit that stands behind it, as in ``sqrt(2) m`` and ``(1 + 2) mm``."""
+        """The node times the unit that follows it, as in ``sqrt(2) m`` and ``(1 + 2) mm``."""
         kind, name, place = self.tokens[self.at]
         behind = kind == "name" and self.tokens[self.at + 1][1] != "("
         if not behind or name not in units.UNITS or name in self.variables:
@@ -268,13 +268,13 @@ class Parser:
             arguments.append(self._binary(0))
         self._close(column)
         if len(arguments) != ARITY[name]:
-            needed, given = ARITY[name], len(arguments)
+            needed, count = ARITY[name], len(arguments)
             raise self._fault(
-                _("{name} takes {needed} argument(s), {given} are given"),
+                _("{name} takes {needed} argument(s), found {count}"),
                 column,
                 _("separate arguments by commas, decimals by points"),
                 name=name,
                 needed=needed,
-                given=given,
+                count=count,
             )
         return self._in_units(Call(name, tuple(arguments), column))

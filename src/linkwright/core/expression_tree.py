@@ -80,7 +80,7 @@ def functions_of(module: object, own: Mapping[str, Callable[..., Any]]) -> Mappi
 
 
 def evaluate(node: Node, values: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]]) -> Any:
-    """Value of a tree on any kind of values; powers with whole exponents are products."""
+    """Value of a tree on values of any type; powers with integer exponents are products."""
     match node:
         case Number(value):
             return value
@@ -91,7 +91,7 @@ def evaluate(node: Node, values: Mapping[str, Any], functions: Mapping[str, Call
         case Call(function, arguments):
             return functions[function](*(evaluate(argument, values, functions) for argument in arguments))
         case Binary("^", base, Number(exponent)) if exponent == int(exponent) and abs(exponent) <= 12:
-            return _whole_power(evaluate(base, values, functions), int(exponent))
+            return _integer_power(evaluate(base, values, functions), int(exponent))
         case Binary("^", base, Number(0.5)):
             return functions["sqrt"](evaluate(base, values, functions))
     left, right = evaluate(node.left, values, functions), evaluate(node.right, values, functions)
@@ -107,7 +107,7 @@ def evaluate(node: Node, values: Mapping[str, Any], functions: Mapping[str, Call
     return functions["pow"](left, right)
 
 
-def _whole_power(base: Any, exponent: int) -> Any:
+def _integer_power(base: Any, exponent: int) -> Any:
     if exponent == 0:
         return 1.0
     product = base

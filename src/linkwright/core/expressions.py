@@ -67,7 +67,7 @@ class Expression:
         return evaluate(self.tree, values, ON_VALUES)
 
     def evaluate(self, values: Mapping[str, float]) -> float:
-        """Value in SI for the given numbers of the free names.
+        """Value in SI for numbers of the free names.
 
         Raises QuantityError where the result does not exist (a division by zero, the root of a negative number).
         """
@@ -133,7 +133,7 @@ class Expression:
         return NumpyProgram(Program.of(lines, {str(k): each for k, each in enumerate(slopes)}))
 
     def dimension(self, kinds: Mapping[str, units.Dimension]) -> units.Dimension:
-        """Dimension of the result, given those of the free names; raises QuantityError where they do not
+        """Dimension of the result from those of the free names; raises QuantityError where they do not
         fit."""
         return dimension_of(self.tree, kinds)
 
@@ -145,7 +145,7 @@ def parse(text: str, variables: Collection[str] = (), *, prefer: Preferred = "un
     """Read an expression in which the names ``variables`` may occur.
 
     A name that is a unit and a variable is the unit behind a number, and behind another unit unless ``prefer`` says
-    otherwise: then it is the variable behind units, or wherever it stands.
+    otherwise: then it is the variable behind units, or everywhere.
     Raises ExpressionError with the column for anything that is not an expression or an unknown name.
     """
     plain = text.replace("−", "-").strip()
@@ -157,7 +157,7 @@ def parse(text: str, variables: Collection[str] = (), *, prefer: Preferred = "un
             0,
         )
     parser = Parser(plain, variables, prefer)
-    tree = parser.whole()
+    tree = parser.whole_expression()
     return Expression(plain, tree, frozenset(parser.used))
 
 
@@ -190,9 +190,9 @@ def parse_as(text: str, dimension: str, kinds: Mapping[str, units.Dimension]) ->
     try:
         found = _with_units(plain, dimension, kinds)
     except QuantityError as error:
-        whole = _number_and_unit(plain, kinds)
-        if whole is not None and whole.dimension(kinds) == units.DIMENSIONS[dimension]:
-            return whole
+        quantity = _number_and_unit(plain, kinds)
+        if quantity is not None and quantity.dimension(kinds) == units.DIMENSIONS[dimension]:
+            return quantity
         if error.code != "ambiguous" and (name := _meant_parameter(plain, dimension, kinds)):
             raise _ambiguous(name) from None
         if error.code == "wrong-dimension" and (right := _quotient(plain, dimension, kinds)):
@@ -291,16 +291,16 @@ def parse_any(text: str, kinds: Mapping[str, units.Dimension]) -> Expression:
             return Expression(plain, Number(value, dimension), frozenset())
     elif not plain or (plain in units.UNITS and plain not in kinds):
         raise units.not_a_number(plain, "length")
-    whole = _number_and_unit(plain, kinds)
-    if whole is None:
+    quantity = _number_and_unit(plain, kinds)
+    if quantity is None:
         return parse(plain, kinds)
     try:
         tight = parse(plain, kinds)
-        if tight.dimension(kinds) == whole.dimension(kinds):
+        if tight.dimension(kinds) == quantity.dimension(kinds):
             return tight
     except QuantityError:
-        return whole
-    remedy = _('write "{whole}" or "{tight}"', whole=whole.text, tight=_TIGHT.sub(r"(\1)", plain))
+        return quantity
+    remedy = _('write "{quantity}" or "{tight}"', quantity=quantity.text, tight=_TIGHT.sub(r"(\1)", plain))
     raise QuantityError(_('"{text}" can be read in two ways', text=plain), remedy, code="ambiguous")
 
 

@@ -1,4 +1,4 @@
-"""What programs take at a position beside the dimensions: places and rates of drivers, signs of assembly modes."""
+"""Inputs of programs at a position, besides dimensions: coordinates and rates of drivers, signs of assembly modes."""
 
 from __future__ import annotations
 

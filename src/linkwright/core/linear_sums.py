@@ -24,9 +24,9 @@ class LinearSums(Generic[Key]):
         It is solved for the quantity of the highest ``order``, of several for the one with the largest factor, never
         for one of the order -∞.
         """
-        least = SMALL * max(map(abs, terms.values()), default=0.0)
+        negligible = SMALL * max(map(abs, terms.values()), default=0.0)
         left, rest = self.reduced(terms, rest)
-        left = {key: factor for key, factor in left.items() if abs(factor) > least}
+        left = {key: factor for key, factor in left.items() if abs(factor) > negligible}
         free = [key for key in left if order(key) > -float("inf")]
         if not free:
             return False

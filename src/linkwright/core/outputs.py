@@ -196,10 +196,10 @@ class Output:
     """One output of a machine.
 
     ``kind``: of ``KINDS``; ``owner``: the point, link, joint, driver, load or group; ``component``: ``x``, ``y``, or
-    none for the whole or its size (of loads on a link also ``m``, their moment); ``on``: the link on which a joint's
-    force acts, the fact of a group, the second of two points, the order of a harmonic; ``slides``: of a driver,
-    whether it slides; ``written``: how a file says it, where that is not :func:`str`'s own;
-    ``measured``: the dimension of a formula that the model names.
+    none for the vector or its magnitude (of loads on a link also ``m``, the moment); ``on``: the link on which a
+    joint's force acts, the fact of a group, the second of two points, the order of a harmonic; ``slides``: of a
+    driver, whether it slides; ``written``: how a file says it, where that is not :func:`str`'s own; ``measured``: the
+    dimension of a formula that the model names.
     """
 
     kind: str
@@ -289,12 +289,12 @@ class Output:
         key = self.kind
         if key == "effort" and alone:
             key = "input_force" if self.slides else "input_torque"
-        said = QUANTITIES[key].format(name=self.owner, on=self.on)
-        return _COMPONENTS[self.component].format(quantity=said) if self.component else said
+        quantity = QUANTITIES[key].format(name=self.owner, on=self.on)
+        return _COMPONENTS[self.component].format(quantity=quantity) if self.component else quantity
 
     @property
     def quantity(self) -> str:
-        """What stands over its column beneath the owner: ``angle``, ``position.x``, ``magnitude`` of a reaction."""
+        """Column heading beneath the owner: ``angle``, ``position.x``, ``magnitude`` of a reaction."""
         if self.kind in ("input", "named"):
             return self.owner
         if self.kind == "reaction" or not self.owner:

@@ -63,7 +63,7 @@ def _along(directions: Complexes, points: Complexes) -> Floats:
 
 def _half(chain: Complexes) -> Indices:
     """Numbers of the corners below a chain that goes to the right, all but the last: none is what does not lie below
-    the line between two others, first of all points at the same time, then of those beside what was left out."""
+    the line between two others, first of all points at the same time, then of those next to what was left out."""
     number = np.arange(len(chain))
     for _ in range(ROUNDS):
         bends = _bends(chain[number])

@@ -62,6 +62,6 @@ class Frozen:
 
     def __post_init__(self) -> None:
         for each in fields(self):  # type: ignore[arg-type]
-            given = getattr(self, each.name)
-            if (kept := frozen(given)) is not given:
-                object.__setattr__(self, each.name, kept)
+            value = getattr(self, each.name)
+            if (read_only := frozen(value)) is not value:
+                object.__setattr__(self, each.name, read_only)

@@ -18,7 +18,7 @@ class Row:
     """One number of a result: its key, value (SI) and dimension; ``label`` where it is not the key's word.
 
     An interval goes from ``value`` to ``end``; ``scale`` is the unit of a number without dimension; ``text`` is what
-    tables show in place of number and unit, ``digits`` how many they show of this one; ``note``: what is said behind
+    tables show in place of number and unit, ``digits`` how many they show of this one; ``note``: a remark behind
     it, ``more``: the same as data; a ``remainder`` is what a balance leaves, itself nothing but rounding.
     """
 
@@ -82,7 +82,7 @@ class Block:
 
 
 def tidy(blocks: Sequence[Block]) -> list[Block]:
-    """Blocks with numbers that are rounding beside the largest of their dimension as zero; remainders as found."""
+    """Blocks with rounding errors of the largest of a dimension set to zero; remainders as found."""
     largest: dict[str, float] = {}
     for row in (row for block in blocks for row in block.rows):
         for value in (row.value, *([] if row.end is None else [row.end])):
@@ -111,7 +111,7 @@ class Numbers(Tabular):
         """The numbers, with titles and remarks in a language."""
 
     def notes(self, language: str = "en") -> list[str]:
-        """What is to be said beside the numbers."""
+        """Remarks about the numbers."""
         return []
 
     def tables(self, language: str = "en", digits: int | None = None) -> tuple[Table, ...]:

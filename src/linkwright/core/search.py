@@ -51,8 +51,8 @@ def zeros(
         low, high = np.where(same, here, low), np.where(same, high, here)
         with np.errstate(all="ignore"):
             newton = here - value / slope
-        least, most = np.minimum(low, high), np.maximum(low, high)
-        sound = (newton >= least) & (newton <= most) & (np.abs(newton - here) <= 0.5 * before)
+        minimum, maximum = np.minimum(low, high), np.maximum(low, high)
+        sound = (newton >= minimum) & (newton <= maximum) & (np.abs(newton - here) <= 0.5 * before)
         there = np.where(value == 0.0, here, np.where(sound, newton, 0.5 * (low + high)))
         before, here = np.abs(there - here), there
         if not (before > np.where(sound, _LAST, ACCURACY) * width).any():
@@ -95,12 +95,12 @@ def lowest(function: Callable[[Floats], Floats], low: Floats, high: Floats) -> t
     """
     rows = np.arange(len(low))
     shares = np.linspace(0.0, 1.0, _SECTION)
-    place, least = 0.5 * (low + high), np.full(len(low), np.inf)
+    place, value = 0.5 * (low + high), np.full(len(low), np.inf)
 
     def better(at: Floats, values: Floats) -> None:
-        nonlocal place, least
-        gained = values < least
-        place, least = np.where(gained, at, place), np.where(gained, values, least)
+        nonlocal place, value
+        gained = values < value
+        place, value = np.where(gained, at, place), np.where(gained, values, value)
 
     for _ in range(_ROUNDS):
         at = low[:, None] + (high - low)[:, None] * shares
@@ -119,4 +119,4 @@ def lowest(function: Callable[[Floats], Floats], low: Floats, high: Floats) -> t
     vertex = np.where(np.isfinite(vertex), np.clip(vertex, at[:, 0], at[:, -1]), place)
     values = function(vertex[:, None])[:, 0]
     better(vertex, np.where(np.isnan(values), np.inf, values))
-    return place, least
+    return place, value

@@ -31,10 +31,10 @@ if TYPE_CHECKING:
 
     from linkwright.core.arrays import Floats
 
-#: Beside the largest of its kind anything below this share is nothing but rounding.
+#: Values below this share of the largest of their kind are rounding errors.
 ROUNDING = 1e-12
-#: What Markdown takes for marks.
-_MARKS = re.compile(r"[\\`*_\[\]<>|#]")
+#: Characters with a meaning in Markdown.
+_MARKDOWN_SIGNS = re.compile(r"[\\`*_\[\]<>|#]")
 _NUMBER = re.compile(r"[-+]?[\d.]+(?:e[-+]?\d+)?")
 #: Digits of a column's largest value.
 COLUMN_DIGITS = 5
@@ -135,7 +135,7 @@ class Table:
         return (self.align or "<" + ">" * columns)[:columns]
 
     def lines(self, language: str = "en", width: int | None = None) -> list[str]:
-        """Title, rows and notes on a terminal; under a heading the rows stand apart, folded within a width, without
+        """Title, rows and notes on a terminal; under a heading the rows are indented, folded within a width, without
         one they are set in."""
         head, *body = self.texts(language)
         title = [in_language(self.title, language)] if self.title else []
@@ -173,11 +173,13 @@ class Table:
 
     def markdown(self, language: str = "en") -> str:
         """The table in Markdown, with what else it holds in paragraphs."""
-        head, *rows = [[_MARKS.sub(r"\\\g<0>", cell.strip()) for cell in row] for row in self.texts(language)]
+        head, *rows = [
+            [_MARKDOWN_SIGNS.sub(r"\\\g<0>", cell.strip()) for cell in row] for row in self.texts(language)
+        ]
         rule = [{"<": "---", ">": "--:", "^": ":-:"}[each] for each in self.alignment]
         lines = (f"| {' | '.join(row)} |" for row in (head or [""] * len(rule), rule, *rows))
-        notes = (_MARKS.sub(r"\\\g<0>", in_language(note, language).strip()) for note in self.notes)
-        title = _MARKS.sub(r"\\\g<0>", in_language(self.title, language))
+        notes = (_MARKDOWN_SIGNS.sub(r"\\\g<0>", in_language(note, language).strip()) for note in self.notes)
+        title = _MARKDOWN_SIGNS.sub(r"\\\g<0>", in_language(self.title, language))
         parts = (f"**{title}**" if title else "", "\n".join(lines) if rows else "", *notes)
         return "\n\n".join(filter(None, parts))
 
@@ -191,8 +193,8 @@ class Tabular(ABC):
     row_names: ClassVar[str | None] = None
 
     @abstractmethod
-    def tables(self, language: str = "en", *given: Any, **options: Any) -> Sequence[Table]:
-        """The tables in the order in which they are read, with what is said above and below each."""
+    def tables(self, language: str = "en", *args: Any, **options: Any) -> Sequence[Table]:
+        """The tables in the order in which they are read, with the text above and below each."""
 
     @abstractmethod
     def data(self) -> Mapping[str, Any]:

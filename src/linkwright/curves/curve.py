@@ -109,15 +109,15 @@ class Curve:
 
     def extremes(self) -> tuple[Extreme, Extreme]:
         """The smallest and the largest value."""
-        least, most = extremes_of([(self, "min"), (self, "max")])
-        return least, most
+        lowest, highest = extremes_of([(self, "min"), (self, "max")])
+        return lowest, highest
 
     def extreme(self, kind: str) -> Extreme:
         """The ``max`` or ``min``, of equal ones the first; at a jump the larger (smaller) of both sides counts."""
         return extremes_of([(self, kind)])[0]
 
-    def _seen(self, kind: str) -> _Seen:
-        """What is seen of the ``max`` or ``min`` at the nodes."""
+    def _candidates(self, kind: str) -> _Candidates:
+        """Candidates for the ``max`` or ``min`` at the nodes."""
         sign = 1.0 if kind == "max" else -1.0
         values = sign * self.values
         top, bottom, best = values.max(axis=0), values.min(axis=0), values.argmax(axis=0)
@@ -127,11 +127,11 @@ class Curve:
             may = value + SLACK * (top - bottom) >= value.max() - equal
             place = np.where(top - bottom <= equal, -1.0, PLACES[best])
             may &= (top - bottom > equal) & np.isfinite(top - bottom) & ~jumps
-        return _Seen(sign, equal, place, value, np.flatnonzero(may), values[:, may])
+        return _Candidates(sign, equal, place, value, np.flatnonzero(may), values[:, may])
 
 
 @dataclass(frozen=True)
-class _Seen:
+class _Candidates:
     """The largest value, times ``sign``, at the nodes of every piece, with its place, -1 to 1; the numbers of those
     that are climbed, and their ``rows``; below ``equal`` two values are the same."""
 
@@ -145,10 +145,10 @@ class _Seen:
 
 def extremes_of(wanted: Sequence[tuple[Curve, str]]) -> list[Extreme]:
     """The ``max`` or ``min`` of some functions, climbed together."""
-    seen = [curve._seen(kind) for curve, kind in wanted]
-    places, values = climbed(np.concatenate([each.rows for each in seen], axis=1))
+    candidates = [curve._candidates(kind) for curve, kind in wanted]
+    places, values = climbed(np.concatenate([each.rows for each in candidates], axis=1))
     found, first = [], 0
-    for (curve, _), each in zip(wanted, seen, strict=True):
+    for (curve, _), each in zip(wanted, candidates, strict=True):
         end = first + len(each.climbed)
         each.place[each.climbed], each.value[each.climbed] = places[first:end], values[first:end]
         first = end

@@ -14,7 +14,7 @@ from numpy.polynomial import legendre
 
 from linkwright.core.arrays import Floats
 from linkwright.formula.call_block import address_of
-from linkwright.formula.kernel import Kernels, Reals, Vector, higher, load, lower, root, spread, store
+from linkwright.formula.kernel import Kernels, Reals, Vector, load, maximum, minimum, root, spread, store
 from linkwright.formula.kernel_writer import LANES
 from linkwright.formula.machine_code import available
 
@@ -37,9 +37,9 @@ def derive(of: Reals, slopes: Reals) -> None:
     for j in range(POINTS):
         k = POINTS - 1 - j
         store(slopes, LANES * k, (2.0 * k + 1.0) * odd)
-        following = load(of, LANES * k) + even
+        next_term = load(of, LANES * k) + even
         even = odd
-        odd = following
+        odd = next_term
 
 
 def series(of: Reals, x: Vector, tables: Reals) -> Vector:
@@ -48,9 +48,9 @@ def series(of: Reals, x: Vector, tables: Reals) -> Vector:
     for j in range(POINTS):
         k = POINTS - 1 - j
         known = load(of, LANES * k) + tables[BACKWARD + k] * before
-        following = known + tables[FORWARD + k] * x * value
+        next_value = known + tables[FORWARD + k] * x * value
         before = value
-        value = following
+        value = next_value
     return value
 
 
@@ -85,11 +85,11 @@ def peaks(count: int, rows: Reals, capacity: int, tables: Reals, room: Reals, fo
                 even = even + tables[LOOKED + POINTS * j + i] * load(room, LANES * i)
                 odd = odd + tables[LOOKED + POINTS * j + HALF + i] * load(room, LANES * (HALF + i))
             place = spread(tables[PLACES + j]) if best < even + odd else place
-            best = higher(best, even + odd)
+            best = maximum(best, even + odd)
             place = spread(-tables[PLACES + j]) if best < even - odd else place
-            best = higher(best, even - odd)
-        gap = GAP * root(higher(spread(0.0), 1.0 - place * place)) + GAP * GAP
-        low, high = higher(spread(-1.0), place - gap), lower(spread(1.0), place + gap)
+            best = maximum(best, even - odd)
+        gap = GAP * root(maximum(spread(0.0), 1.0 - place * place)) + GAP * GAP
+        low, high = maximum(spread(-1.0), place - gap), minimum(spread(1.0), place + gap)
         x = place
         for _ in range(STEPS):
             slope = series(slopes, x, tables)
@@ -103,7 +103,7 @@ def peaks(count: int, rows: Reals, capacity: int, tables: Reals, room: Reals, fo
         top = series(orders, x, tables)
         place = x if top > best else place
         store(found, r, place)
-        store(found, capacity + r, higher(top, best))
+        store(found, capacity + r, maximum(top, best))
         r += LANES
 
 

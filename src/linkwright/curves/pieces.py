@@ -33,17 +33,17 @@ LOW, HIGH = "low", "high"
 #: A piece is met where its last orders are below this share of the signal's size.
 MET = 1e-11
 #: Sizes of signals of one dimension differ by less than this share, or the small one is rounding of the large one.
-ALIKE = 1e-4
+SIZE_SHARE = 1e-4
 #: From values at the nodes to the last three orders and the mean.
 LAST_AND_MEAN = np.vstack([LAST, WEIGHTS])
 #: A piece that is not met to this share of the signal's size may hide what no node of it sees.
 BLIND = 1e-4
 #: Halvings of a piece, and the share of a cycle below which it is halved no more.
 HALVINGS, NARROW = 44, 1e-13
-#: More pieces of a design than these, beside four for each of the first ones, that are unmet at once are noise, which
-#: no halving smooths.
+#: More pieces of a design than these, besides four for each of the first ones, that are unmet at once are noise,
+#: which no halving smooths.
 CROWD = 96
-#: So are more than twice as many as in the first halvings, beside a few.
+#: So are more than twice as many as in the first halvings, besides a few.
 EARLY, MANY = 6, 8
 #: Narrower than this share of a cycle, a piece counts by its width where a signal is wanted everywhere.
 WIDE = 1.0 / 12.0
@@ -63,14 +63,14 @@ class Signals(Protocol):
 class Wanted:
     """What pieces must be met for: signals ``even`` everywhere, sides (signal, sign) near their extremes.
 
-    ``alike``: numbers of signals of one dimension, of which sizes are compared; ``joined``: neighbours meet each
-    other too, but at ends of stretches.
+    ``same_dimension``: numbers of signals of one dimension, whose sizes are compared; ``joined``: neighbours meet
+    each other too, but at ends of stretches.
     """
 
     even: tuple[int, ...] = ()
     sides: tuple[tuple[int, float], ...] = ()
     met: float = MET
-    alike: Sequence[Indices] = ()
+    same_dimension: Sequence[Indices] = ()
     crowd: int = CROWD
     wide: float = WIDE
     joined: bool = False
@@ -118,8 +118,8 @@ class Pieces:
     """Signals on pieces of a layout and on the halves of those that are not met.
 
     ``stretch``, ``first`` and ``last`` share of it, ``design``: (pieces,); ``top``, ``bottom``, ``rough`` (size of
-    the last orders), ``whole`` (mean): (signals, pieces); ``size``: (signals, designs); ``unmet`` (designs,): a piece
-    that matters is not met, and is halved no more.
+    the last orders), ``mean_values`` (mean): (signals, pieces); ``size``: (signals, designs); ``unmet`` (designs,): a
+    piece that matters is not met, and is halved no more.
     """
 
     def __init__(
@@ -164,7 +164,7 @@ class Pieces:
             batch.columns,
         )
         self._chunk, self._column = batch.chunk, batch.column
-        self.top, self.bottom, self.rough, self.whole = batch.stats
+        self.top, self.bottom, self.rough, self.mean_values = batch.stats
         self.design = self._owner[self.stretch]
         self.starts = np.searchsorted(self.design, np.arange(self.designs))
         self.width = self.columns[HIGH] - self.columns[LOW]
@@ -239,12 +239,12 @@ class Pieces:
         return np.asarray(np.isfinite(self.size).all(axis=0))
 
     def _sizes(self) -> Floats:
-        """Sizes of the signals, of such as are small beside others of their dimension a share of these."""
-        if not self.wanted.alike:
+        """Sizes of the signals, at least a share of the largest of their dimension."""
+        if not self.wanted.same_dimension:
             return self.size
         found = self.size.copy()
-        for rows in self.wanted.alike:
-            found[rows] = np.maximum(found[rows], ALIKE * self.size[rows].max(axis=0))
+        for rows in self.wanted.same_dimension:
+            found[rows] = np.maximum(found[rows], SIZE_SHARE * self.size[rows].max(axis=0))
         return found
 
     def values(self, signals: Indices | int, pieces: Indices | None = None) -> Floats:
@@ -275,7 +275,7 @@ class Pieces:
     # means ----------------------------------------------------------------------------------------------
     def mean(self, k: int | list[int]) -> Floats:
         """The mean over time of a signal, (designs,), or of some."""
-        return self.total(self.whole[k] * self.width) / self.period
+        return self.total(self.mean_values[k] * self.width) / self.period
 
     def mean_square(self, k: int) -> Floats:
         """The mean over time of its square, (designs,)."""
@@ -296,8 +296,8 @@ class Pieces:
     def through_excess(self, k: int, mean: Floats, weight: Floats) -> tuple[Floats, Floats]:
         """From derivatives (POINTS, pieces) by the excess at the nodes those by the signal there, and by the widths
         of the pieces; the mean changes with both."""
-        whole = weight.sum(axis=0)
-        after = self.each(self.total(whole)) - self._before(whole) - whole
+        mean_values = weight.sum(axis=0)
+        after = self.each(self.total(mean_values)) - self._before(mean_values) - mean_values
         upto = product(UP_TO.T, weight) + WEIGHTS[:, None] * after
         lack = self.each(mean) - self.values(k)
         by_mean = self.total((upto * self.width).sum(axis=0))

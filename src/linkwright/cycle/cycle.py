@@ -62,7 +62,7 @@ class Cycle(Asked):
         for k, each in enumerate(signals):
             kinds.setdefault((traces.quantity(each.words).dimension, each.squared), []).append(k)
         self.bent = any(not each.squared and traces.square(each.words) is not None for each in signals)
-        self.alike: list[Indices] = [np.array(rows) for rows in kinds.values() if len(rows) > 1]
+        self.same_dimension: list[Indices] = [np.array(rows) for rows in kinds.values() if len(rows) > 1]
         self.formula = machine.formula(("signals", signals), lambda: self._outputs(signals))
         self.never = tuple(dict.fromkeys(never))
         self._follow()

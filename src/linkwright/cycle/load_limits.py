@@ -46,7 +46,7 @@ class LoadLimits:
         lap = course.duration * (abs(course.first.law.constant_speed or 0.0) if self.steady else 1.0)
         if course.turns:
             lap = 2.0 * pi * course.turns
-        drift = MotionSignals(self.machine.nominal).whole.drift
+        drift = MotionSignals(self.machine.nominal).full_cycle.drift
         return {LAP: lap * (1.0 if course.closed else 2.0), DRIFT: drift}
 
     @property

@@ -49,7 +49,7 @@ class Solved(Block, Summaries):
             lambda columns, nodes: cycle.formula.run(self.known, columns, nodes),
             Layout(self.stretches.design, self.count, self._columns),
             *self.stretches.first_pieces(PIECES_OF_COURSES if cycle.even_words else PIECES),
-            cycle.wanted(cycle.alike, joined=cycle.bent),
+            cycle.wanted(cycle.same_dimension, joined=cycle.bent),
         )
 
     def _columns(self, stretch: Indices, first: Floats, last: Floats) -> dict[str, Floats]:

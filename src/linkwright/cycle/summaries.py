@@ -69,10 +69,10 @@ class Asked:
             self.sides_of[text] = tuple(numbers.setdefault(side, len(numbers)) for side in sides)
         self.sides = tuple(numbers)
 
-    def wanted(self, alike: Sequence[Indices] = (), *, joined: bool = False) -> Wanted:
+    def wanted(self, same_dimension: Sequence[Indices] = (), *, joined: bool = False) -> Wanted:
         """What pieces must be met for."""
         sides = tuple((k, sign) for k, sign, _ in self.sides)
-        return Wanted(self.even, sides, alike=alike, joined=joined)
+        return Wanted(self.even, sides, same_dimension=same_dimension, joined=joined)
 
 
 @dataclass(frozen=True)
@@ -144,11 +144,11 @@ class Summaries(ABC):
         if jumps.any():
             node = rows[:, jumps].argmax(axis=0)
             place[jumps], value[jumps] = 2.0 * NODES[node] - 1.0, rows[:, jumps].max(axis=0)
-        alike = EQUAL * pieces.size[signal, design]
-        place = np.where((pieces.top - pieces.bottom)[signal, piece] <= alike, -1.0, place)
+        same_dimension = EQUAL * pieces.size[signal, design]
+        place = np.where((pieces.top - pieces.bottom)[signal, piece] <= same_dimension, -1.0, place)
         time = pieces.columns[LOW][piece] + 0.5 * (1.0 + place) * pieces.width[piece]
         time = self.inside(time, design)
-        best = best_of(value, side * self.span.count + design, alike, time)
+        best = best_of(value, side * self.span.count + design, same_dimension, time)
         shape = len(sides), -1
         piece, place = piece[best].reshape(shape), place[best].reshape(shape)
         value, time = value[best].reshape(shape), time[best].reshape(shape)
@@ -212,8 +212,8 @@ class Summaries(ABC):
         sizes = np.where(np.isnan(values), -1.0, np.abs(values))
         if len(sides) < 2:
             return np.asarray(times[0])
-        alike = sizes.min(axis=0) >= (1.0 - EQUAL) * sizes.max(axis=0)
-        first = np.where(alike, times[0] <= times[1], sizes[0] > sizes[1])
+        same_dimension = sizes.min(axis=0) >= (1.0 - EQUAL) * sizes.max(axis=0)
+        first = np.where(same_dimension, times[0] <= times[1], sizes[0] > sizes[1])
         return np.asarray(np.where(first, times[0], times[1]))
 
     def excess(self, k: int) -> list[Peak]:

@@ -170,7 +170,7 @@ class Builder:
         if self.iterated:
             tracked = tracked_states(self.traced.nominal, self.traced.solver, backend != "numpy")
         program = Program.of(self.traced.solver.motion.trace, {**outputs, VALID: self._valid(tracked)})
-        program = program.with_given(self.turns, "position")
+        program = program.with_inputs(self.turns, "position")
         limits = self.loaded.limits
         moving = [
             name for name in program.parameters if name.startswith(("limit:", "limit input:", "value:"))

@@ -132,4 +132,4 @@ class Slopes:
 def _known_as_fields(program: Program) -> Program:
     """The program with the angles near which angles stay taken per position."""
     known = middle_name("", "").partition(":")[0]
-    return program.with_given([name for name in program.parameters if name.startswith(f"{known}:")])
+    return program.with_inputs([name for name in program.parameters if name.startswith(f"{known}:")])

@@ -12,7 +12,7 @@ from linkwright.core.arguments import one_or_more, require
 from linkwright.core.arrays import Floats
 from linkwright.designs.ranges import Range, parse_range
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.joints.toothed import Numbers, whole
+from linkwright.joints.toothed import Numbers, is_integer
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.positions import Positions
@@ -95,7 +95,7 @@ def gives_part_of_tooth(mechanism: Mechanism, address: str, value: float) -> boo
     except LinkwrightError:
         return False
     given = ((changed.declared(name), number) for name, number in changed.dimensions().items())
-    return any(isinstance(declared, Numbers) and not whole(number) for declared, number in given)
+    return any(isinstance(declared, Numbers) and not is_integer(number) for declared, number in given)
 
 
 def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[str, Floats]:

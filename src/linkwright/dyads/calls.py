@@ -1,7 +1,7 @@
 """The calls of the teaching texts' subprograms (bark, rrrk, … barf, rrrf, …) that solve a machine.
 
 Points and links get numbers as in those texts: t(k) is the direction of the line of link k. What the subprograms take
-for granted, that an inner pin moves on the guide's line itself, is arranged by auxiliary points beside the guides.
+for granted, that an inner pin moves on the guide's line itself, is arranged by auxiliary points next to the guides.
 """
 
 from __future__ import annotations
@@ -173,7 +173,7 @@ class _Caller:
         return self.guides[guide.joint]
 
     def _reference(self, guide: Guide, offset: float) -> int:
-        """The point from which the slide on a guide counts; beside the guide where the inner pin's path is."""
+        """The point from which the slide on a guide counts; off the guide where the inner pin's path is."""
         link, axes = guide.link, self.axes[guide.link]
         place = guide.local + offset * 1j * cmath.exp(1j * guide.angle)
         named = self._named(link, place)
@@ -183,9 +183,7 @@ class _Caller:
         if key in self.at:
             return self.at[key]
         name = (
-            _("beside guide {guide}", guide=guide.joint)
-            if offset
-            else _("on guide {guide}", guide=guide.joint)
+            _("off guide {guide}", guide=guide.joint) if offset else _("on guide {guide}", guide=guide.joint)
         )
         number = self._numbered(key, name, (link,), place if link == "frame" else None)
         if link != "frame":
@@ -224,9 +222,14 @@ class _Caller:
             self._further(link, self._base(step, i))
 
     def _add(
-        self, into: list[Call], name: str, step: Step | None, links: tuple[str, ...], given: dict[str, str]
+        self,
+        into: list[Call],
+        name: str,
+        step: Step | None,
+        links: tuple[str, ...],
+        arguments: dict[str, str],
     ) -> None:
-        actual = tuple(given.get(formal, formal) for formal in FORMAL[name])
+        actual = tuple(arguments.get(formal, formal) for formal in FORMAL[name])
         into.append(Call(name, step, links, actual))
 
     def _bar(self, step: Step) -> dict[str, str]:
@@ -237,7 +240,7 @@ class _Caller:
         n1, n2 = (self._point(link, outer.joint) for link, outer in zip(step.links, step.outer, strict=True))
         n3 = self._point(step.links[0], step.inner)
         r1, r2 = step.lengths
-        return self._given(
+        return self._bound(
             step, n1=n1, n2=n2, n3=n3, r1=length(r1), r2=length(r2), m=_sign(step.mode == "left")
         )
 
@@ -246,7 +249,7 @@ class _Caller:
         n2, k3 = self._reference(guide, step.offsets[0]), self._guide(guide)
         n3 = self._point(step.links[0], step.inner)
         sign = _sign(step.mode == "forward")
-        return self._given(step, m=sign, n1=n1, n2=n2, n3=n3, k3=k3, r1=length(step.lengths[0]))
+        return self._bound(step, m=sign, n1=n1, n2=n2, n3=n3, k3=k3, r1=length(step.lengths[0]))
 
     def _rpr(self, step: Step) -> dict[str, str]:
         n1, n2 = (self._point(link, outer.joint) for link, outer in zip(step.links, step.outer, strict=True))
@@ -262,12 +265,12 @@ class _Caller:
                     links=", ".join(step.links),
                 )
             )
-        return self._given(step, m=_sign(across <= ZERO), n1=n1, n2=n2, r1=length(abs(across)))
+        return self._bound(step, m=_sign(across <= ZERO), n1=n1, n2=n2, r1=length(abs(across)))
 
     def _prp(self, step: Step) -> dict[str, str]:
         n1, n2 = (self._reference(guide, h) for guide, h in zip(step.guides, step.offsets, strict=True))
         k3, k4 = (self._guide(guide) for guide in step.guides)
-        return self._given(step, n1=n1, n2=n2, n3=self._point(step.links[0], step.inner), k3=k3, k4=k4)
+        return self._bound(step, n1=n1, n2=n2, n3=self._point(step.links[0], step.inner), k3=k3, k4=k4)
 
     def _rpp(self, step: Step) -> dict[str, str]:
         """Link 1 of the text is the one on the pin, link 2 the one on the outer guide."""
@@ -293,7 +296,7 @@ class _Caller:
             "gam2": angle(step.angle),
         }  # fmt: skip
 
-    def _given(self, step: Step, **values: object) -> dict[str, str]:
+    def _bound(self, step: Step, **values: object) -> dict[str, str]:
         links = {f"k{i}": str(self.numbers[link]) for i, link in enumerate(step.links, 1)}
         return links | {name: str(value) for name, value in values.items()}
 
@@ -324,7 +327,7 @@ class _Caller:
         return 0
 
     def _others(self, step: Step, link: str) -> None:
-        """Pins of a link that has no subprogram: others may need them, and they are given."""
+        """Pins of a link that has no subprogram: others may need them, and they are known."""
         for joint in step.group.joints:
             if joint.turns and link in (joint.a, joint.b):
                 self.solved.add(self._point(link, joint.joint))
@@ -346,15 +349,15 @@ class _Caller:
         self._bark(link, [each for each in dict(wanted).items() if each[0] not in self.solved], base)
 
     def _bark(self, link: str, points: list[tuple[int, complex]], base: int | None = None) -> None:
-        """Calls of bark for points of a link: one on its line and one beside it each."""
+        """Calls of bark for points of a link: one on its line and one off it each."""
         points = [each for each in points if abs(each[1]) > ZERO]
         self.solved |= {each[0] for each in points}
         ahead = [each for each in points if abs(each[1].imag) < ZERO and each[1].real > 0]
-        beside = [each for each in points if each not in ahead]
-        for one, two in zip_longest(ahead, beside):
-            given = {"n1": self._start(link) if base is None else base, "k": self.numbers[link]}
-            given |= {"n2": one[0] if one else 0, "n3": two[0] if two else 0}
-            texts = {name: str(value) for name, value in given.items()}
+        off_line = [each for each in points if each not in ahead]
+        for one, two in zip_longest(ahead, off_line):
+            values = {"n1": self._start(link) if base is None else base, "k": self.numbers[link]}
+            values |= {"n2": one[0] if one else 0, "n3": two[0] if two else 0}
+            texts = {name: str(value) for name, value in values.items()}
             texts["r1"] = length(one[1].real) if one else "0"
             texts |= (
                 {"r2": length(abs(two[1])), "gam": angle(cmath.phase(two[1]))}
@@ -384,17 +387,17 @@ class _Caller:
                 )
 
     def _forces(self, step: Step) -> None:
-        given = {f"k{i}": str(self.numbers[link]) for i, link in enumerate(step.links, 1)}
+        values = {f"k{i}": str(self.numbers[link]) for i, link in enumerate(step.links, 1)}
         acting = [self._acting(link) for link in step.links]
-        given |= {f"ns{i}": str(self.centres.get(link, 0)) for i, link in enumerate(step.links, 1)}
-        given |= {f"nn{i}": str(abs(each)) for i, each in enumerate(acting, 1)}
-        given["nexf"] = str(next((-each for each in acting if each < 0), 0))
+        values |= {f"ns{i}": str(self.centres.get(link, 0)) for i, link in enumerate(step.links, 1)}
+        values |= {f"nn{i}": str(abs(each)) for i, each in enumerate(acting, 1)}
+        values["nexf"] = str(next((-each for each in acting if each < 0), 0))
         for name, value in self._places(step).items():
-            given[name] = str(value)
+            values[name] = str(value)
         if step.kind == "RPP":
             for one, two in (("k1", "k2"), ("ns1", "ns2"), ("nn1", "nn2")):
-                given[one], given[two] = given[two], given[one]
-        self._add(self.found.forces, f"{step.kind.lower()}f", step, step.links, given)
+                values[one], values[two] = values[two], values[one]
+        self._add(self.found.forces, f"{step.kind.lower()}f", step, step.links, values)
         for i, outer in enumerate(step.outer):
             if outer.link != "frame":
                 place = (

@@ -1,7 +1,7 @@
 """One group by itself as a traced program: outer joints as inputs, everything inside as outputs.
 
 The group is cut out of a small mechanism in which its outer links, ``base_1`` and ``base_2``, are driven; here
-their states are inputs of the program instead. Positions, rates and forces come from what solves whole mechanisms
+their states are inputs of the program instead. Positions, rates and forces come from the solvers of mechanisms
 (:class:`~linkwright.kinematics.groups.GroupTracer`, :class:`~linkwright.kinematics.rates.RateTracer`,
 :func:`~linkwright.kinetostatics.trace.trace_forces`), so from the closed forms of :mod:`linkwright.groups`.
 """

@@ -94,9 +94,9 @@ def forces(
     if not isinstance(motion, DyadMotion):
         raise RequestError(
             _(
-                "expected the motion of a dyad, from lw.dyads.rrr(…) and its like, got {given}",
+                "expected the motion of a dyad, from lw.dyads.rrr(…) and its like, got {value}",
                 code="dyads.no_motion",
-                given=type(motion).__name__,
+                value=type(motion).__name__,
             )
         )
     inputs = dict(motion.inputs) | _gravity(gravity)
@@ -122,9 +122,9 @@ def bar_forces(bar: Line, body: Body | None = None, gravity: Pair = (0.0, 0.0)) 
     Raises:
         RequestError: something is no number or no line, or a force has no point.
     """
-    given = line_inputs("bar", bar)
-    own = {"cos": given["cos"], "sin": given["sin"], "rate": given["omega"], "second": given["alpha"]}
-    inputs = {f"base_1.{name}": value for name, value in given.items()} | own
+    line = line_inputs("bar", bar)
+    own = {"cos": line["cos"], "sin": line["sin"], "rate": line["omega"], "second": line["alpha"]}
+    inputs = {f"base_1.{name}": value for name, value in line.items()} | own
     return _driven("bar", inputs, bar, body, gravity)
 
 
@@ -143,8 +143,8 @@ def slider_forces(slider: Line, body: Body | None = None, gravity: Pair = (0.0, 
     Raises:
         RequestError: as for :func:`bar_forces`.
     """
-    given = line_inputs("slider", slider)
-    inputs = {f"base_1.{name}": value for name, value in given.items()}
+    line = line_inputs("slider", slider)
+    inputs = {f"base_1.{name}": value for name, value in line.items()}
     inputs |= dict.fromkeys(("slide", "rate", "second", "outer_1.offset"), np.zeros(()))
     return _driven("slider", inputs, slider, body, gravity)
 
@@ -167,10 +167,10 @@ def _body(link: str, body: Body | None, line: Line) -> dict[str, Floats]:
     if not isinstance(body, Body):
         raise RequestError(
             _(
-                "{name}: expected a lw.dyads.Body (mass, inertia, centre, loads), got {given}",
+                "{name}: expected a lw.dyads.Body (mass, inertia, centre, loads), got {value}",
                 code="dyads.no_body",
                 name=link,
-                given=type(body).__name__,
+                value=type(body).__name__,
             )
         )
     try:
@@ -178,10 +178,10 @@ def _body(link: str, body: Body | None, line: Line) -> dict[str, Floats]:
     except (TypeError, ValueError):
         raise RequestError(
             _(
-                "{name}: expected two values, one for each, got {given}",
+                "{name}: expected two values, one for each, got {value}",
                 code="dyads.no_two",
                 name=f"{link}.centre",
-                given=repr(body.centre)[:60],
+                value=repr(body.centre)[:60],
             )
         ) from None
     inputs = {

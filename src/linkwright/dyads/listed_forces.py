@@ -57,10 +57,10 @@ class ForceLines:
             return
         say, write = self.listing.say, self.listing.write
         if not self.possible:
-            told = _(
+            sentence = _(
                 "joint forces: not all groups have a function for them; lw.solve_forces(mechanism) has them"
             )
-            write("", f"# {say(told)}")
+            write("", f"# {say(sentence)}")
             return
         write("", "# " + say(_("joint forces, from the last group to the first")))
         if self.listing.plan.others:
@@ -124,21 +124,21 @@ class ForceLines:
         name = self.listing.names.of("link", link)
         own = isinstance(outer, Guide) or step.kind == "weld"
         place = f"{name}.origin" if own else self.listing.point(known, joint)
-        whole = force
+        total = force
         if step.kind == "slider":
             along = f"np.stack([np.cos({name}.angle), np.sin({name}.angle)], axis=-1)"
-            whole = f"({force} + {found}.effort[..., None] * {along})"
+            total = f"({force} + {found}.effort[..., None] * {along})"
         if step.kind == "weld":  # what would drive a bar there holds the link
             self.couples |= {(joint, link): f"{found}.effort", (joint, known): f"-{found}.effort"}
         if isinstance(outer, Guide):
-            self._couple(joint, link, couple, f"{name}.origin", whole, self.listing.plan.axes[link].origin)
+            self._couple(joint, link, couple, f"{name}.origin", total, self.listing.plan.axes[link].origin)
         if known == "frame":
             return
         held = (
             f"{found}.effort" if step.kind in ("bar", "weld") else couple if isinstance(outer, Guide) else ""
         )
         more = f", -{held}" if held else ""
-        self.on.setdefault(known, []).append(f"Load(-{whole}, {place}{more})")
+        self.on.setdefault(known, []).append(f"Load(-{total}, {place}{more})")
 
     def _inner(self, step: Step, found: str) -> None:
         one, two = step.links
@@ -226,10 +226,10 @@ class ForceLines:
         if all("np" not in each for each in parts):
             return f"({parts[0]}, {parts[1]})"
         own = self.listing.names.of("load", f"{link}_force")
-        said = self.listing.say(
+        text = self.listing.say(
             _("loads of the model and friction on {link}, by positions", link=" ".join(link.split()))
         )
-        self.listing.write(f"# {said}", f"{own} = np.zeros(({len(self.listing.rows)}, 2))")
+        self.listing.write(f"# {text}", f"{own} = np.zeros(({len(self.listing.rows)}, 2))")
         self.listing.write(*(f"{own}[:, {i}] = {part}" for i, part in enumerate(parts) if part != "0"))
         return own
 

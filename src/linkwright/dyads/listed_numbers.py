@@ -45,39 +45,39 @@ def pair(value: complex) -> str:
 
 def series(values: Floats, *, degrees: bool = False) -> str:
     """Values of all positions: one number, an even course, or all of them; angles in degrees where those are even."""
-    given = np.asarray(values, dtype=float)
-    if not len(given):
+    array = np.asarray(values, dtype=float)
+    if not len(array):
         return "np.zeros(0)"
-    if np.ptp(given) <= EVEN * max(np.abs(given).max(), ZERO):
+    if np.ptp(array) <= EVEN * max(np.abs(array).max(), ZERO):
         return (
-            number(float(given[0]))
-            if len(given) > 1 and not degrees
-            else f"np.array([{number(float(given[0]))}])"
+            number(float(array[0]))
+            if len(array) > 1 and not degrees
+            else f"np.array([{number(float(array[0]))}])"
         )
-    shown = np.degrees(given) if degrees else given
+    shown = np.degrees(array) if degrees else array
     text = _even(shown, degrees)
     if text is not None:
         return f"np.radians({text})" if degrees else text
-    listed = [number(float(each)) for each in given]
+    listed = [number(float(each)) for each in array]
     line = f"np.array([{', '.join(listed)}])"
     return line if len(line) <= WIDE else "\n".join(["np.array([", *column(listed), "])"])
 
 
 def _even(values: Floats, turns: bool) -> str | None:
-    """An arithmetic series, also one that begins anew after a whole turn; None for another."""
+    """An arithmetic series, also one that begins anew after a full turn; None for another."""
     start, step, count = float(values[0]), float(values[1] - values[0]), len(values)
     even = start + step * np.arange(count)
     gap = values - even
     if turns:
-        whole = 360.0 * np.round(gap / 360.0)
-        if whole.any() and np.abs(gap - whole).max() <= EVEN * abs(step) * count:
+        turns_between = 360.0 * np.round(gap / 360.0)
+        if turns_between.any() and np.abs(gap - turns_between).max() <= EVEN * abs(step) * count:
             turn = next((each for each in (360, -360) if _within(values, each)), None)
             return None if turn is None else f"({_course(start, step, count)}) % {turn}"
     return _course(start, step, count) if np.abs(gap).max() <= EVEN * abs(step) * count else None
 
 
 def _within(values: Floats, turn: float) -> bool:
-    """Whether angles lie between zero and a whole turn of this sense, as a remainder does."""
+    """Whether angles lie between zero and a full turn of this sense, as a remainder does."""
     return bool((values / turn >= 0.0).all() and (values / turn < 1.0).all())
 
 

@@ -35,7 +35,7 @@ class Listing(Script):
         return ForceLines(self)
 
     def text(self) -> str:
-        """The whole program."""
+        """The complete program."""
         self._data()
         for step in self.plan.steps:
             self._step(step)
@@ -73,9 +73,9 @@ class Listing(Script):
             name, (q, rate, second) = self.names.of("driver", driver), self._coordinates(driver)
             turns = self.motion.positions.rotary[driver]
             self.write(f"{name} = {series(q, degrees=turns)}")
-            for given, word in ((rate, "speed"), (second, "acceleration")):
-                if np.abs(given).max(initial=0.0) > 0.0:
-                    self.write(f"{self.names.of('driver', f'{driver}_{word}')} = {series(given)}")
+            for rates, word in ((rate, "speed"), (second, "acceleration")):
+                if np.abs(rates).max(initial=0.0) > 0.0:
+                    self.write(f"{self.names.of('driver', f'{driver}_{word}')} = {series(rates)}")
         if self.reactions.possible and any(self.mechanism.gravity):
             self.write(f"G = {pair(complex(*self.mechanism.gravity))}")
 
@@ -88,10 +88,10 @@ class Listing(Script):
         return tuple(row[self.rows] for row in self.motion.positions.coordinates[driver])  # type: ignore[return-value]
 
     def _step(self, step: Step) -> None:
-        said = " ".join(", ".join(step.group.links).split())
+        links = " ".join(", ".join(step.group.links).split())
         form = _TITLES.get(step.kind.lower() or "other", _DYAD)
         reason = in_language(step.reason, self.language)
-        title = self.say(form.format(links=said, signature=step.group.signature, reason=reason))
+        title = self.say(form.format(links=links, signature=step.group.signature, reason=reason))
         self.write("", f"# {step.number}  {title}")
         {"bar": self._bar, "slider": self._slider, "weld": self._weld, "": self._other}.get(
             step.kind, self._dyad

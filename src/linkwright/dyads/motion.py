@@ -141,7 +141,7 @@ def rrp(
         length: of the first link, from the outer to the inner pin, m.
         offset: normal distance of the inner pin from the guide, m, left of its direction positive.
         mode: ``forward`` or ``backward``: whether the inner pin lies ahead of or behind the foot of the perpendicular
-            from the outer pin, seen along the guide.
+            from the outer pin, along the guide.
         unreachable: as for :func:`rrr`.
 
     Raises:
@@ -165,7 +165,7 @@ def rpr(
         first, second: the outer pins, as for :func:`rrr`; the first link carries the guide.
         offsets: normal distances, m, left of the guide's direction positive: of the guide from the first pin, and of
             the second pin from the guide.
-        mode: ``forward`` or ``backward``: whether the second pin lies ahead of or behind the first, seen along the
+        mode: ``forward`` or ``backward``: whether the second pin lies ahead of or behind the first along the
             guide.
         unreachable: as for :func:`rrr`.
 
@@ -228,45 +228,45 @@ def _checked(line: Line) -> Line:
     return line
 
 
-def _two(name: str, given: Any) -> tuple[Floats, Floats]:
+def _two(name: str, value: Any) -> tuple[Floats, Floats]:
     try:
-        one, two = given
+        one, two = value
     except (TypeError, ValueError):
         raise RequestError(
             _(
-                "{name}: expected two values, one for each, got {given}",
+                "{name}: expected two values, one for each, got {value}",
                 code="dyads.no_two",
                 name=name,
-                given=repr(given)[:60],
+                value=repr(value)[:60],
             )
         ) from None
     return numbers(name, one), numbers(name, two)
 
 
-def _length(name: str, given: Floats) -> Floats:
+def _length(name: str, value: Floats) -> Floats:
     """Lengths, which are positive; raises RequestError for others."""
-    if not np.all(given > 0.0):
+    if not np.all(value > 0.0):
         raise RequestError(
             _(
                 "{name}: a link's length must be positive, got {value} m",
                 code="dyads.no_length",
                 name=name,
-                value=f"{float(np.min(given)):g}",
+                value=f"{float(np.min(value)):g}",
             )
         )
-    return given
+    return value
 
 
 def _named(base: str, inputs: Mapping[str, Floats]) -> dict[str, Floats]:
     return {f"{base}.{name}": value for name, value in inputs.items()}
 
 
-def _pin(base: str, name: str, given: Any) -> dict[str, Floats]:
-    return _named(base, point_inputs(name, given))
+def _pin(base: str, name: str, value: Any) -> dict[str, Floats]:
+    return _named(base, point_inputs(name, value))
 
 
-def _guide(base: str, name: str, given: Any) -> dict[str, Floats]:
-    return _named(base, line_inputs(name, given))
+def _guide(base: str, name: str, value: Any) -> dict[str, Floats]:
+    return _named(base, line_inputs(name, value))
 
 
 def run(program: Any, inputs: Mapping[str, Floats]) -> dict[str, Floats]:
@@ -348,7 +348,7 @@ def _refused(own: Cell, found: Mapping[str, Floats], ok: Flags) -> PositionError
         )
     else:
         reason = own.dyad.explain(facts)
-    told = (
+    message = (
         _(
             "the {signature} dyad cannot be assembled in position {index} ({count} of {of} "
             "positions): {reason}",
@@ -358,6 +358,8 @@ def _refused(own: Cell, found: Mapping[str, Floats], ok: Flags) -> PositionError
         else _("the {signature} dyad cannot be assembled: {reason}", code="dyads.apart_alone")
     )
     index = at if ok.ndim < 2 else tuple(int(i) for i in np.unravel_index(at, ok.shape))
-    sentence = told.format(signature=own.name, index=str(index), reason=reason, count=len(failed), of=ok.size)
+    sentence = message.format(
+        signature=own.name, index=str(index), reason=reason, count=len(failed), of=ok.size
+    )
     outcome = Outcome(False, sentence, own.name, "singular" if reached else "apart")
     return PositionError(sentence, tuple(int(i) for i in failed), outcome)

@@ -17,7 +17,7 @@ from linkwright.dyads.motion import DyadMotion, prp, rpp, rpr, rrp, rrr
 from linkwright.dyads.values import Line, State
 from linkwright.elements.topology import Group, TreeJoint
 from linkwright.errors import LinkwrightError
-from linkwright.joints.lower import SlidingJoint
+from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.kinematics.groups import dyad_shape
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
@@ -335,9 +335,9 @@ def solved(step: Step, outer: Sequence[State | Line]) -> DyadMotion:
     return rpp(b, _line(a), step.angle, step.offsets[:2])  # type: ignore[arg-type]
 
 
-def _line(given: State | Line) -> Line:
-    assert isinstance(given, Line)
-    return given
+def _line(value: State | Line) -> Line:
+    assert isinstance(value, Line)
+    return value
 
 
 def line_of(motion: Motion, link: str, local: complex, rows: Iterable[int] | Indices) -> Line:

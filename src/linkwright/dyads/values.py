@@ -81,10 +81,10 @@ class Line:
     def _moving(self) -> pose.State:
         """The link as the formulas of the package take it, over arrays."""
         place, velocity, acceleration = (_components(each) for each in state("origin", self.origin))
-        given: dict[str, Any] = dict(self.inputs())
-        rotor = Rotor(_vector(given["cos"], given["sin"]), Vec(1.0, 0.0))
+        inputs: dict[str, Any] = dict(self.inputs())
+        rotor = Rotor(_vector(inputs["cos"], inputs["sin"]), Vec(1.0, 0.0))
         at = Pose(Vec(0.0, 0.0), place, rotor)
-        return pose.State(at, velocity, given["omega"], acceleration, given["alpha"])
+        return pose.State(at, velocity, inputs["omega"], acceleration, inputs["alpha"])
 
 
 def _vector(x: Any, y: Any) -> Vec:
@@ -100,66 +100,66 @@ def _stacked(vector: Vec) -> Floats:
     return np.stack([x, y], axis=-1)
 
 
-def numbers(name: str, given: Any) -> Floats:
+def numbers(name: str, value: Any) -> Floats:
     """Numbers as an array of any shape; raises RequestError where they are none."""
     try:
-        return np.asarray(given, dtype=np.float64)
+        return np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError):
         raise RequestError(
             _(
-                "{name}: expected a number or an array of numbers, got {given}",
+                "{name}: expected a number or an array of numbers, got {value}",
                 code="dyads.no_numbers",
                 name=name,
-                given=_shown(given),
+                value=_shown(value),
             )
         ) from None
 
 
-def pairs(name: str, given: Any) -> Floats:
+def pairs(name: str, value: Any) -> Floats:
     """Pairs of numbers, (…, 2); raises RequestError where they are none."""
-    found = numbers(name, given)
+    found = numbers(name, value)
     if found.ndim == 0 or found.shape[-1] != 2:
         raise RequestError(
             _(
-                "{name}: expected pairs (x, y), an array whose last axis is 2 long, got {given}",
+                "{name}: expected pairs (x, y), an array whose last axis is 2 long, got {value}",
                 code="dyads.no_pairs",
                 name=name,
-                given=_shown(given),
+                value=_shown(value),
             )
         )
     return found
 
 
-def state(name: str, given: Any) -> tuple[Floats, Floats, Floats]:
+def state(name: str, value: Any) -> tuple[Floats, Floats, Floats]:
     """Position, velocity and acceleration of a point: of a :class:`State` or what has the same attributes (a point of
     a solved motion), or of (x, y) at rest."""
-    if not hasattr(given, "position"):
-        return pairs(name, given), np.zeros(2), np.zeros(2)
+    if not hasattr(value, "position"):
+        return pairs(name, value), np.zeros(2), np.zeros(2)
     parts = ("position", "velocity", "acceleration")
-    position, velocity, acceleration = (pairs(f"{name}.{part}", getattr(given, part)) for part in parts)
+    position, velocity, acceleration = (pairs(f"{name}.{part}", getattr(value, part)) for part in parts)
     return position, velocity, acceleration
 
 
-def point_inputs(name: str, given: Any) -> dict[str, Floats]:
+def point_inputs(name: str, value: Any) -> dict[str, Floats]:
     """A point's coordinates with their rates, by the names of programs' inputs."""
-    parts = zip(("", "v", "a"), state(name, given), strict=True)
+    parts = zip(("", "v", "a"), state(name, value), strict=True)
     return {f"{rate}{c}": found[..., i] for rate, found in parts for i, c in enumerate("xy")}
 
 
-def line_inputs(name: str, given: Any) -> dict[str, Floats]:
+def line_inputs(name: str, value: Any) -> dict[str, Floats]:
     """The same of a line, with its direction; raises RequestError for what is none."""
-    if not isinstance(given, Line):
+    if not isinstance(value, Line):
         raise RequestError(
             _(
-                "{name}: expected a lw.dyads.Line (origin, angle and their rates), got {given}",
+                "{name}: expected a lw.dyads.Line (origin, angle and their rates), got {value}",
                 code="dyads.no_line",
                 name=name,
-                given=_shown(given),
+                value=_shown(value),
             )
         )
-    return point_inputs(f"{name}.origin", given.origin) | given.inputs()
+    return point_inputs(f"{name}.origin", value.origin) | value.inputs()
 
 
-def _shown(given: Any) -> str:
-    text = " ".join(repr(given).split())
+def _shown(value: Any) -> str:
+    text = " ".join(repr(value).split())
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"

@@ -19,7 +19,7 @@ class ModelLink(Protocol):
 
 
 class ModelJoint(Protocol):
-    """A joint beside the element that looks at it."""
+    """A joint as an element sees it."""
 
     @property
     def name(self) -> str: ...

@@ -194,7 +194,7 @@ class _Search:
         curve = self.curve
         nothing = NOTHING * np.maximum(curve.size, 0.0)
         self._make_sure(signal, piece, looks, nothing)
-        values = np.repeat(curve.whole[:, :, None], len(LOOKS), axis=2)
+        values = np.repeat(curve.mean_values[:, :, None], len(LOOKS), axis=2)
         values[near] = looks.T
         decided = (np.abs(values) > nothing[:, curve.design, None]).ravel()
         places = np.arange(values.size) if decided.all() else np.flatnonzero(decided)
@@ -221,7 +221,7 @@ class _Search:
         """Neighbours of the same signal and design, around cycles that close, among places (k,) of looks, between
         which the sign changes, and whether the second is a lap on."""
         curve, closed = self.curve, self.stretches.span.course.closed
-        signals, pieces = curve.whole.shape
+        signals, pieces = curve.mean_values.shape
         begins = ((np.arange(signals)[:, None] * pieces + curve.starts) * len(LOOKS)).ravel()
         first = np.searchsorted(places, begins)
         last = np.append(first[1:], len(places)) - 1

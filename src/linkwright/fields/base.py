@@ -120,7 +120,7 @@ def pair_schema(one: Schema) -> Schema:
 
 
 def written_quantity(value: Any, dimension: str) -> Any:
-    """A quantity as it stands in a file: text with the SI unit, an expression's text, a bare number."""
+    """A quantity as written in a file: text with the SI unit, an expression's text, a bare number."""
     if isinstance(value, Expression):
         return value.text
     if dimension == "dimensionless" or value == 0:
@@ -177,30 +177,30 @@ class Quantity(Field):
         within &= (self.below is None or value < self.below) and value <= (self.maximum or math.inf)
         if within and not (self.nonzero and value == 0):
             return None
-        noun, least = (
+        noun, minimum = (
             units.NOUNS[self.dimension],
             self.minimum if self.above is None else self.above,
         )
         most = self.below or self.maximum
         if most is not None and self.above is not None:
-            told = (
+            message = (
                 _("{noun} above {low} and below {high}")
                 if self.below
                 else _("{noun} above {low}, up to {high}")
             )
-            return told.format(noun=noun, low=f"{self.above:g}", high=units.format(most, self.dimension))
+            return message.format(noun=noun, low=f"{self.above:g}", high=units.format(most, self.dimension))
         if self.maximum is not None:
-            low, high = (units.format(each, self.dimension) for each in (least or 0.0, self.maximum))
+            low, high = (units.format(each, self.dimension) for each in (minimum or 0.0, self.maximum))
             return _("{noun} from {low} to {high}", noun=noun, low=low, high=high)
         if self.below is not None:
             unit = "deg" if self.dimension == "angle" else None
-            low, high = (units.format(each, self.dimension, unit) for each in (least or 0.0, self.below))
+            low, high = (units.format(each, self.dimension, unit) for each in (minimum or 0.0, self.below))
             return _(
                 "{noun} from {low} to below {high}", code="model.from_to_below", noun=noun, low=low, high=high
             )
-        if least is None:
+        if minimum is None:
             return _("{noun} other than zero", code="model.not_zero", noun=noun)
-        shown = units.format(least, self.dimension) if least else pgettext("model", "zero")
+        shown = units.format(minimum, self.dimension) if minimum else pgettext("model", "zero")
         return (
             _("{noun} of {limit} or more", code="model.or_more")
             if self.above is None
@@ -233,8 +233,8 @@ class Number(Quantity):
         with suppress(ValueError):
             if math.isfinite(found := float(text)):
                 return found
-        told = _('"{text}" is no number; write it with a point and without a unit, such as 0.9', text=text)
-        reader.error(node, place, told, "", "type")
+        message = _('"{text}" is no number; write it with a point and without a unit, such as 0.9', text=text)
+        reader.error(node, place, message, "", "type")
         return None
 
     def shape(self) -> Schema:
@@ -315,18 +315,18 @@ class WordedText(Text):
         if not isinstance(node, MappingNode) or not node.entries:
             return super().read(reader, node, place, siblings)
         texts = reader.table(node, place, _IN_LANGUAGES) or {}
-        said = {language: text for language, text in texts.items() if text}
-        return Worded(said) if said else None
+        given_texts = {language: text for language, text in texts.items() if text}
+        return Worded(given_texts) if given_texts else None
 
     def shape(self) -> Schema:
         texts = {language: field.shape() for language, field in _IN_LANGUAGES.items()}
-        given: Schema = {
+        by_language: Schema = {
             "type": "object",
             "properties": texts,
             "additionalProperties": False,
             "minProperties": 1,
         }
-        return {"anyOf": [super().shape(), given]}
+        return {"anyOf": [super().shape(), by_language]}
 
     def written(self, value: Any) -> Any:
         return dict(value.texts) if isinstance(value, Worded) else value
@@ -350,7 +350,7 @@ class Word(Field):
 
 @dataclass(frozen=True)
 class Free(Field):
-    """A free mapping that is kept and not interpreted; ``section``: the key under which a command's room declares
+    """A free mapping that is stored and not interpreted; ``section``: the key under which a command's room declares
     what it reads in it."""
 
     section: str = ""
@@ -365,7 +365,7 @@ class Free(Field):
 
 @dataclass(frozen=True)
 class Count(Field):
-    """A whole number that must be a given one, such as the version of the format."""
+    """An integer with one allowed value, such as the version of the format."""
 
     only: int
 
@@ -448,7 +448,7 @@ class TimeTable(Field):
         )
         if way == "periodic" and abs(turns - (round(turns) if self.dimension == "angle" else 0)) > 1e-6:
             problem = (
-                _("a periodic table must end where it begins (or whole turns further)")
+                _("a periodic table must end where it begins (or full turns further)")
                 if self.dimension == "angle"
                 else _("a periodic table must end where it begins")
             )

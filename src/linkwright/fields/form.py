@@ -1,4 +1,4 @@
-"""What a key of a model file may hold, in words: said from its JSON Schema, so of every kind of field."""
+"""Descriptions of what a key of a model file may hold, from its JSON Schema."""
 
 from __future__ import annotations
 
@@ -51,8 +51,8 @@ def form(shape: Mapping[str, Any]) -> Message:
             return _NAMES[what]
         case {"anyOf": several}:
             return _("one of these forms: {several}", several=[form(each) for each in several])
-        case {"items": item, "minItems": least, "maxItems": most} if least == most:
-            return _("a list of {count}: {item}", count=least, item=form(item))
+        case {"items": item, "minItems": fewest, "maxItems": most} if fewest == most:
+            return _("a list of {count}: {item}", count=fewest, item=form(item))
         case {"items": item}:
             return _("a list: {item}", item=form(item))
         case {"additionalProperties": Mapping() as item}:
@@ -60,7 +60,7 @@ def form(shape: Mapping[str, Any]) -> Message:
         case {"properties": Mapping() as inner}:
             return _("a mapping with keys of {names}", names=tuple(inner))
         case {"type": "integer"}:
-            return _("a whole number")
+            return _("an integer")
         case {"type": ["string", "number"]}:
             return _("a number or a quantity")
         case {"type": "string"}:

@@ -81,7 +81,7 @@ class Mapping(Node):
 
 
 class Section(FrozenDict[str, Any]):
-    """A section that is kept as plain data, with its ``node`` and the reader's ``source``; a copy is data alone."""
+    """A section that is stored as plain data, with its ``node`` and the reader's ``source``; a copy is data alone."""
 
     def __init__(self, values: abc.Mapping[str, Any], node: Mapping, source: str) -> None:
         super().__init__(frozen(values))
@@ -120,7 +120,7 @@ def towards(node: Node | None, path: str) -> Node | None:
 
 
 def located(finding: Finding, root: Node | None, name: str) -> Finding:
-    """A finding with line and column where its key stands in the text of a root, unless it has them."""
+    """A finding with line and column of its key in the text of a root, unless it has them."""
     node = towards(root, finding.key) if finding.key and not _PLACED.search(finding.where) else None
     return finding if node is None else replace(finding, where=f"{name}:{node.line + 1}:{node.column + 1}")
 

@@ -22,10 +22,10 @@ K = TypeVar("K", bound="Kind")
 
 @dataclass(frozen=True)
 class Saying:
-    """What a section says of its own instead of a general sentence: a code, and the sentence from the values."""
+    """A section's own message in place of a general one: its code, and the message made from the values."""
 
     code: str
-    said: Callable[..., Message]
+    message: Callable[..., Message]
 
 
 #: Sayings by the keys of the general sentences.
@@ -34,7 +34,7 @@ Sayings = Mapping[str, Saying]
 
 @dataclass(frozen=True)
 class Place:
-    """Where a value stands: ``key`` in the file, ``address`` among the mechanism's dimensions."""
+    """Location of a value: ``key`` in the file, ``address`` among the mechanism's dimensions."""
 
     key: str
     address: str

@@ -260,7 +260,7 @@ class OutputName(Field):
 
 
 def sliding(joints: Iterable[tuple[str, str, str]], links: Collection[str]) -> dict[str, str]:
-    """What means a displacement, to the joint that has it: joints that slide, given with guide and block, but for
+    """Names that mean a displacement, with the joint that has it: joints that slide, with guide and block, but for
     those with the name of a link, and links that slide along the frame."""
     found: dict[str, str] = {}
     for name, guide, block in joints:
@@ -274,7 +274,7 @@ def sliding(joints: Iterable[tuple[str, str, str]], links: Collection[str]) -> d
 def resolve_output(
     text: str, links: Mapping[str, Collection[str]], slides: Mapping[str, str]
 ) -> Output | None:
-    """The place over the cycle that a text means, given each link's points and what means a displacement; None where
+    """The place over the cycle that a text means, by each link's points and names of displacements; None where
     it means none. ``jaw`` or ``jaw.angle``, ``guide`` or ``guide.displacement``, ``C.x`` or ``C.position.x``."""
     owner, _unused, part = text.rpartition(".")
     name = owner if part == "displacement" else text

@@ -68,7 +68,7 @@ SHEET: Mapping[str, Field] = {
 
 @dataclass(frozen=True)
 class SheetSection(Free):
-    """The section ``sheet``: kept as it stands, checked by its keys."""
+    """The section ``sheet``: stored as written, checked by its keys."""
 
     def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         return (

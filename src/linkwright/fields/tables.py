@@ -18,7 +18,7 @@ Make = Callable[..., Any]
 
 #: More positions or machines than one computer takes at once.
 MOST = 10_000_000
-_WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
+_INTEGER = re.compile(r"[+-]?[0-9]{1,18}")
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,7 @@ class Listed(Field):
 
 @dataclass(frozen=True)
 class Either(Field):
-    """A short form for a single value, or a table; one field where it stands, the other where a mapping does."""
+    """A short form for a single value, or a table: one field for a value, the other for a mapping."""
 
     short: Field
     table: Field
@@ -157,7 +157,7 @@ PAIRS = ByAddress(Line())
 
 @dataclass(frozen=True)
 class Value(Line):
-    """A text or a number, kept as plain data: a bare number is one in SI."""
+    """A text or a number, stored as plain data: a bare number is one in SI."""
 
     def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         return None if super().read(reader, node, place, siblings) is None else reader.free(node)
@@ -186,7 +186,7 @@ class Integer(Field):
         text = reader.text(node, place)
         if text is None:
             return None
-        if _WHOLE.fullmatch(text.strip()) and self.minimum <= int(text) <= self.maximum:
+        if _INTEGER.fullmatch(text.strip()) and self.minimum <= int(text) <= self.maximum:
             return int(text)
         message = _(
             '"{text}" is not an integer from {minimum} to {maximum}',

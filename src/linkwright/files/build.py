@@ -85,8 +85,8 @@ class Model:
     ) -> None:
         """Turn a link about a pin by a law, by its keys in a file: constant ``speed`` (rad/s) from ``start`` (rad),
         an expression ``position``, a ``table``."""
-        given = _present(relative_to=relative_to, **law)
-        self._section("drivers", name, {"turn": link, "about": about, **given})
+        keys = _present(relative_to=relative_to, **law)
+        self._section("drivers", name, {"turn": link, "about": about, **keys})
 
     def slide(self, joint: str, *, name: str = "driver", **law: Any) -> None:
         """Drive a prismatic joint by a law, by its keys in a file: constant ``speed`` (m/s) from ``start`` (m),
@@ -113,9 +113,9 @@ class Model:
         self._data["cycle"] = {keys.get(key, key): value for key, value in values.items()}
 
     def load(self, name: str, kind: str, **fields: Any) -> None:
-        """A load of a registered kind, by the keys of a file (``from_`` stands for ``from``)."""
-        given = {key.rstrip("_"): value for key, value in fields.items()}
-        self._section("loads", name, {"kind": kind, **given})
+        """A load of a registered kind, by the keys of a file (``from_`` is written for ``from``)."""
+        keys = {key.rstrip("_"): value for key, value in fields.items()}
+        self._section("loads", name, {"kind": kind, **keys})
 
     def outputs(self, **formulas: str) -> None:
         """Outputs with names of their own, by formulas of places and rates: ``gap="guide - 0.18 m*wheel"``."""

@@ -1,4 +1,4 @@
-"""Checks of the model as a whole: what is used nowhere, not joined, or probably misspelt."""
+"""Checks across the model: what is used nowhere, not joined, or probably misspelt."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ MOST_PAIRED = 32
 SAME_ANGLE = 1e-3
 
 
-def check_whole(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
-    """Add the findings that concern the model as a whole."""
+def check_mechanism(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    """Add the findings that concern the complete model."""
     _unused_parameters(reader, root, mechanism)
     if not _all_read(reader, root, mechanism):
         return
@@ -75,7 +75,7 @@ def _lonely_links(reader: Reader, root: MappingNode, mechanism: Mechanism) -> No
                 key,
                 _('the link "{name}" is used nowhere: no other link has one of its points ({points})'),
                 "unused",
-                _("name a shared point alike on both links, or remove the link"),
+                _("give a shared point the same name on both links, or remove the link"),
                 name=name,
                 points=points,
             )
@@ -101,8 +101,8 @@ def _islands(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
             for link in joint.joined
             if link not in reached
         }
-    apart = [name for name in mechanism.links if name not in reached]
-    joined = [name for name in apart if any(name in joint.joined for joint in mechanism.joints.values())]
+    unreached = [name for name in mechanism.links if name not in reached]
+    joined = [name for name in unreached if any(name in joint.joined for joint in mechanism.joints.values())]
     if joined and not reader.names.incomplete:
         reader.finding(
             below(root, "links", joined[0]),
@@ -122,17 +122,17 @@ def _near_points(reader: Reader, root: MappingNode, mechanism: Mechanism) -> Non
     for name, link in mechanism.links.items():
         own = set(link.points)
         for point in link.points:
-            alike = sorted(folded[point.casefold()] - own)
-            if alike and reader.names.owners(point) == [name]:
+            similar = sorted(folded[point.casefold()] - own)
+            if similar and reader.names.owners(point) == [name]:
                 reader.finding(
                     below(root, "links", name),
                     f"links.{name}.points",
-                    _('"{point}" is on this link only, and there is a point "{alike}"'),
+                    _('"{point}" is on this link only, and there is a point "{similar}"'),
                     "near-name",
-                    _("write both alike if one point is meant"),
+                    _("write the same name on both if one point is meant"),
                     severity="warning",
                     point=point,
-                    alike=alike[0],
+                    similar=similar[0],
                 )
 
 
@@ -144,10 +144,10 @@ def _guides_at_odds(reader: Reader, root: MappingNode, mechanism: Mechanism) -> 
     """
     carriers = {guide.guide for guide in mechanism.guides.values()}
     for name, block, off in guides_at_odds(mechanism):
-        key, given = f"joints.{name}.block_angle", below(root, "joints", name, "block_angle")
-        if given is None and len(mechanism.links[block].points) == 1 and block not in carriers:
+        key, angle_node = f"joints.{name}.block_angle", below(root, "joints", name, "block_angle")
+        if angle_node is None and len(mechanism.links[block].points) == 1 and block not in carriers:
             continue
-        node = given or below(root, "joints", name)
+        node = angle_node or below(root, "joints", name)
         fitting = math.remainder(mechanism.guides[name].block_angle + off, math.tau)
         reader.finding(
             node,
@@ -201,13 +201,15 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
             continue
         if link.mass:
             radius = math.sqrt(link.inertia / link.mass)
-            said = _(
+            sentence = _(
                 "with {mass} kg the radius of gyration is {radius} m",
                 mass=number(link.mass, 6),
                 radius=number(radius, 4),
             )
             problem = _(
-                "{said}, more than twice the link's size of {size} m", said=said, size=number(size, 4)
+                "{sentence}, more than twice the link's size of {size} m",
+                sentence=sentence,
+                size=number(size, 4),
             )
         else:
             problem = _("a link without mass has a moment of inertia", code="model.inertia_without_mass")
@@ -223,14 +225,14 @@ def _discs(mechanism: Mechanism, link: str) -> list[float]:
 
 
 def _unsaid(*_: object, **__: object) -> None:
-    """Findings that are told when the whole model is read."""
+    """Findings that are reported when all of the model is read."""
 
 
 def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
     """Links that turn and have a mass, but no word about their moment of inertia, which then counts as zero."""
     sliding = _sliding(mechanism)
     for name, link in mechanism.links.items() if mechanism.drivers else ():
-        if len(link.points) == 1 and reader.error_count:  # a block whose guide is not told, perhaps
+        if len(link.points) == 1 and reader.error_count:  # perhaps a block whose guide is not named
             continue
         if name in sliding or not link.mass or below(root, "links", name, "inertia"):
             continue

@@ -84,8 +84,8 @@ class _Composer:
 
     def remark(self, mark: Any, message: Message, remedy: Message, code: str, **values: object) -> None:
         """Note a remark with the values of its texts."""
-        told, what_to_do = message.format(**values), remedy.format(**values)
-        self.remarks.append(Remark(mark.line, mark.column, told, what_to_do, code, ".".join(self.path)))
+        text, what_to_do = message.format(**values), remedy.format(**values)
+        self.remarks.append(Remark(mark.line, mark.column, text, what_to_do, code, ".".join(self.path)))
 
     def documents(self, next_event: Callable[[], Any]) -> None:
         self.next, count = next_event, 0
@@ -153,7 +153,7 @@ class _Composer:
             self.grow(start, size)
             return node
         problem = (
-            _('the alias "*{name}" stands inside its own anchor')
+            _('the alias "*{name}" is inside its own anchor')
             if name in self.open
             else _('the alias "*{name}" has no anchor "&{name}" before it')
         )
@@ -199,7 +199,7 @@ class _Composer:
     def mapping(self, event: Any, depth: int) -> Mapping:
         start = event.start_mark
         found = Mapping(start.line, start.column, start.index, start.index, [], event.flow_style)
-        seen: dict[str, Entry] = {}
+        first: dict[str, Entry] = {}
         merged: list[Node] = []
         while type(inner := self.next()) is not MappingEndEvent:
             key = self.node(inner, depth + 1)
@@ -208,24 +208,24 @@ class _Composer:
             if isinstance(key, Scalar) and key.text == "<<" and key.plain:
                 merged.append(value)
             else:
-                self.entry(found, key, value, seen)
+                self.entry(found, key, value, first)
             self.path.pop()
         found.end = inner.end_mark.index
         for value in merged:
             self.merge(found, value)
         return found
 
-    def entry(self, found: Mapping, key: Node, value: Node, seen: dict[str, Entry]) -> None:
+    def entry(self, found: Mapping, key: Node, value: Node, known: dict[str, Entry]) -> None:
         nothing = isinstance(value, Scalar) and value.empty
         if isinstance(key, Scalar) and key.plain and key.text.endswith(":") and nothing:
             key.text = key.text.rstrip(":")
         if not isinstance(key, Scalar):
             self.remark(key, _("a key must be a single word"), _("write key: value"), "key")
-        elif first := seen.get(key.text):
+        elif first := known.get(key.text):
             self.remark(
                 key,
-                _('the key "{text}" is given twice'),
-                _("it stands in line {line} already; remove or rename one"),
+                _('duplicate key "{text}"'),
+                _("it is already in line {line}; remove or rename one"),
                 "duplicate-key",
                 text=key.text,
                 line=first.key.line + 1,
@@ -235,8 +235,8 @@ class _Composer:
             else:
                 found.repeated.append(Entry(key, value))
         else:
-            seen[key.text] = Entry(key, value)
-            found.entries.append(seen[key.text])
+            known[key.text] = Entry(key, value)
+            found.entries.append(known[key.text])
 
     def merge(self, found: Mapping, value: Node) -> None:
         have = {entry.key.text for entry in found.entries}

@@ -65,7 +65,7 @@ class Document:
         )
 
     def set(self, address: str, value: str) -> None:
-        """Write ``value`` (the text that stands in the file, such as ``"1.3 m"``) at a place of the file.
+        """Write ``value`` (as text of the file, such as ``"1.3 m"``) at a place of the file.
 
         ``address`` is a dimension's address (``crank.length``) or a path of keys (``links.crank.length``). A last
         key that is not there yet is added. Raises ModelError, and changes nothing, where the new text is not a
@@ -106,7 +106,7 @@ class Document:
         )
 
     def place(self, address: str) -> tuple[int, int] | None:
-        """Where the value at an address stands in the text: its first offset and the one behind it; None where the
+        """Span of the value at an address in the text: its first offset and the one behind it; None where the
         file has no such place."""
         root = self._tree
         offset = 1 if self.text.startswith("\ufeff") else 0
@@ -134,7 +134,7 @@ class Document:
         return self._composed[1]
 
     def save(self, path: str | Path, *, force: bool = False) -> None:
-        """Write the text to a file, whole or not at all.
+        """Write the text to a file, atomically.
 
         Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
         """

@@ -1,4 +1,4 @@
-"""Parts of a model that stand at another level than their own: each is told once, and read where it belongs."""
+"""Parts of a model at a wrong level: each is reported once, and read as if it were where it belongs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from linkwright.words import _
 
 #: Keys under which a list of elements gives their names.
 NAMED = ("name", "id")
-#: Keys of elements, by which one is told from a section of that name.
+#: Keys of elements, by which one is distinguished from a section of that name.
 OWN = ("points", "kind", "also")
 
 
@@ -88,14 +88,14 @@ def _raised(reader: PlainReader, root: MappingNode) -> MappingNode:
             reader.finding(
                 each.key,
                 key,
-                _('the section "{section}" stands within "{within}"'),
+                _('the section "{section}" is inside "{within}"'),
                 "misplaced",
                 _('begin the line "{section}:" where "{within}:" begins'),
                 section=each.key.text,
                 within=where,
             )
-        kept = [each for each in inner.entries if each not in deep]
-        entries.append(Entry(entry.key, replace(inner, entries=kept)) if deep else entry)
+        remaining = [each for each in inner.entries if each not in deep]
+        entries.append(Entry(entry.key, replace(inner, entries=remaining)) if deep else entry)
         raised += deep
     return replace(root, entries=[*entries, *raised]) if raised else root
 
@@ -111,19 +111,19 @@ def _named(reader: PlainReader, root: MappingNode) -> MappingNode:
         value = entry.value
         if entry.key.text in ELEMENTS and isinstance(value, Sequence):
             named = [_by_name(item) for item in value.items]
-            whole = [each for each in named if each is not None]
-            if whole and len(whole) == len(named):
-                section, first = entry.key.text, whole[0].key.text
+            complete = [each for each in named if each is not None]
+            if complete and len(complete) == len(named):
+                section, first = entry.key.text, complete[0].key.text
                 reader.finding(
                     value,
                     section,
-                    _('"{section}" holds a list, where each entry stands under its name'),
+                    _('"{section}" is a list; expected a mapping with each entry under its name'),
                     "type",
                     _("write {first}: {{…}} in place of - {{name: {first}, …}}"),
                     section=section,
                     first=first,
                 )
-                table = MappingNode(value.line, value.column, value.start, value.end, whole)
+                table = MappingNode(value.line, value.column, value.start, value.end, complete)
                 entry = Entry(entry.key, table)
         entries.append(entry)
     return replace(root, entries=entries)
@@ -135,17 +135,21 @@ def _sorted(reader: PlainReader, root: MappingNode) -> MappingNode:
     for entry in root.entries:
         table = entry.value
         if entry.key.text in ("frame", *ELEMENTS) and isinstance(table, MappingNode):
-            kept = list[Entry]()
+            remaining = list[Entry]()
             for section, run in groupby(
                 table.entries, partial(_belongs, within=entry.key.text, there=present)
             ):
                 found = [*run]
                 if section:
-                    moved.setdefault(section, []).extend(_told(reader, found, section, entry.key.text))
+                    moved.setdefault(section, []).extend(
+                        _report_misplaced(reader, found, section, entry.key.text)
+                    )
                 else:
-                    kept += found
+                    remaining += found
             entry = (
-                Entry(entry.key, replace(table, entries=kept)) if len(kept) < len(table.entries) else entry
+                Entry(entry.key, replace(table, entries=remaining))
+                if len(remaining) < len(table.entries)
+                else entry
             )
         entries.append(entry)
     for section, more in moved.items():
@@ -168,15 +172,15 @@ def _belongs(entry: Entry, *, within: str, there: Set[str]) -> str:
     return "" if section == within else section
 
 
-def _told(reader: PlainReader, found: list[Entry], section: str, within: str) -> list[Entry]:
-    """Elements out of place after each other, told once; without the line of their section itself."""
+def _report_misplaced(reader: PlainReader, found: list[Entry], section: str, within: str) -> list[Entry]:
+    """Adjacent misplaced elements, reported once; without the line of their section itself."""
     first, elements = found[0].key, [each for each in found if isinstance(each.value, MappingNode)]
     key = f"{within}.{first.text}"
     if len(elements) < len(found):
         reader.finding(
             first,
             key,
-            _('the section "{section}" stands within "{within}"'),
+            _('the section "{section}" is inside "{within}"'),
             "misplaced",
             _('begin the line "{section}:" where "{within}:" begins'),
             section=section,
@@ -187,7 +191,7 @@ def _told(reader: PlainReader, found: list[Entry], section: str, within: str) ->
         reader.finding(
             first,
             key,
-            _('in "{within}" stands what belongs in "{section}": {names}'),
+            _('"{within}" contains what belongs in "{section}": {names}'),
             "misplaced",
             _('write the line "{section}:" above the first of them, or move them there'),
             names=names,
@@ -198,7 +202,7 @@ def _told(reader: PlainReader, found: list[Entry], section: str, within: str) ->
 
 
 def _indented(reader: PlainReader, root: MappingNode) -> MappingNode:
-    """With the keys of links, joints and loads that stand beside the element above them, not in it."""
+    """With the keys of links, joints and loads that are at the level of the element above them, not in it."""
     entries = list[Entry]()
     for entry in root.entries:
         value, section = entry.value, entry.key.text
@@ -223,7 +227,7 @@ def _deepened(reader: PlainReader, entries: list[Entry], section: str) -> list[E
         reader.finding(
             entry.key,
             at,
-            _('"{key_}" stands beside "{name}", not in it'),
+            _('"{key_}" is at the level of "{name}", not in it'),
             "misplaced",
             _('indent it further than "{name}:"'),
             name=name,
@@ -260,7 +264,7 @@ def _by_name(item: Node) -> Entry | None:
 
 
 def _lowered(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> MappingNode:
-    """With the elements that stand beside their section."""
+    """With the elements that are at the level of their section."""
     lowered: dict[str, list[Entry]] = {}
     entries = list[Entry]()
     for entry in root.entries:
@@ -272,7 +276,7 @@ def _lowered(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> 
         reader.finding(
             entry.key,
             name,
-            _('"{name}" stands beside the section "{section}", not in it'),
+            _('"{name}" is at the level of the section "{section}", not in it'),
             "misplaced",
             _('indent it below "{section}:"'),
             name=name,

@@ -31,14 +31,14 @@ def load(source: str | Path) -> Mechanism:
 
 
 def loads(text: str, name: str = "<text>") -> Mechanism:
-    """The mechanism in the text of a model file; ``name`` stands for the file in findings.
+    """The mechanism in the text of a model file; findings name ``name`` as the file.
 
     Raises ModelError with all findings where the text cannot be used.
     """
     if not isinstance(text, str):
         raise RequestError(
             _(
-                "the text of a model is needed, not {found}; files are read by lw.load",
+                "expected the text of a model, not {found}; files are read by lw.load",
                 code="given_instead.no_text",
                 found=describe(text),
             )

@@ -20,7 +20,7 @@ from linkwright.units import decimal_comma
 from linkwright.words import Message, _
 
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
-_WHOLE = re.compile(r"[+-]?\d{1,18}")
+_INTEGER = re.compile(r"[+-]?\d{1,18}")
 NAME = re.compile(r"[^\W\d][\w'-]*")
 
 _NOTHING: Mapping[str, str] = {}
@@ -47,18 +47,18 @@ def as_meant(mapping: MappingNode, known: Collection[str]) -> MappingNode:
 
 def _split_by_commas(texts: list[str]) -> bool:
     """Whether a number among these was written with a decimal comma: ``60,5 mm``, ``0,5 mm``."""
-    whole = [bool(re.fullmatch(r"[+-]?\d+", text)) for text in texts]
+    integers = [bool(re.fullmatch(r"[+-]?\d+", text)) for text in texts]
     rest = [re.match(r"\d+\s*[^\s\d.]", text) is not None for text in texts]
     zeros = [text.lstrip("+-") == "0" for text in texts]
-    return not all(whole) and any(
+    return not all(integers) and any(
         first and (not zero or second)
-        for first, zero, second in zip(whole, zeros, [*rest[1:], False], strict=True)
+        for first, zero, second in zip(integers, zeros, [*rest[1:], False], strict=True)
     )
 
 
-def meant_kind(said: Node | None, kinds: Mapping[str, object]) -> str | None:
+def meant_kind(kind: Node | None, kinds: Mapping[str, object]) -> str | None:
     """The kind that a text names, or probably means."""
-    text = said.text if isinstance(said, Scalar) else ""
+    text = kind.text if isinstance(kind, Scalar) else ""
     return text if text in kinds else nearest(text[:100], list(kinds), PROBABLE) if text else None
 
 
@@ -76,12 +76,12 @@ class PlainReader:
 
     @property
     def error_count(self) -> int:
-        """How many errors were found so far, and values ``unread`` by an error that is told elsewhere."""
+        """How many errors were found so far, and values ``unread`` by an error that is reported elsewhere."""
         return self.unread + sum(finding.severity == "error" for finding in self.findings)
 
     @contextmanager
     def saying(self, own: Sayings) -> Iterator[None]:
-        """Within it a section's own sentences are said instead of the general ones."""
+        """Within it a section's own messages replace the general ones."""
         before, self._own = self._own, {**self._own, **own}
         yield
         self._own = before
@@ -131,10 +131,10 @@ class PlainReader:
         if general in self._own:
             own = self._own[general]
             name = (place if isinstance(place, str) else place.key).rpartition(".")[2]
-            self.error(node, place, own.said(**{"key_": name, **values}), "", own.code, severity=severity)
+            self.error(node, place, own.message(**{"key_": name, **values}), "", own.code, severity=severity)
             return
-        told = remedy.format(**values) if isinstance(remedy, Message) else remedy
-        self.error(node, place, message.format(**values), told, code, severity=severity)
+        advice = remedy.format(**values) if isinstance(remedy, Message) else remedy
+        self.error(node, place, message.format(**values), advice, code, severity=severity)
 
     def where(self, node: Node | None, column: int = 0) -> str:
         """The place of a node as ``file:line:column``."""
@@ -151,7 +151,7 @@ class PlainReader:
         self.finding(
             node,
             place,
-            _("{node} stands where a mapping (key: value) is needed"),
+            _("expected a mapping (key: value), not {node}"),
             "type",
             _("write {{key: value, …}} or indented lines key: value"),
             general="where_mapping",
@@ -160,12 +160,12 @@ class PlainReader:
         return None
 
     def items(self, node: Node, place: Place | str, count: int | None, form: str) -> list[Node] | None:
-        """The items of a list, of a given count where there is one; ``form`` is an example."""
+        """The items of a list, of ``count`` if that is not None; ``form`` is an example."""
         if not isinstance(node, Sequence):
             self.finding(
                 node,
                 place,
-                _("{node} stands where a list is needed"),
+                _("expected a list, not {node}"),
                 "type",
                 _("write it as {form}", form=form),
                 general="where_list",
@@ -186,10 +186,10 @@ class PlainReader:
         self.finding(
             node,
             place,
-            _("the number of values is {given}, not {count} as needed"),
+            _("expected {count} values, found {found}"),
             code,
             remedy,
-            given=len(node.items),
+            found=len(node.items),
             count=count,
         )
         return None
@@ -201,7 +201,7 @@ class PlainReader:
         self.finding(
             node,
             place,
-            _("{node} stands where a text is needed"),
+            _("expected a text, not {node}"),
             "type",
             _("write a name or a text"),
             general="where_text",
@@ -248,23 +248,23 @@ class PlainReader:
         self, node: Node, place: Place, kinds: Mapping[str, type[K]], missing: Message, remedy: Message
     ) -> tuple[MappingNode, type[K], dict[str, Any]] | None:
         """A table, what its key ``kind`` names or probably means, and its values by the fields of that kind, as far
-        as they are given; ``missing``, ``remedy``: the sentences where there is no kind."""
+        as they are written; ``missing``, ``remedy``: the sentences where there is no kind."""
         table = self.mapping(node, place)
         if table is None:
             return None
         table = self._with_kind(table, place)
-        said = table.get("kind")
-        if said is None:
-            told = remedy.format(kinds=tuple(kinds))
-            self.error(table, place.child("kind"), missing, told, "missing-key")
+        kind_node = table.get("kind")
+        if kind_node is None:
+            advice = remedy.format(kinds=tuple(kinds))
+            self.error(table, place.child("kind"), missing, advice, "missing-key")
             return None
-        self.word(said, place.child("kind"), kinds)
-        kind = meant_kind(said, kinds)
+        self.word(kind_node, place.child("kind"), kinds)
+        kind = meant_kind(kind_node, kinds)
         if kind is None:
             return None
         table, found = self._fields(table, place, {"kind": Text(), **kinds[kind].fields()})
-        given = {key: value for key, value in found.items() if key != "kind" and value is not None}
-        return table, kinds[kind], given
+        values = {key: value for key, value in found.items() if key != "kind" and value is not None}
+        return table, kinds[kind], values
 
     def _with_kind(self, table: MappingNode, place: Place) -> MappingNode:
         """The table; without a ``kind``, with a key that is nearly it in its place, which is a finding."""
@@ -350,7 +350,7 @@ class PlainReader:
         before, unread = len(self.findings), self.unread
         each, at = fields[missing[0]], place.child(missing[0])
         value = each.read(cast(Reader, self), unknown[0].value, at, {})
-        fits = value is not None or {told.code for told in self.findings[before:]} == {"unknown-name"}
+        fits = value is not None or {finding.code for finding in self.findings[before:]} == {"unknown-name"}
         del self.findings[before:]
         self.unread = unread
         return {unknown[0].key.text: missing[0]} if fits else {}
@@ -366,7 +366,7 @@ class PlainReader:
         """
         present = {entry.key.text for entry in mapping.entries}
         split: set[str] = set()
-        kept = list(mapping.entries)
+        remaining = list(mapping.entries)
         for index, entry in enumerate(mapping.entries):
             key = entry.key.text
             if key in known:
@@ -375,7 +375,7 @@ class PlainReader:
                 break
             if (joined := self._joined(entry, place, known)) is not None:
                 split.add(joined)
-                kept.remove(entry)
+                remaining.remove(entry)
                 continue
             before = mapping.entries[index - 1] if index else None
             if before is not None and self._comma(before, entry, place):
@@ -397,11 +397,11 @@ class PlainReader:
                 key_=key[:100],
                 names=tuple(known),
             )
-        mapping = replace(mapping, entries=kept)
+        mapping = replace(mapping, entries=remaining)
         return mapping if self.full else as_meant(mapping, known), split
 
     def _joined(self, entry: Entry, place: Place, known: list[str]) -> str | None:
-        """The known key whose value stands behind it without a space after the colon, behind another sign or none."""
+        """The known key whose value follows it without a space after the colon, after another sign or none."""
         found = re.fullmatch(r"(\w+)(?:\s*[:=：]\s*|\s+(?=[+-]?\.?\d))(\S.*)", entry.key.text)
         if found is None or found[1] not in known or not isinstance(entry.value, Scalar):
             return None
@@ -422,13 +422,13 @@ class PlainReader:
         return key
 
     def _comma(self, before: Entry, entry: Entry, place: Place) -> bool:
-        whole, rest = before.value, entry.key.text
-        if not (isinstance(whole, Scalar) and isinstance(entry.value, Scalar) and entry.value.empty):
+        number, rest = before.value, entry.key.text
+        if not (isinstance(number, Scalar) and isinstance(entry.value, Scalar) and entry.value.empty):
             return False
-        if not re.fullmatch(r"[+-]?\d+", whole.text) or not re.match(r"\d", rest):
+        if not re.fullmatch(r"[+-]?\d+", number.text) or not re.match(r"\d", rest):
             return False
-        said = decimal_comma(f"{whole.text},{rest}")
-        self.error(whole, place.child(before.key.text), said.message, said.remedy, said.code)
+        problem = decimal_comma(f"{number.text},{rest}")
+        self.error(number, place.child(before.key.text), problem.message, problem.remedy, problem.code)
         return True
 
     def free(self, node: Node) -> Any:
@@ -445,6 +445,6 @@ class PlainReader:
         text = node.text
         if not (text[0].isdigit() or text[0] in "+-."):
             return text == "true" if text in ("true", "false") else text
-        if _WHOLE.fullmatch(text):
+        if _INTEGER.fullmatch(text):
             return int(text)
         return float(text) if NUMBER.fullmatch(text) else text

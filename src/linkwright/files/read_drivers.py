@@ -50,7 +50,7 @@ def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint])
     one, several = root.get("driver"), root.get("drivers")
     if one is not None and several is not None:
         reader.finding(
-            several, "drivers", _("driver and drivers are both given"), "choice", _("keep one of them")
+            several, "drivers", _("driver and drivers are both present"), "choice", _("keep one of them")
         )
     found: dict[str, Driver] = {}
     if one is not None:
@@ -114,7 +114,7 @@ def _read_driver(
     meant = as_meant(mapping, _every_key())
     turns, slides = (meant.get(key) is not None for key in ("turn", "slide"))
     if turns and slides:
-        reader.finding(node, place, _("turn and slide are both given"), "choice", _("keep one of them"))
+        reader.finding(node, place, _("turn and slide are both present"), "choice", _("keep one of them"))
         return None
     rotary = not slides
     way = TURN_FIELDS if rotary else SLIDE_FIELDS
@@ -123,14 +123,14 @@ def _read_driver(
     if not turns and not slides:
         _refuse_nothing_driven(reader, mapping, place)
         return None
-    given = reader.table(mapping, place, every) or {}
-    law = _read_law(reader, mapping, place, given, laws, rotary)
+    values = reader.table(mapping, place, every) or {}
+    law = _read_law(reader, mapping, place, values, laws, rotary)
     joint: tuple[str, str, str] | None = None
     if rotary:
-        joint = _revolute(reader, mapping, place, given)
-    elif given.get("slide") in joints:
-        guide, block = joints[given["slide"]].joined
-        joint = given["slide"], block, guide
+        joint = _revolute(reader, mapping, place, values)
+    elif values.get("slide") in joints:
+        guide, block = joints[values["slide"]].joined
+        joint = values["slide"], block, guide
     if joint is None or law is None or reader.error_count > before:
         return None
     return Driver(name, *joint, law)
@@ -139,7 +139,7 @@ def _read_driver(
 def _refuse_nothing_driven(reader: Reader, mapping: MappingNode, place: Place) -> None:
     """One finding, at the first key that would say it in other words, and those about the other unknown keys."""
     known = _every_key()
-    told = [
+    driven = [
         entry
         for entry in mapping.entries
         if isinstance(entry.value, Scalar)
@@ -147,9 +147,9 @@ def _refuse_nothing_driven(reader: Reader, mapping: MappingNode, place: Place) -
         and entry.key.text not in known
         and nearest(entry.key.text[:100], known) is None
     ]
-    others = [entry for entry in mapping.entries if entry not in told]
+    others = [entry for entry in mapping.entries if entry not in driven]
     reader.unknown_keys(replace(mapping, entries=others), place, known)
-    at = told[0].key if told else mapping
+    at = driven[0].key if driven else mapping
     remedy = _meant(reader, mapping) or _("add turn: LINK and about: PIN, or slide: JOINT")
     reader.finding(at, place, _("what the driver drives is missing"), "missing-key", remedy)
 
@@ -157,10 +157,12 @@ def _refuse_nothing_driven(reader: Reader, mapping: MappingNode, place: Place) -
 def _meant(reader: Reader, mapping: MappingNode) -> str:
     """What to write where a driver's keys or values name a link that a pin joins to the frame, or such a pin; else
     empty."""
-    told = {text for key, value in mapping for text in (key, value.text if isinstance(value, Scalar) else "")}
+    texts = {
+        text for key, value in mapping for text in (key, value.text if isinstance(value, Scalar) else "")
+    }
     for pin, links in reader.names.pins.items():
         link = next((each for each in links if each != "frame"), "")
-        if len(links) == 2 and "frame" in links and told & {pin, link}:
+        if len(links) == 2 and "frame" in links and texts & {pin, link}:
             return _("write turn: {link} and about: {pin}", code="model.turns_link", link=link, pin=pin)
     return ""
 
@@ -181,15 +183,15 @@ def _read_law(
     reader: Reader,
     node: MappingNode,
     place: Place,
-    given: Mapping[str, Any],
+    values: Mapping[str, Any],
     laws: Mapping[str, Mapping[str, Field]],
     rotary: bool,
 ) -> Law | None:
-    chosen = [key for key in laws if key in given]
+    chosen = [key for key in laws if key in values]
     if len(chosen) != 1:
         speed = "170 rpm" if rotary else "0.1 m/s"
         message = (
-            _("{laws} are both given", code="model.both_laws", laws=together(chosen))
+            _("{laws} are both present", code="model.both_laws", laws=together(chosen))
             if chosen
             else _("the driver has no law", code="model.no_law")
         )
@@ -202,7 +204,7 @@ def _read_law(
         )
         return None
     key = chosen[0]
-    foreign = [name for each in laws.values() for name in each if name in given and name not in laws[key]]
+    foreign = [name for each in laws.values() for name in each if name in values and name not in laws[key]]
     for name in foreign:
         reader.finding(
             node.get(name),
@@ -213,15 +215,15 @@ def _read_law(
             name=name,
             key_=key,
         )
-    if foreign or given.get(key) is None:
+    if foreign or values.get(key) is None:
         return None
-    return LAWS[key].from_values(given, rotary, reader.values)
+    return LAWS[key].from_values(values, rotary, reader.values)
 
 
 def _revolute(
-    reader: Reader, node: MappingNode, place: Place, given: Mapping[str, Any]
+    reader: Reader, node: MappingNode, place: Place, values: Mapping[str, Any]
 ) -> tuple[str, str, str] | None:
-    link, pin, other = given.get("turn"), given.get("about"), given.get("relative_to")
+    link, pin, other = values.get("turn"), values.get("about"), values.get("relative_to")
     if link is None or pin is None:
         return None
     owners = reader.names.pins[pin]
@@ -293,13 +295,13 @@ def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver])
     if node is None:
         return None
     before = reader.error_count
-    given = reader.table(node, Place("cycle", "cycle"), Cycle.fields(reader.input_dimension()))
-    if given is None or reader.error_count > before:
+    values = reader.table(node, Place("cycle", "cycle"), Cycle.fields(reader.input_dimension()))
+    if values is None or reader.error_count > before:
         return None
-    if set(given) not in map(set, CYCLE_FORMS):
-        problem = _("nothing is given")
-        if given:
-            problem = _("{given} is given", given=together(list(given)))
+    if set(values) not in map(set, CYCLE_FORMS):
+        problem = _("nothing is set")
+        if values:
+            problem = _("{keys} is set", keys=together(list(values)))
         reader.error(
             node,
             "cycle",
@@ -309,21 +311,21 @@ def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver])
         )
         return None
     law = next((driver.law for driver in drivers.values()), None)
-    if "duration" not in given and law is not None:
-        _check_range(reader, node, given, law)
-    return Cycle(given.get("duration"), given.get("from"), given.get("to"), given.get("turns"))
+    if "duration" not in values and law is not None:
+        _check_range(reader, node, values, law)
+    return Cycle(values.get("duration"), values.get("from"), values.get("to"), values.get("turns"))
 
 
-def _check_range(reader: Reader, node: Node, given: Mapping[str, float], law: Law) -> None:
-    word = "turns" if "turns" in given else _("from and to")
+def _check_range(reader: Reader, node: Node, values: Mapping[str, float], law: Law) -> None:
+    word = "turns" if "turns" in values else _("from and to")
     problem, remedy, code = None, _("give duration"), "choice"
     if law.constant_speed is None:
         problem = _("{word} needs a first driver of constant speed", word=word)
     elif law.constant_speed == 0:
         problem = _("{word} needs a speed other than zero", word=word)
-    elif "turns" in given and not law.rotary:
+    elif "turns" in values and not law.rotary:
         problem, remedy = _("the first driver does not turn"), _("give duration, or from and to")
-    elif "from" in given and (given["to"] - given["from"]) * law.constant_speed <= 0:
+    elif "from" in values and (values["to"] - values["from"]) * law.constant_speed <= 0:
         problem, remedy, code = (
             _("the driver does not move from the first value to the last", code="model.wrong_way"),
             _("exchange from and to, or turn the sign of the speed"),

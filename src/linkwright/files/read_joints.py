@@ -103,15 +103,15 @@ def _of_points(reader: Reader, table: MappingNode, place: Place) -> MappingNode:
     """A pin's table without the keys that would say what it joins or where, which are one finding."""
     known, names, pin = ["kind", *JOINTS[IMPLIED].fields()], reader.names, place.address
     points = {point for each in names.links.values() for point in each}
-    told = [
+    point_keys = [
         entry
         for entry in table.entries
         if nearest(entry.key.text[:100], known, PROBABLE) is None
         and (words := _texts(entry.value))
         and words <= {*names.links, *points}
     ]
-    if told:
-        joined = [link for link in names.links if any(link in _texts(each.value) for each in told)]
+    if point_keys:
+        joined = [link for link in names.links if any(link in _texts(each.value) for each in point_keys)]
         lacking = [each for each in joined if pin not in names.links[each]]
         remedy = (
             _(
@@ -123,10 +123,10 @@ def _of_points(reader: Reader, table: MappingNode, place: Place) -> MappingNode:
             if lacking
             else _('remove it: they have the point "{pin}" already')
         )
-        keys = tuple(each.key.text for each in told)
-        at = place.child(told[0].key.text)
+        keys = tuple(each.key.text for each in point_keys)
+        at = place.child(point_keys[0].key.text)
         reader.finding(
-            told[0].key,
+            point_keys[0].key,
             at,
             _("a pin joins the links that have a point of its name, and takes no key {keys}"),
             "unknown-key",
@@ -134,7 +134,7 @@ def _of_points(reader: Reader, table: MappingNode, place: Place) -> MappingNode:
             pin=pin,
             keys=keys,
         )
-    return replace(table, entries=[each for each in table.entries if each not in told])
+    return replace(table, entries=[each for each in table.entries if each not in point_keys])
 
 
 def _texts(node: Node) -> set[str]:

@@ -100,7 +100,7 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
             reader.finding(
                 value,
                 f"drawing.{name}",
-                _('"{name}" is a point of the frame and stands elsewhere there'),
+                _('"{name}" is a point of the frame with other coordinates'),
                 "conflict",
                 _("leave it out of the drawing"),
                 name=name,
@@ -132,20 +132,20 @@ def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[
             _("add one, such as crank: {{points: [O1, A], length: 0.1 m}}"),
         )
     if len(mapping.entries) > MOST_LINKS:
-        said = _(
+        message = _(
             "a model of {count} links; at most {most} are read", count=len(mapping.entries), most=MOST_LINKS
         )
-        reader.error(node, "links", said, _("split it up into machines of their own"), "many")
+        reader.error(node, "links", message, _("split it up into machines of their own"), "many")
         return {}
     links: dict[str, Link] = {}
-    seen = {**frame.points, **drawing}
+    known_points = {**frame.points, **drawing}
     for entry in mapping.entries:
         name = reader.name(entry.key, f"links.{entry.key.text}", _("link"))
         if name == "frame":
             reader.finding(
                 entry.key,
                 "links.frame",
-                _("the frame stands among the links"),
+                _("the frame is listed among the links"),
                 "name",
                 _("move it out of links, to a section of its own: frame: {{points: {{O1: [0 m, 0 m]}}}}"),
             )
@@ -159,7 +159,7 @@ def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[
                 name=name,
             )
         elif name is not None:
-            link = _read_link(reader, entry.value, name, seen)
+            link = _read_link(reader, entry.value, name, known_points)
             if link is not None:
                 links[name] = link
     return links
@@ -168,10 +168,10 @@ def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[
 def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]) -> Link | None:
     place = Place(f"links.{name}", name)
     before = reader.error_count
-    given = reader.table(node, place, LINK_FIELDS)
-    if given is None or given.get("points") is None:
+    values = reader.table(node, place, LINK_FIELDS)
+    if values is None or values.get("points") is None:
         return None
-    points = given["points"]
+    points = values["points"]
     if not points:
         if reader.error_count == before:
             reader.finding(
@@ -183,23 +183,23 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
             )
         return None
     assert isinstance(node, MappingNode)
-    placed = _place_points(reader, node, place, given, drawing) if reader.error_count == before else None
+    placed = _place_points(reader, node, place, values, drawing) if reader.error_count == before else None
     if placed is None:
         return None
     geometry, coordinates, lengths = placed
-    for point, position in (given.get("also") or {}).items():
+    for point, position in (values.get("also") or {}).items():
         if point in coordinates:
             reader.finding(
                 node.get("also"),
                 place.child("also"),
-                _('the point "{point}" is given twice'),
+                _('duplicate point "{point}"'),
                 "duplicate",
                 _("remove one"),
                 point=point,
             )
         coordinates[point] = position
     _coincident(reader, node, place, coordinates)
-    centre = given.get("mass_centre")
+    centre = values.get("mass_centre")
     if isinstance(centre, str) and not reader.point_of(
         node.get("mass_centre") or node, place.child("mass_centre"), centre, name
     ):
@@ -209,9 +209,9 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
         geometry,
         coordinates,
         lengths,
-        given.get("angle") or 0.0,
-        given.get("mass") or 0.0,
-        given.get("inertia") or 0.0,
+        values.get("angle") or 0.0,
+        values.get("mass") or 0.0,
+        values.get("inertia") or 0.0,
         centre,
     )
 
@@ -220,16 +220,16 @@ _Placed = tuple[Geometry, dict[str, Vec], tuple[float, ...]]
 
 
 def _place_points(
-    reader: Reader, node: MappingNode, place: Place, given: Mapping[str, Any], drawing: Mapping[str, Vec]
+    reader: Reader, node: MappingNode, place: Place, values: Mapping[str, Any], drawing: Mapping[str, Vec]
 ) -> _Placed | None:
-    """The way in which the geometry is given, and the points it places."""
-    points = given["points"]
-    sizes = [key for key in ("length", "lengths", "angle") if key in given]
+    """The form of the geometry, and the points it places."""
+    points = values["points"]
+    sizes = [key for key in ("length", "lengths", "angle") if key in values]
     wanted = None
     if isinstance(points, dict):
         if sizes:
             wanted = (
-                _("{size} stands next to coordinates", size=sizes[0]),
+                _("{size} is set in addition to coordinates", size=sizes[0]),
                 _("remove it, or list the points as [A, B]"),
             )
         else:
@@ -244,7 +244,7 @@ def _place_points(
             return "point", {points[0]: (0.0, 0.0)}, ()
     elif sizes == ["length"]:
         if len(points) == 2:
-            return "length", {points[0]: (0.0, 0.0), points[1]: (given["length"], 0.0)}, (given["length"],)
+            return "length", {points[0]: (0.0, 0.0), points[1]: (values["length"], 0.0)}, (values["length"],)
         wanted = (
             _("{count} points, but one length", code="model.one_length", count=len(points)),
             _(
@@ -254,7 +254,7 @@ def _place_points(
     elif not sizes:
         return _from_drawing(reader, node, place, points, drawing)
     elif sizes == ["lengths", "angle"] and len(points) == 3:
-        return _bent(given)
+        return _bent(values)
     else:
         wanted = (
             _("{sizes} with {count} points", sizes=together(sizes), count=len(points)),
@@ -264,10 +264,10 @@ def _place_points(
     return None
 
 
-def _bent(given: Mapping[str, Any]) -> _Placed:
-    first, second = given["lengths"]
-    corner, one, two = given["points"]
-    angle = given["angle"]
+def _bent(values: Mapping[str, Any]) -> _Placed:
+    first, second = values["lengths"]
+    corner, one, two = values["points"]
+    angle = values["angle"]
     arm = second * math.cos(angle), second * math.sin(angle)
     return "bent", {corner: (0.0, 0.0), one: (first, 0.0), two: arm}, (first, second)
 
@@ -303,18 +303,18 @@ def _from_drawing(
 
 
 def _coincident(reader: Reader, node: Node, place: Place, points: Mapping[str, Vec | None]) -> None:
-    seen: dict[Vec, str] = {}
+    first_at: dict[Vec, str] = {}
     for name, position in points.items():
-        if position is not None and position in seen:
+        if position is not None and position in first_at:
             reader.finding(
                 node,
                 place,
-                _("the points {seen} and {name} are at the same place"),
+                _("the points {first_at} and {name} are at the same place"),
                 "coincident",
                 _("give them different coordinates unless that is meant"),
                 severity="warning",
-                seen=seen[position],
+                first_at=first_at[position],
                 name=name,
             )
         elif position is not None:
-            seen[position] = name
+            first_at[position] = name

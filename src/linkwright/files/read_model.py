@@ -18,7 +18,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, below
 from linkwright.fields.reading import Place
 from linkwright.fields.sheet import FIELD as SHEET_SECTION
-from linkwright.files.check_mechanism import check_whole
+from linkwright.files.check_mechanism import check_mechanism
 from linkwright.files.misplaced import in_place
 from linkwright.files.node_reader import MODES
 from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
@@ -49,7 +49,7 @@ HEADER: Mapping[str, Field] = {
     ),
     "optimize": Free(
         section="optimize",
-        doc=_("what varies, what is made least and what is kept, for the command optimize"),
+        doc=_("variables, objectives and demands, for the command optimize"),
     ),
     "gravity": GRAVITY,
 }
@@ -58,8 +58,8 @@ SECTIONS = (
     "outputs",
 )  # fmt: skip
 _NO_PARAMETER = _('"{name}" cannot name a parameter: it is {what}')
-#: Sections that are kept and not interpreted by what solves.
-KEPT = tuple(name for name, each in HEADER.items() if isinstance(each, Free))
+#: Sections that are stored and not interpreted by the solvers.
+FREE_SECTIONS = tuple(name for name, each in HEADER.items() if isinstance(each, Free))
 
 
 def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism | None, list[Finding]]:
@@ -114,10 +114,10 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         parameters=parameters,
         kinds={name: reader.kinds[name] for name in parameters},
         expressions=reader.expressions,
-        **{name: header.get(name) or {} for name in KEPT},
+        **{name: header.get(name) or {} for name in FREE_SECTIONS},
     )
     unread = reader.error_count
-    check_whole(reader, root, mechanism)
+    check_mechanism(reader, root, mechanism)
     if unread:
         return mechanism
     for name, joint in joints.items():
@@ -144,8 +144,8 @@ def _report(
 
 
 def _only(root: MappingNode, fields: Mapping[str, Field]) -> MappingNode:
-    kept = [entry for entry in root.entries if entry.key.text in fields]
-    return MappingNode(root.line, root.column, root.start, root.end, kept, root.flow)
+    entries = [entry for entry in root.entries if entry.key.text in fields]
+    return MappingNode(root.line, root.column, root.start, root.end, entries, root.flow)
 
 
 def _frame(root: MappingNode) -> Node | None:
@@ -174,13 +174,13 @@ def read_parameters(reader: Reader, node: Node | None) -> dict[str, float]:
     """Values of the named quantities, in order; they are known to the reader afterwards."""
     mapping = None if node is None else reader.mapping(node, "parameters")
     entries = mapping.entries if mapping else []
-    told = {name: _names(node.text) for name, node in mapping or [] if isinstance(node, Scalar)}
+    unread = {name: _names(node.text) for name, node in mapping or [] if isinstance(node, Scalar)}
     for entry in entries:
         if reader.full:
             break
         name, place = entry.key.text, Place(f"parameters.{entry.key.text}", entry.key.text)
-        value = _parameter(reader, entry.key, entry.value, place, told)
-        told.pop(name, None)
+        value = _parameter(reader, entry.key, entry.value, place, unread)
+        unread.pop(name, None)
         if value is None:
             reader.broken.add(name)
             reader.kinds.setdefault(name, units.NONE)
@@ -190,9 +190,9 @@ def read_parameters(reader: Reader, node: Node | None) -> dict[str, float]:
 
 
 def _parameter(
-    reader: Reader, key: Node, node: Node, place: Place, told: Mapping[str, list[str]]
+    reader: Reader, key: Node, node: Node, place: Place, unread: Mapping[str, list[str]]
 ) -> float | None:
-    """The value of a parameter; ``told`` are the names in this one and in those below it."""
+    """The value of a parameter; ``unread``: the names in this one and in those below it."""
     name = place.address
     reserved = {*expressions.OWN_NAMES, "t", "input"}
     taken = {*reader.names.links, *reader.names.joints} - set(reader.names.pins)
@@ -208,10 +208,10 @@ def _parameter(
             return None
         kind, value = expression.dimension(reader.kinds), float(expression.evaluate(reader.values))
     except QuantityError as error:
-        later = [each for each in _names(text) if each in told]
+        later = [each for each in _names(text) if each in unread]
         if not later or error.code != "unknown-name" or not reader.broken.isdisjoint(later):
             reader.quantity_error(error, node, place, text)
-        elif ring := _ring(name, told):
+        elif ring := _ring(name, unread):
             reader.finding(
                 node,
                 place,
@@ -238,17 +238,17 @@ def _names(text: str) -> list[str]:
     return sorted(set(re.findall(r"[^\W\d]\w*", text)))
 
 
-def _ring(name: str, told: Mapping[str, list[str]]) -> list[str]:
+def _ring(name: str, unread: Mapping[str, list[str]]) -> list[str]:
     """The names that lead from a parameter back to itself, the shortest way; none where nothing does."""
     before, reached = {name: ""}, [name]
     for last in reached:
-        for each in told[last]:
+        for each in unread[last]:
             if each == name:
                 way = [name]
                 while last:
                     way, last = [last, *way], before[last]
                 return way
-            if each in told and each not in before:
+            if each in unread and each not in before:
                 before[each] = last
                 reached.append(each)
     return []

@@ -45,9 +45,9 @@ def read_outputs(reader: Reader, node: Node | None, *, driven: bool) -> dict[str
 
 
 def free_name(
-    reader: Reader, key: Node, place: Place, name: str, told: Message, reserved: Set[str], taken: Set[str]
+    reader: Reader, key: Node, place: Place, name: str, message: Message, reserved: Set[str], taken: Set[str]
 ) -> bool:
-    """Whether a name is one, and nothing else has it; ``told``: the sentence where it is none."""
+    """Whether a name is one, and nothing else has it; ``message``: the finding where it is invalid."""
     if not _NAME.fullmatch(name) or name in reserved:
         what, right = (
             (_("a function or a reserved word"), f"{name[:1]}_1")
@@ -55,7 +55,7 @@ def free_name(
             else (_("not a word of letters, digits and _"), "l_1")
         )
         reader.finding(
-            key, place, told, "name", _('rename it, such as "{right}"', right=right), name=name, what=what
+            key, place, message, "name", _('rename it, such as "{right}"', right=right), name=name, what=what
         )
         return False
     if name in taken:

@@ -57,8 +57,8 @@ class Reader(PlainReader):
         if self.si and NUMBER.fullmatch(text):
             text = f"{text} {units.SI_UNITS[dimension]}".strip()
         try:
-            given = expressions.parse_quantity(text, dimension, self.kinds)
-            value = given if isinstance(given, float) else self._evaluated(given, node, place)
+            parsed = expressions.parse_quantity(text, dimension, self.kinds)
+            value = parsed if isinstance(parsed, float) else self._evaluated(parsed, node, place)
             if value is None:
                 return None
             return self.within(value, node, place, units.LARGEST[dimension], units.SI_UNITS[dimension])
@@ -125,7 +125,7 @@ class Reader(PlainReader):
         problem = (
             _('"{text}…" has {count} characters', text=text[:40], count=len(text))
             if text
-            else _("{node} stands where a quantity is needed", node=noun(node))
+            else _("expected a quantity, not {node}", node=noun(node))
         )
         self.error(node, place, problem, _('write it as in "{example}"', example=example), "type")
         return None
@@ -141,7 +141,7 @@ class Reader(PlainReader):
         bare = error.code == "wrong-dimension" and self.kinds.get(text) == units.NONE
         remedy = (
             _(
-                'give the parameter "{name}" its unit where it stands under parameters',
+                'give the parameter "{name}" its unit under parameters',
                 code="model.give_unit_there",
                 name=text,
             )
@@ -269,7 +269,7 @@ class Reader(PlainReader):
                     place,
                     _('there is no pin "{name}": only {owner} has a point of this name'),
                     "unknown-name",
-                    _("name the point alike on a second link"),
+                    _("give the point the same name on a second link"),
                     name=name,
                     owner=owners[0],
                 )
@@ -388,28 +388,28 @@ class Reader(PlainReader):
 
 
 class SectionReading:
-    """A section that is kept as plain data, read by its field; what is wrong with it is noted once.
+    """A section stored as plain data, read by its field; each mistake is noted once.
 
-    ``values``: what the field gives; ``where``: stands for the file where the section is not one of a file.
+    ``values``: what the field gives; ``where``: named as the file where the section is from none.
     """
 
-    def __init__(self, field: Field, key: str, given: Any, where: str = "") -> None:
-        self.key, own = key, given if isinstance(given, Section) else None
-        self.node, self.reader = (own.node, Reader(own.source)) if own else (node_of(given), Reader(""))
+    def __init__(self, field: Field, key: str, section: Any, where: str = "") -> None:
+        self.key, own = key, section if isinstance(section, Section) else None
+        self.node, self.reader = (own.node, Reader(own.source)) if own else (node_of(section), Reader(""))
         self.where = "" if own else where
         self.values = field.read(self.reader, self.node, Place(key, key), {})
         self.findings = dict.fromkeys(
             replace(each, where=each.where or self.where) for each in self.reader.findings
         )
 
-    def note(self, key: str, told: str | LinkwrightError, code: str = "") -> None:
+    def note(self, key: str, problem: str | LinkwrightError, code: str = "") -> None:
         """Notes what is wrong at a key of the section: a sentence, or an error that it makes."""
-        remedy = told.remedy if isinstance(told, QuantityError) else ""
-        if isinstance(told, LinkwrightError):
-            code = code or told.code
-            told = told.message if isinstance(told, QuantityError) else told.sentence
+        remedy = problem.remedy if isinstance(problem, QuantityError) else ""
+        if isinstance(problem, LinkwrightError):
+            code = code or problem.code
+            problem = problem.message if isinstance(problem, QuantityError) else problem.sentence
         where = self.where or self.reader.where(towards(self.node, key))
-        self.findings[Finding("error", where, f"{self.key}.{key}", told, remedy, code)] = None
+        self.findings[Finding("error", where, f"{self.key}.{key}", problem, remedy, code)] = None
 
     def settle(self) -> None:
         """Raises ModelError with all findings, where there are any."""

@@ -36,7 +36,7 @@ def read_source(source: str | Path) -> tuple[str, str]:
     if not isinstance(source, str | os.PathLike):
         raise RequestError(
             _(
-                'the name of a model file is needed, not {found}; write lw.load("machine.yaml")',
+                'expected the name of a model file, not {found}; write lw.load("machine.yaml")',
                 code="given_instead.no_file_name",
                 found=describe(source),
             )
@@ -71,7 +71,7 @@ def _content(path: Path) -> bytes:
     status = path.stat()
     most = _("a model has at most {most:.0f} MB", most=MAX_BYTES / 1e6)
     if not stat.S_ISREG(status.st_mode):
-        content = _given(path)
+        content = _read_bytes(path)
     elif status.st_size > MAX_BYTES:
         raise _refuse(path, _("the file has {size:.1f} MB", size=status.st_size / 1e6), most, "size")
     else:
@@ -81,7 +81,7 @@ def _content(path: Path) -> bytes:
     return content
 
 
-def _given(path: Path) -> bytes:
+def _read_bytes(path: Path) -> bytes:
     """What a pipe or a device gives before it ends, without waiting for one that gives nothing."""
     if os.name != "posix":
         raise _refuse(path, _("this is neither a file nor a pipe"), _("name a model file"), "not-a-file")

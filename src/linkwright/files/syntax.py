@@ -69,7 +69,7 @@ _PROBLEMS = {
         _("indent entries of one level by the same number of spaces, and check the brackets"),
     ),
     "no_item": (
-        _("an entry without a dash stands in a list"),
+        _("an entry of a list has no dash"),
         _('begin every item of the list with "- ", or none, and check the indentation'),
     ),
     "item": (
@@ -96,21 +96,21 @@ _PROBLEMS = {
     "some_control": (_("a control character"), _("remove it: a model is plain text")),
     "escape": (_("an unknown escape in a quoted text"), _("write \\\\ for a backslash")),
     "unknown_tag": (_("an unknown tag"), _("remove the tag (the word with !)")),
-    "given_twice": (_("given twice"), _("remove one")),
+    "given_twice": (_("duplicate"), _("remove one")),
     "blank_after": (
         _('the blank after the colon of "{key_}" is no space ({character})'),
         _("write a space there"),
     ),
     "no_space": (_('there is no space after the colon of "{key_}"'), _("write {key_}: {rest}")),
     "no_space_item": (_("there is no space after the dash of a list's item"), _("write - {rest}")),
-    "equals_sign": (_('an equals sign stands after the key "{key_}"'), _("write {key_}: {rest}")),
+    "equals_sign": (_('an equals sign follows the key "{key_}"'), _("write {key_}: {rest}")),
     "odd_quote": (_("the quotation mark {sign} is none of YAML"), _('write "…" in its place, or none')),
     "comment": (
         _('a line cannot begin with "{sign}"'),
         _("begin a comment with #, or put the value in quotes"),
     ),
 }
-#: Complaints whose cause stands where that began which cannot be read.
+#: Problems whose cause is where the unreadable part begins.
 _AT_THE_BEGINNING = ("no_colon", "open_quote", "beginning")
 #: Slips by which a line is no key with its value, and what the line looks like; groups are what is to be written.
 _KEY_OF = r"\s*(?:- )?(?P<key_>[^\W\d][\w.-]*)"
@@ -130,11 +130,11 @@ def explain(error: Any, text: str) -> Remark:
     mark = getattr(error, "problem_mark", None) or context_mark
     line, column = _place(error, text) if mark is None else _within(text, mark)
     began = None if context_mark is None else _within(text, context_mark)
-    slip = _slip(text, line if began is None else began[0], line)
-    if slip is not None:
-        return slip
-    said = str(getattr(error, "problem", None) or getattr(error, "reason", None) or "the text is not YAML")
-    key = next((key for sign, key in _MEANINGS if sign in said), None)
+    mistake = _known_mistake(text, line if began is None else began[0], line)
+    if mistake is not None:
+        return mistake
+    problem = str(getattr(error, "problem", None) or getattr(error, "reason", None) or "the text is not YAML")
+    key = next((key for sign, key in _MEANINGS if sign in problem), None)
     ended = mark is not None and not text[mark.index :].strip()
     if began is not None and (ended or key in _AT_THE_BEGINNING):
         line, column = began
@@ -143,16 +143,16 @@ def explain(error: Any, text: str) -> Remark:
     )
     if key is not None:
         sign, (message, remedy) = text.split("\n")[line][column : column + 1], _PROBLEMS[key]
-        told = _("not readable as YAML: {message}{since}", message=message.format(sign=sign), since=since)
-        return Remark(line, column, told, remedy.format(), "syntax")
+        message = _("not readable as YAML: {message}{since}", message=message.format(sign=sign), since=since)
+        return Remark(line, column, message, remedy.format(), "syntax")
     context = str(getattr(error, "context", None) or "")
     where = f" {context}" if context else ""
-    told = _("not readable as YAML{where}: {said}{since}", where=where, said=said, since=since)
-    return Remark(line, column, told, _("check indentation, brackets and quotes"), "syntax")
+    message = _("not readable as YAML{where}: {problem}{since}", where=where, problem=problem, since=since)
+    return Remark(line, column, message, _("check indentation, brackets and quotes"), "syntax")
 
 
-def _slip(text: str, began: int, line: int) -> Remark | None:
-    """The remark about a slip of the pen in the line where that began which cannot be read, in the one where it could
+def _known_mistake(text: str, began: int, line: int) -> Remark | None:
+    """The remark about a typing mistake in the line where the unreadable part begins, in the one where it could
     not be read any further, or in the one above that."""
     lines = text.split("\n")
     above = next((number for number in range(line - 1, -1, -1) if lines[number].strip()), line)
@@ -162,8 +162,8 @@ def _slip(text: str, began: int, line: int) -> Remark | None:
             if found := re.match(pattern, shown):
                 values = found.groupdict()
                 character = f"U+{ord(values.get('sign', ' ')[0]):04X}"
-                told, remedy = (each.format(character=character, **values) for each in _PROBLEMS[key])
-                return Remark(number, len(shown) - len(shown.lstrip()), told, remedy, "syntax")
+                message, remedy = (each.format(character=character, **values) for each in _PROBLEMS[key])
+                return Remark(number, len(shown) - len(shown.lstrip()), message, remedy, "syntax")
     return None
 
 
@@ -204,7 +204,7 @@ def _remarks(
 
 
 def accident_remarks(text: str) -> list[Remark]:
-    """Remarks about what no text should hold, whether it can be read or not: marks of an unfinished merge, blanks in
+    """Remarks about what no text should hold, readable or not: conflict markers of an unfinished merge, blanks in
     the indentation that are no spaces."""
     if "<<<<<<<" in text or ">>>>>>>" in text:
         conflicts = _remarks(
@@ -277,10 +277,10 @@ def wide_remarks(text: str) -> list[Remark]:
         ]
         if places:
             wide = line[min(places)]
-            told = _(
+            message = _(
                 'the full-width character "{wide}" is no punctuation of YAML', code="yaml.wide", wide=wide
             )
-            found.append(Remark(number, min(places), told, wide_remedy(wide), "syntax"))
+            found.append(Remark(number, min(places), message, wide_remedy(wide), "syntax"))
     return found[:_MOST]
 
 

@@ -11,7 +11,7 @@ from linkwright.core.arguments import require
 from linkwright.core.json_data import Plain
 from linkwright.drivers.base import Driver
 from linkwright.fields.references import PLACE
-from linkwright.files.read_model import HEADER, KEPT
+from linkwright.files.read_model import FREE_SECTIONS, HEADER
 from linkwright.joints.base import IMPLIED, Joint
 from linkwright.mechanism.link import LINK_FIELDS, STRUCTURAL_POINTS, Link, Vec, from_drawing
 from linkwright.mechanism.mechanism import GRAVITY, Cycle, Mechanism
@@ -48,15 +48,17 @@ def to_data(mechanism: Mechanism) -> Plain:
     data["drawing"] = _places(mechanism.drawing)
     data |= _drivers(mechanism.drivers, texts)
     fields, cycle = Cycle.fields(mechanism.across), mechanism.cycle.dimensions() if mechanism.cycle else {}
-    said = {key: fields[key].written(cycle[f"cycle.{key}"]) for key in fields if f"cycle.{key}" in cycle}
-    data["cycle"] = _substituted(said, "cycle", texts)
+    cycle_values = {
+        key: fields[key].written(cycle[f"cycle.{key}"]) for key in fields if f"cycle.{key}" in cycle
+    }
+    data["cycle"] = _substituted(cycle_values, "cycle", texts)
     gravity = _substituted(GRAVITY.written(mechanism.gravity), "gravity", texts)
     data["gravity"] = [] if gravity == [0.0, 0.0] else gravity
     data["loads"] = {
         name: _substituted(load.written(), f"loads.{name}", texts) for name, load in mechanism.loads.items()
     }
     data["outputs"] = {name: each.expression.text for name, each in mechanism.outputs.items()}
-    data |= {name: dict(getattr(mechanism, name)) for name in KEPT}
+    data |= {name: dict(getattr(mechanism, name)) for name in FREE_SECTIONS}
     return {key: value for key, value in data.items() if value not in ({}, [])}
 
 
@@ -75,8 +77,8 @@ def _link(link: Link, texts: Mapping[str, str], drawn: Mapping[str, Vec]) -> Pla
     sizes: Plain = {"lengths": link.lengths, "angle": link.angle} if link.geometry == "bent" else {}
     if link.geometry == "length":
         sizes = {"length": link.lengths[0]}
-    given = {key: getattr(link, key) for key in ("mass", "inertia", "mass_centre")}
-    sizes |= {key: value for key, value in given.items() if value or f"{link.name}.{key}" in texts}
+    mass_values = {key: getattr(link, key) for key in ("mass", "inertia", "mass_centre")}
+    sizes |= {key: value for key, value in mass_values.items() if value or f"{link.name}.{key}" in texts}
     written = {key: LINK_FIELDS[key].written(value) for key, value in sizes.items()}
     found = {"points": points, **_substituted(written, link.name, texts)}
     if listed:
@@ -99,8 +101,8 @@ def _as_drawn(link: Link, drawn: Mapping[str, Vec]) -> int:
 
 def _joint(joint: Joint, texts: Mapping[str, str]) -> Plain | None:
     addresses = {key: f"{joint.name}.{key}" for key in joint.fields()}
-    given = {key: texts[address] for key, address in addresses.items() if address in texts}
-    values = {**joint.written(), **given}
+    expressions = {key: texts[address] for key, address in addresses.items() if address in texts}
+    values = {**joint.written(), **expressions}
     if not values and joint.kind == IMPLIED:
         return None
     return {"kind": joint.kind, **_substituted(values, joint.name, texts)}

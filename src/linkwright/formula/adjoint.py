@@ -76,16 +76,16 @@ class Adjoints:
             if args[1] in self._active:
                 self.add(args[1], t.neg(self._product(share, values[index], mask)), mask)
         else:
-            given = [values[a] for a in args]
+            arguments = [values[a] for a in args]
             for place, arg in enumerate(args):
                 if arg in self._active:
-                    factor = slope_of(t, node, given, values[index], place)
+                    factor = slope_of(t, node, arguments, values[index], place)
                     self.add(arg, self._product(g, factor, mask), mask)
 
     def _pass_on_choice(self, args: tuple[int, ...], g: Scalar, mask: Mask | None) -> None:
         t = self._trace
-        given = self._replay.values[args[0]]
-        condition: Mask = given if isinstance(given, Value) else bool(given)
+        mask_value = self._replay.values[args[0]]
+        condition: Mask = mask_value if isinstance(mask_value, Value) else bool(mask_value)
         branches = ((args[1], condition), (args[2], t.negate(condition)))
         for place, (branch, holds) in enumerate(branches):
             if branch not in self._active:

@@ -35,7 +35,7 @@ def back_from_formulas(program: Program, outputs: Sequence[str], active: Collect
 def along_positions(
     program: Program, reductions: Sequence[Reduction], active: Collection[str], *, fused: bool
 ) -> tuple[Program, Program]:
-    """What of the adjoints of the active parameters is summed over the positions, beside the outputs, and from the
+    """What of the adjoints of the active parameters is summed over the positions, besides the outputs, and from the
     sums, ``line.sum``, and the parameters the adjoints themselves, across designs.
 
     What a position's output weighs is a parameter, the adjoint of the reduction's name: of a sum the adjoint itself,

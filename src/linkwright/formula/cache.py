@@ -24,8 +24,8 @@ from pathlib import Path
 from linkwright.formula import machine_code
 from linkwright.words import _
 
-_KEPT_IN_MEMORY = 128
-#: Bytes of all files together; the least recently used are removed beyond it.
+_IN_MEMORY = 128
+#: Size limit of all files together, bytes; beyond it the oldest by use are removed.
 SIZE_LIMIT = 64 * 1024 * 1024
 _DIGEST = 32
 _SUFFIX = ".lwcode"
@@ -57,7 +57,7 @@ def loaded_code(key: str, text: Callable[[], tuple[str, int]], entry: str) -> ma
             with suppress(OSError):
                 _write(key, code)
         _memory[place] = loaded
-        while len(_memory) > _KEPT_IN_MEMORY:
+        while len(_memory) > _IN_MEMORY:
             _memory.popitem(last=False)
         return loaded
 
@@ -69,7 +69,7 @@ def forget() -> None:
 
 
 def folder() -> Path | None:
-    """Where machine code is kept, or None where it is not."""
+    """The folder of cached machine code, or None where it is not cached."""
     chosen = os.environ.get("LINKWRIGHT_CACHE")
     if chosen is not None:
         return None if chosen.lower() in ("off", "") else Path(chosen)
@@ -140,7 +140,7 @@ def _checksum(code: bytes) -> bytes:
 
 
 def _replace(path: Path, data: bytes) -> None:
-    """Write beside it, then rename, so that no reader sees half a file."""
+    """Write to a temporary file, then rename, so that no reader sees half a file."""
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=".", suffix=_SUFFIX)  # mode 0600
     try:
         with os.fdopen(handle, "wb") as file:

@@ -73,12 +73,14 @@ class Inputs:
         length: int | None = None,
         tables: list[Table] | None = None,
     ) -> None:
-        self._given = [(name, positions[name]) for name in program.positions if name in positions]
-        self._given_fields = [(name, fields[name]) for name in program.fields if name in fields]
+        self._bound_positions = [(name, positions[name]) for name in program.positions if name in positions]
+        self._bound_fields = [(name, fields[name]) for name in program.fields if name in fields]
         self.positions = _taken("position", program.positions, positions)
         self.fields = _taken("field", program.fields, fields)
-        given, used = (*self._given, *self._given_fields), (*self.positions, *self.fields)
-        self._kept = bool(given) and all(own is each for own, (_, each) in zip(used, given, strict=True))
+        bound, used = (*self._bound_positions, *self._bound_fields), (*self.positions, *self.fields)
+        self._unconverted = bool(bound) and all(
+            own is each for own, (_, each) in zip(used, bound, strict=True)
+        )
         self._tables = list(tables or [])
         self._numbers = [table.numbers for table in self._tables]
         lengths = {array.shape[-1] for array in used}
@@ -100,10 +102,10 @@ class Inputs:
     def fits(self, positions: Arrays, fields: Arrays, length: int | None, tables: list[Table]) -> bool:
         """Whether these are the same arrays and tables, read where they lie."""
         return (
-            self._kept
+            self._unconverted
             and (length is None or length == self.length)
-            and all(positions.get(name) is array for name, array in self._given)
-            and all(fields.get(name) is array for name, array in self._given_fields)
+            and all(positions.get(name) is array for name, array in self._bound_positions)
+            and all(fields.get(name) is array for name, array in self._bound_fields)
             and all(own is each for own, each in zip(self._tables, tables, strict=True))
         )
 
@@ -166,7 +168,7 @@ class SingleCall:
 
     def __init__(self, program: Program, inputs: Inputs) -> None:
         self._own: Floats = np.empty(len(program.parameters))
-        self._seen: object = None
+        self._last_parameters: object = None
         self._bound: object = None
         self._lent: _Lent | None = None
         self._block = inputs.block(address_of(self._own), 0)
@@ -174,10 +176,10 @@ class SingleCall:
         self.shape = (len(program.outputs), inputs.length)
 
     def set_parameters(self, parameters: ArrayLike) -> None:
-        """The design: copied, or read where it lies if the same array is given again and again."""
+        """The design: copied, or read in place if the same array is passed repeatedly."""
         if parameters is self._bound:
             return
-        if parameters is self._seen and _is_plain(parameters, self._own.shape):
+        if parameters is self._last_parameters and _is_plain(parameters, self._own.shape):
             self._bound = parameters
             self._block[Block.PARAMETERS] = address_of(parameters)
             return
@@ -186,7 +188,7 @@ class SingleCall:
         if self._bound is not None:
             self._bound = None
             self._block[Block.PARAMETERS] = address_of(self._own)
-        self._seen = parameters
+        self._last_parameters = parameters
         self._own[:] = parameters
 
     def free_out(self) -> Floats:

@@ -35,7 +35,7 @@ def forward(program: Program, wrt: Sequence[str]) -> Program:
 def reverse(
     program: Program, seeds: Sequence[str], wrt: Sequence[str] | None = None, valid: str | None = "valid"
 ) -> Gradient:
-    """The gradient of sum over positions of seed times output, for seeds given at evaluation.
+    """The gradient of sum over positions of seed times output, for seeds at evaluation.
 
     ``seeds``: names of outputs; each one's weights are a field ``seed:output`` (designs, n). ``wrt``: names of
     parameters, None for all of them in the order of the program. Only the positions where the output ``valid`` holds

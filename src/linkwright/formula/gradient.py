@@ -1,6 +1,6 @@
 """Values and gradients of formulas of summaries over the positions, for many designs at once.
 
-The value is followed back to the parameters (reverse derivatives); an extreme over the positions changes as the
+The value is differentiated back to the parameters (reverse mode); an extreme over the positions changes as the
 output does at its position (envelope theorem).
 """
 
@@ -127,8 +127,10 @@ class Gradient:
             value: Floats = np.array(results[self._alone], dtype=np.float64)
         else:
             columns = self._columns(numbers, results)
-            given = {name: np.asarray(columns[name], dtype=np.float64) for name in self._values.positions}
-            value = over_designs(self._values, given, len(numbers), run)[0].copy()
+            columns_by_name = {
+                name: np.asarray(columns[name], dtype=np.float64) for name in self._values.positions
+            }
+            value = over_designs(self._values, columns_by_name, len(numbers), run)[0].copy()
         if self.complete:
             value[results[VALID_COUNT] != run.length] = np.nan
         return value
@@ -230,11 +232,11 @@ class Gradient:
         if self._fused is None:
             names = [name for name in along.output_names if name not in self.program.output_names]
             sums = Accumulation(along, tuple(Reduction(name, "sum") for name in names), self.valid)
-            given: Columns = {**columns, **{bar(name): 0.0 for name in self.read}}
-            given |= {bar(each.name): share for each, share in shares.items()}
+            columns_by_name: Columns = {**columns, **{bar(name): 0.0 for name in self.read}}
+            columns_by_name |= {bar(each.name): share for each, share in shares.items()}
             table = np.empty((len(count), len(sums.parameters)))
             for column, name in enumerate(sums.parameters):
-                table[:, column] = given[name]
+                table[:, column] = columns_by_name[name]
             columns = {**columns, **reduced(sums, table, _own(sums, fields), run)}
         found = _evaluated(after, columns, len(count), run)
         if self._fused is not None:
@@ -263,8 +265,8 @@ def _of_one(reduction: Reduction) -> Program:
 
 def _evaluated(program: Program, columns: Columns, count: int, run: Run) -> dict[str, Floats]:
     """Derivatives that a program over the designs gives, by the names of the inputs."""
-    given = {name: np.asarray(columns[name], dtype=np.float64) for name in program.positions}
-    rows = over_designs(program, given, count, run)
+    columns_by_name = {name: np.asarray(columns[name], dtype=np.float64) for name in program.positions}
+    rows = over_designs(program, columns_by_name, count, run)
     return {name.removeprefix(bar("")): row for name, row in zip(program.output_names, rows, strict=True)}
 
 

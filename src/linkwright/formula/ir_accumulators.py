@@ -19,7 +19,7 @@ class AccumulatorWriter:
     """Accumulator ``k`` is ``%a{k}`` at the start of a turn of the loop and ``%b{k}`` at its end.
 
     ``%position``: the i64 vector of the lanes' position numbers; ``%fresh``: the mask of the
-    lanes that are not seen yet.
+    lanes that have no value yet.
     """
 
     def __init__(self, writer: LineWriter, accumulation: Accumulation) -> None:

@@ -16,7 +16,7 @@ VECTOR = "linkwright_vector_"
 #: Beyond it, multiples of a quarter turn are no longer exact.
 _LARGEST = 1e5
 _HUGE = 1e300
-#: Adding it rounds to a whole number, which then stands in the last bits.
+#: Adding it rounds to an integer, which is then in the last bits.
 _ROUND = 6755399441055744.0
 _QUARTERS = 6.36619772367581382433e-01
 #: π/2 in parts of 33 bits.
@@ -75,8 +75,8 @@ class _Lanes(Lanes):
         """A number in all lanes."""
         return self.same("double", number(value))
 
-    def whole(self, value: int) -> str:
-        """A whole number in all lanes."""
+    def integer(self, value: int) -> str:
+        """An integer in all lanes."""
         return self.same("i64", value)
 
     def add(self, a: str, b: str) -> str:
@@ -117,10 +117,10 @@ class _Lanes(Lanes):
     def function(self, arguments: Sequence[str], far: str, values: Mapping[str, str]) -> list[str]:
         """The text of a function of all these values, by their names in the C library, which finds them for lanes
         where ``far`` holds."""
-        given = ", ".join(f"{self.vector} {each}" for each in arguments)
+        parameters = ", ".join(f"{self.vector} {each}" for each in arguments)
         result = f"{{ {', '.join([self.vector] * len(values))} }}"
         code = [
-            f"define internal {result} @{VECTOR}{self.name}({given}) nounwind {{",
+            f"define internal {result} @{VECTOR}{self.name}({parameters}) nounwind {{",
             "entry:",
             *self.lines,
             f"%bits = bitcast {self.mask} {far} to i{self.width}",
@@ -177,19 +177,19 @@ def _circle(w: _Lanes) -> list[str]:
     gone = w.sub(w.sub(w.all(1.0), near), half)
     cosine = w.add(near, w.add(gone, w.sub(w.mul(z, square), w.mul(r, rest))))
     place = w.bits(shifted)
-    odd = w.put(f"and {w.integers} {place}, {w.whole(1)}")
+    odd = w.put(f"and {w.integers} {place}, {w.integer(1)}")
     across = w.put(f"icmp ne {w.integers} {odd}, zeroinitializer")
     values = {
         "sin": _turned(w, w.choose(across, cosine, sine), place),
-        "cos": _turned(w, w.choose(across, sine, cosine), w.put(f"add {w.integers} {place}, {w.whole(1)}")),
+        "cos": _turned(w, w.choose(across, sine, cosine), w.put(f"add {w.integers} {place}, {w.integer(1)}")),
     }
     return w.function(["%x"], w.below(w.all(_LARGEST), w.size("%x")), values)
 
 
 def _turned(w: _Lanes, value: str, place: str) -> str:
     """A value with its sign changed in the second half of four quarters."""
-    two = w.put(f"and {w.integers} {place}, {w.whole(2)}")
-    sign = w.put(f"shl {w.integers} {two}, {w.whole(62)}")
+    two = w.put(f"and {w.integers} {place}, {w.integer(2)}")
+    sign = w.put(f"shl {w.integers} {two}, {w.integer(62)}")
     turned = w.put(f"xor {w.integers} {w.bits(value)}, {sign}")
     return w.put(f"bitcast {w.integers} {turned} to {w.vector}")
 
@@ -203,9 +203,9 @@ def _arc(w: _Lanes, a: str, b: str) -> str:
         ratio, scale = forms[k]
         at = w.all(ratio * scale)
         upper = a if not k else w.sub(a if scale == 1.0 else w.mul(a, w.all(scale)), w.mul(b, at))
-        lower = b if not k else w.add(b if scale == 1.0 else w.mul(b, w.all(scale)), w.mul(a, at))
+        denominator = b if not k else w.add(b if scale == 1.0 else w.mul(b, w.all(scale)), w.mul(a, at))
         inside = w.below(a, w.mul(b, w.all(_BELOW[k])))
-        top, bottom = w.choose(inside, upper, top), w.choose(inside, lower, bottom)
+        top, bottom = w.choose(inside, upper, top), w.choose(inside, denominator, bottom)
         known, lack = w.choose(inside, w.all(_KNOWN[k]), known), w.choose(inside, w.all(_LACK[k]), lack)
     x = w.div(top, bottom)
     bend = w.mul(x, w.mul(w.mul(x, x), w.series(w.mul(x, x), _ARC)))
@@ -214,7 +214,7 @@ def _arc(w: _Lanes, a: str, b: str) -> str:
 
 def _signed(w: _Lanes, value: str, like: str) -> str:
     """A value above or equal to zero with the sign of another."""
-    sign = w.put(f"and {w.integers} {w.bits(like)}, {w.whole(-(2**63))}")
+    sign = w.put(f"and {w.integers} {w.bits(like)}, {w.integer(-(2**63))}")
     joined = w.put(f"or {w.integers} {w.bits(value)}, {sign}")
     return w.put(f"bitcast {w.integers} {joined} to {w.vector}")
 

@@ -22,7 +22,7 @@ class LineWriter(Lanes):
     """Writes lines as instructions; ``%v12`` is line 12, ``%w12`` the same in all lanes.
 
     ``library``: functions are called from outside, lane by lane. ``names`` and ``tables`` may be
-    changed where lines are written beside others: the names of values, and where the tables stand.
+    changed where lines are written next to others: the names of values, and where the tables are.
     """
 
     def __init__(self, lines: Lines, width: int, library: bool = False) -> None:
@@ -128,14 +128,14 @@ class LineWriter(Lanes):
             last = into
         return lines
 
-    def _in_all_lanes(self, library: str, value: str, given: str) -> list[str]:
+    def _in_all_lanes(self, library: str, value: str, arguments: str) -> list[str]:
         """One of the results of a form for vectors, which is called once for the same arguments."""
         form = IN_LANES[library]
         results, place = ", ".join([self.vector] * len(FORMS[form])), FORMS[form].index(library)
-        found, code = self._found.get((form, given)), []
+        found, code = self._found.get((form, arguments)), []
         if found is None:
-            found = self._found[form, given] = f"{value}.all"
-            code.append(f"{found} = call {{ {results} }} @{VECTOR}{form}({given})")
+            found = self._found[form, arguments] = f"{value}.all"
+            code.append(f"{found} = call {{ {results} }} @{VECTOR}{form}({arguments})")
         return [*code, f"{value} = extractvalue {{ {results} }} {found}, {place}"]
 
     def _look_up(self, line: Line, value: str, x: str, vector: bool) -> list[str]:

@@ -28,8 +28,8 @@ def _function(order: int, width: int) -> list[str]:
         "%periodic = fcmp une double %h3, 0.0",
         f"%from = fsub {w.vector} %x, %s1",
         f"%share = fdiv {w.vector} %from, %s2",
-        f"%whole = call {w.vector} @llvm.floor.v{width}f64({w.vector} %share)",
-        f"%turned = fmul {w.vector} %whole, %s2",
+        f"%laps = call {w.vector} @llvm.floor.v{width}f64({w.vector} %share)",
+        f"%turned = fmul {w.vector} %laps, %s2",
         f"%within = fsub {w.vector} %x, %turned",
         f"%y = select i1 %periodic, {w.vector} %within, {w.vector} %x",
         f"%breaks = getelementptr double, ptr %table, i64 {HEAD}",
@@ -72,7 +72,7 @@ def _polynomial(order: int, w: Lanes) -> list[str]:
         return [
             *(times("%p3", "%u", "%c3"), plus("%q2", "%c2", "%p3"), times("%p2", "%u", "%q2")),
             *(plus("%q1", "%c1", "%p2"), times("%p1", "%u", "%q1"), plus("%q0", "%c0", "%p1")),
-            *(times("%gain", "%whole", "%s4"), plus("%high", "%q0", "%gain")),
+            *(times("%gain", "%laps", "%s4"), plus("%high", "%q0", "%gain")),
             f"%value = select i1 %periodic, {w.vector} %high, {w.vector} %q0",
         ]
     three, two, six = (w.same("double", number) for number in ("3.0", "2.0", "6.0"))

@@ -53,8 +53,8 @@ def in_blocks(label: str, code: list[str]) -> tuple[list[str], str]:
     cut: list[str] = []
     for number, first in enumerate(range(0, len(code), _BLOCK)):
         if number:
-            following = f"{label}.{number}"
-            cut += [f"br label %{following}", f"{following}:"]
+            next_label = f"{label}.{number}"
+            cut += [f"br label %{next_label}", f"{next_label}:"]
         cut += code[first : first + _BLOCK]
     return cut, f"{label}.{number}"
 

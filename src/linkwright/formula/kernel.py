@@ -7,7 +7,7 @@ doubles and of 64-bit integers; ``address + k`` is the address k entries on). St
 ``load``, ``ramp`` and ``spread`` give vectors of ``LANES`` doubles (``Vector`` between kernels), ``fetch`` gives
 complex ones: entries of 2 · ``LANES`` doubles, real parts before imaginary ones; +, - and · take complex numbers,
 vectors and numbers in any mixture. Python never
-runs such a function; it is read, translated to LLVM's language and kept in the cache of machine code. Sums may be
+runs such a function; it is read, translated to LLVM's language and stored in the cache of machine code. Sums may be
 reordered: results are equal to the bit on one machine, not between machines.
 """
 
@@ -99,17 +99,17 @@ def total(value: Vector) -> float:
     raise NotImplementedError
 
 
-def least(value: Vector) -> float:
-    """Least of a vector's numbers."""
+def smallest(value: Vector) -> float:
+    """The smallest of a vector's numbers."""
     raise NotImplementedError
 
 
-def lower(a: Vector, b: Vector | float) -> Vector:
-    """The lesser of each two."""
+def minimum(a: Vector, b: Vector | float) -> Vector:
+    """The smaller of each two."""
     raise NotImplementedError
 
 
-def higher(a: Vector, b: Vector | float) -> Vector:
+def maximum(a: Vector, b: Vector | float) -> Vector:
     """The greater of each two."""
     raise NotImplementedError
 
@@ -120,12 +120,12 @@ def root(a: Vector) -> Vector:
 
 
 def marked(value: Vector, index: Vector) -> Vector:
-    """Numbers from 0 with a whole number below 4096 in their last bits: ordered like the numbers (to 1e-12)."""
+    """Numbers from 0 with an integer below 4096 in their last bits: ordered like the numbers (to 1e-12)."""
     raise NotImplementedError
 
 
 def mark_of(value: float) -> int:
-    """The whole number in the last bits."""
+    """The integer in the last bits."""
     raise NotImplementedError
 
 
@@ -170,7 +170,7 @@ class Kernels:
     """Functions of one module; the later ones may call the earlier ones.
 
     ``kernels(name, *arguments)`` calls one: arrays are given by their address (``array.ctypes.data``). The lock of
-    the interpreter is given back while a kernel runs.
+    the interpreter lock is released while a kernel runs.
     """
 
     def __init__(self, functions: Sequence[Callable[..., Any]]) -> None:
@@ -187,9 +187,11 @@ class Kernels:
     def _prototype(self, name: str) -> Any:
         kinds: dict[str | None, Any] = {"int": ctypes.c_int64, "float": ctypes.c_double, None: None}
         tree = self.trees[name]
-        given = [kinds.get(annotation(each.annotation), ctypes.c_void_p) for each in tree.args.args]
+        kinds_of_arguments = [
+            kinds.get(annotation(each.annotation), ctypes.c_void_p) for each in tree.args.args
+        ]
         result = kinds[annotation(tree.returns)]
-        return self._code().function(name, ctypes.CFUNCTYPE(result, *given))
+        return self._code().function(name, ctypes.CFUNCTYPE(result, *kinds_of_arguments))
 
     def _code(self) -> machine_code.Loaded:
         digest = hashlib.blake2b(digest_size=16)

@@ -33,8 +33,8 @@ class ComplexWriter:
         (a, b), (c, d) = self._parts(left), self._parts(right)
         if name == "Mult":
             if b is None or d is None:
-                whole, factor = ((c, d), a) if b is None else ((a, b), c)
-                return self._pair(self._fmul(whole[0], factor), self._fmul(whole[1], factor))
+                pair, factor = ((c, d), a) if b is None else ((a, b), c)
+                return self._pair(self._fmul(pair[0], factor), self._fmul(pair[1], factor))
             real = self._fsub(self._fmul(a, c), self._fmul(b, d))
             return self._pair(real, self._fadd(self._fmul(a, d), self._fmul(b, c)))
         if name == "Sub":
@@ -59,9 +59,9 @@ class ComplexWriter:
         return self.b.fmul(a, b, flags=self.flags)
 
     def _entry(self, address: Any, entry: Any, half: int) -> Any:
-        whole = entry.type
-        place = self.b.mul(entry, ir.Constant(whole, 2 * self.lanes))
-        place = self.b.add(place, ir.Constant(whole, half * self.lanes))
+        index_type = entry.type
+        place = self.b.mul(entry, ir.Constant(index_type, 2 * self.lanes))
+        place = self.b.add(place, ir.Constant(index_type, half * self.lanes))
         return self.b.gep(address.value, [place], source_etype=address.entry)
 
     def _call_fetch(self, address: Any, entry: Any) -> Any:

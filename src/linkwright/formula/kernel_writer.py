@@ -13,7 +13,7 @@ from linkwright.formula.late_import import ir
 LANES = 8
 _FLAGS = ("contract", "reassoc", "nsz", "arcp")
 _COMPARE = {"Lt": "<", "Gt": ">", "LtE": "<=", "GtE": ">=", "Eq": "==", "NotEq": "!="}
-_WHOLE = {"Add": "add", "Sub": "sub", "Mult": "mul", "FloorDiv": "sdiv", "Mod": "srem"}
+_INTEGER_OPERATIONS = {"Add": "add", "Sub": "sub", "Mult": "mul", "FloorDiv": "sdiv", "Mod": "srem"}
 _REAL = {"Add": "fadd", "Sub": "fsub", "Mult": "fmul", "Div": "fdiv"}
 _INTRINSIC = {"sqrt": "sqrt", "sin": "sin", "cos": "cos", "exp": "exp", "log": "log", "fabs": "fabs"}
 
@@ -25,8 +25,8 @@ def annotation(node: ast.expr | None) -> str | None:
 
 @cache
 def _types() -> tuple[Any, ...]:
-    whole, real = ir.IntType(64), ir.DoubleType()
-    return whole, real, ir.VectorType(real, LANES), ir.VectorType(whole, LANES), ir.PointerType()
+    integer, real = ir.IntType(64), ir.DoubleType()
+    return integer, real, ir.VectorType(real, LANES), ir.VectorType(integer, LANES), ir.PointerType()
 
 
 class _Address:
@@ -38,19 +38,19 @@ class _Address:
 
 
 class KernelWriter(ComplexWriter):
-    """Writes one function into a module of LLVM's language, beside those ``made`` before it."""
+    """Writes one function into a module of LLVM's language, after those ``made`` before."""
 
     lanes, flags = LANES, _FLAGS
 
     def __init__(self, module: Any, made: dict[str, Any], constants: dict[str, float]) -> None:
         self.module, self.made, self.constants = module, made, constants
-        self.whole, self.real, self.vector, self.wholes, self.pointer = _types()
+        self.integer, self.real, self.vector, self.integers, self.pointer = _types()
         self.slots: dict[str, tuple[Any, Any]] = {}
         self.loops: list[tuple[Any, Any]] = []
 
     def function(self, tree: ast.FunctionDef) -> Any:
         """The function of a definition."""
-        kinds = {"int": self.whole, "float": self.real, "Vector": self.vector}
+        kinds = {"int": self.integer, "float": self.real, "Vector": self.vector}
         names = [each.arg for each in tree.args.args]
         notes = [str(annotation(each.annotation)) for each in tree.args.args]
         result = kinds.get(str(annotation(tree.returns)), ir.VoidType())
@@ -61,7 +61,7 @@ class KernelWriter(ComplexWriter):
         body = self.f.append_basic_block("body")
         self.b = ir.IRBuilder(body)
         for value, name, note in zip(self.f.args, names, notes, strict=True):
-            entry = self.real if note == "Reals" else self.whole
+            entry = self.real if note == "Reals" else self.integer
             self._keep(name, _Address(value, entry) if note in ("Reals", "Wholes") else value)
         self._block(tree.body)
         if not self.b.block.is_terminated:
@@ -85,12 +85,12 @@ class KernelWriter(ComplexWriter):
             value = self.b.load(slot, typ=kind)
             return value if entry is None else _Address(value, entry)
         number = self.constants[name]
-        return ir.Constant(self.whole if isinstance(number, int) else self.real, number)
+        return ir.Constant(self.integer if isinstance(number, int) else self.real, number)
 
     def _as(self, value: Any, kind: Any) -> Any:
         if value.type == kind:
             return value
-        if value.type == self.whole and kind in (self.real, self.vector):
+        if value.type == self.integer and kind in (self.real, self.vector):
             return self._as(self.b.sitofp(value, self.real), kind)
         if value.type == self.real and kind == self.vector:
             return self._spread(value)
@@ -162,9 +162,9 @@ class KernelWriter(ComplexWriter):
 
     def _do_For(self, node: ast.For) -> None:
         assert isinstance(node.iter, ast.Call) and isinstance(node.target, ast.Name)
-        given = node.iter.args
-        first, last = (ast.Constant(0), given[0]) if len(given) == 1 else (given[0], given[1])
-        step = given[2] if len(given) > 2 else ast.Constant(1)
+        bounds = node.iter.args
+        first, last = (ast.Constant(0), bounds[0]) if len(bounds) == 1 else (bounds[0], bounds[1])
+        step = bounds[2] if len(bounds) > 2 else ast.Constant(1)
         stop = f"{node.target.id} stops {len(self.slots)}"
         self._keep(node.target.id, self._value(first))
         self._keep(stop, self._value(last))
@@ -190,14 +190,14 @@ class KernelWriter(ComplexWriter):
         return getattr(self, f"_of_{type(node).__name__}")(node)
 
     def _of_Constant(self, node: ast.Constant) -> Any:
-        return ir.Constant(self.whole if isinstance(node.value, int) else self.real, node.value)
+        return ir.Constant(self.integer if isinstance(node.value, int) else self.real, node.value)
 
     def _of_Name(self, node: ast.Name) -> Any:
         return self._get(node.id)
 
     def _of_UnaryOp(self, node: ast.UnaryOp) -> Any:
         value = self._value(node.operand)
-        return self.b.neg(value) if value.type == self.whole else self._negative(value)
+        return self.b.neg(value) if value.type == self.integer else self._negative(value)
 
     def _of_BinOp(self, node: ast.BinOp) -> Any:
         left, right, name = self._value(node.left), self._value(node.right), type(node.op).__name__
@@ -207,22 +207,22 @@ class KernelWriter(ComplexWriter):
             return _Address(self.b.gep(left.value, [right], source_etype=left.entry), left.entry)
         if self._is_pair(left) or self._is_pair(right):
             return self._complex_operation(name, left, right)
-        left, right = self._alike(left, right)
-        if left.type == self.whole:
-            return getattr(self.b, _WHOLE[name])(left, right)
+        left, right = self._same_type(left, right)
+        if left.type == self.integer:
+            return getattr(self.b, _INTEGER_OPERATIONS[name])(left, right)
         return getattr(self.b, _REAL[name])(left, right, flags=_FLAGS)
 
-    def _alike(self, left: Any, right: Any) -> tuple[Any, Any]:
+    def _same_type(self, left: Any, right: Any) -> tuple[Any, Any]:
         kinds = left.type, right.type
         kind = self.vector if self.vector in kinds else self.real if self.real in kinds else left.type
         return self._as(left, kind), self._as(right, kind)
 
     def _of_Compare(self, node: ast.Compare) -> Any:
-        left, right = self._alike(self._value(node.left), self._value(node.comparators[0]))
+        left, right = self._same_type(self._value(node.left), self._value(node.comparators[0]))
         return self._compared(_COMPARE[type(node.ops[0]).__name__], left, right)
 
     def _compared(self, sign: str, left: Any, right: Any) -> Any:
-        compare = self.b.icmp_signed if left.type == self.whole else self.b.fcmp_ordered
+        compare = self.b.icmp_signed if left.type == self.integer else self.b.fcmp_ordered
         return compare(sign, left, right)
 
     def _of_BoolOp(self, node: ast.BoolOp) -> Any:
@@ -234,7 +234,7 @@ class KernelWriter(ComplexWriter):
 
     def _of_IfExp(self, node: ast.IfExp) -> Any:
         test = self._value(node.test)
-        return self.b.select(test, *self._alike(self._value(node.body), self._value(node.orelse)))
+        return self.b.select(test, *self._same_type(self._value(node.body), self._value(node.orelse)))
 
     def _place(self, node: ast.Subscript) -> tuple[Any, Any]:
         address = self._value(node.value)
@@ -247,17 +247,17 @@ class KernelWriter(ComplexWriter):
 
     def _of_Call(self, node: ast.Call) -> Any:
         assert isinstance(node.func, ast.Name)
-        name, given = node.func.id, [self._value(each) for each in node.args]
+        name, arguments = node.func.id, [self._value(each) for each in node.args]
         if name in self.made:
             kinds = self.made[name].function_type.args
             plain = [
                 each.value if isinstance(each, _Address) else self._as(each, kind)
-                for each, kind in zip(given, kinds, strict=True)
+                for each, kind in zip(arguments, kinds, strict=True)
             ]
             return self.b.call(self.made[name], plain)
         if name in _INTRINSIC:
-            return self._intrinsic(_INTRINSIC[name], self._as(given[0], self.real))
-        return getattr(self, f"_call_{name}")(*given)
+            return self._intrinsic(_INTRINSIC[name], self._as(arguments[0], self.real))
+        return getattr(self, f"_call_{name}")(*arguments)
 
     def _intrinsic(self, name: str, value: Any) -> Any:
         suffix = f"v{LANES}f64" if value.type == self.vector else "f64"
@@ -268,20 +268,20 @@ class KernelWriter(ComplexWriter):
         return known or ir.Function(self.module, ir.FunctionType(result, arguments), name)
 
     def _call_int(self, value: Any) -> Any:
-        return value if value.type == self.whole else self.b.fptosi(value, self.whole)
+        return value if value.type == self.integer else self.b.fptosi(value, self.integer)
 
     def _call_float(self, value: Any) -> Any:
         return self._as(value, self.real)
 
     def _call_min(self, left: Any, right: Any) -> Any:
-        left, right = self._alike(left, right)
+        left, right = self._same_type(left, right)
         return self.b.select(self._compared("<", left, right), left, right)
 
     def _call_max(self, left: Any, right: Any) -> Any:
-        left, right = self._alike(left, right)
+        left, right = self._same_type(left, right)
         return self.b.select(self._compared("<", left, right), right, left)
 
-    _call_lower, _call_higher = _call_min, _call_max
+    _call_minimum, _call_maximum = _call_min, _call_max
 
     def _call_load(self, address: _Address, index: Any) -> Any:
         place = self.b.gep(address.value, [index], source_etype=self.real)
@@ -310,14 +310,16 @@ class KernelWriter(ComplexWriter):
         add = self._outside(name, self.real, self.real, self.vector)
         return self.b.call(add, [ir.Constant(self.real, 0.0), value], fastmath=_FLAGS)
 
-    def _call_least(self, value: Any) -> Any:
+    def _call_smallest(self, value: Any) -> Any:
         return self.b.call(
             self._outside(f"llvm.vector.reduce.fmin.v{LANES}f64", self.real, self.vector), [value]
         )
 
     def _call_marked(self, value: Any, index: Any) -> Any:
-        kept = self.b.and_(self.b.bitcast(value, self.wholes), ir.Constant(self.wholes, [~4095] * LANES))
-        return self.b.bitcast(self.b.or_(kept, self.b.fptosi(index, self.wholes)), self.vector)
+        cleared = self.b.and_(
+            self.b.bitcast(value, self.integers), ir.Constant(self.integers, [~4095] * LANES)
+        )
+        return self.b.bitcast(self.b.or_(cleared, self.b.fptosi(index, self.integers)), self.vector)
 
     def _call_mark_of(self, value: Any) -> Any:
-        return self.b.and_(self.b.bitcast(value, self.whole), ir.Constant(self.whole, 4095))
+        return self.b.and_(self.b.bitcast(value, self.integer), ir.Constant(self.integer, 4095))

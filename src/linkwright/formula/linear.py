@@ -88,8 +88,8 @@ def _bring_largest_up(rows: Matrix, column: int) -> Scalar:
             continue
         larger = absolute(rows[column][column]) < absolute(rows[i][column])
         upper = [select(larger, y, x) for x, y in zip(rows[column], rows[i], strict=True)]
-        lower = [select(larger, x, y) for x, y in zip(rows[column], rows[i], strict=True)]
-        rows[column], rows[i] = upper, lower
+        exchanged = [select(larger, x, y) for x, y in zip(rows[column], rows[i], strict=True)]
+        rows[column], rows[i] = upper, exchanged
         sign = select(larger, -sign, sign)
     return sign
 

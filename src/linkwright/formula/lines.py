@@ -1,4 +1,4 @@
-"""A program prepared for evaluation: truth values and numbers kept apart, inputs by their place."""
+"""A program prepared for evaluation: truth values separate from numbers, inputs by their index."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Line(NamedTuple):
 
     @property
     def is_input(self) -> bool:
-        """Whether the value is given from outside."""
+        """Whether the value is an input."""
         return self.op in INPUTS
 
     @property

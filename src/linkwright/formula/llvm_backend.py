@@ -20,7 +20,7 @@ from linkwright.formula.machine_code import available
 from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.reductions import Accumulation, Results
-from linkwright.formula.table import Tables, given_tables
+from linkwright.formula.table import Tables, tables_in_order
 from linkwright.formula.threads import spread_over
 
 __all__ = ["CompiledProgram", "available", "compile_program"]
@@ -38,7 +38,7 @@ def compile_program(program: Program, accumulation: Accumulation | None = None) 
 
     Without an ``accumulation`` every output is stored (:meth:`CompiledProgram.store`, ``.repeated``); with
     one, of this program, its reductions are found inside the loop (:meth:`CompiledProgram.sweep`).
-    Machine code is kept in memory and on disk. Raises
+    Machine code is cached in memory and on disk. Raises
     ValueError for unknown outputs.
     """
     if not available():
@@ -77,7 +77,7 @@ class CompiledProgram:
         """Outputs (outputs, n) of one design (parameters,) after another, on positions and tables that are looked at
         once.
 
-        The same array of parameters given again is read where it lies. Outputs are read-only; those that nobody holds
+        An array of parameters that is passed again is read in place. Outputs are read-only; those that nobody holds
         any more, nor a view of them, make room for the next ones. Raises ValueError for missing inputs, unequal
         lengths, and programs that take fields.
         """
@@ -166,14 +166,14 @@ class CompiledProgram:
         return self.accumulation.finish(sums, inputs.length)
 
     def _inputs(self, positions: Arrays, fields: Arrays, length: int | None, tables: Tables | None) -> Inputs:
-        """The inputs of a call; those of the call before, where the same arrays are given again."""
+        """The inputs of a call; those of the call before, where the same arrays are passed again."""
         names = self.program.tables if self.accumulation is None else self.accumulation.tables
-        found = given_tables(names, tables)
-        kept: Inputs | None = getattr(self._own, "inputs", None)
-        if kept is None or not kept.fits(positions, fields, length, found):
-            kept = Inputs(self.program, self.width, positions, fields, length=length, tables=found)
-            self._own.inputs = kept if not kept.fields else None
-        return kept
+        found = tables_in_order(names, tables)
+        previous: Inputs | None = getattr(self._own, "inputs", None)
+        if previous is None or not previous.fits(positions, fields, length, found):
+            previous = Inputs(self.program, self.width, positions, fields, length=length, tables=found)
+            self._own.inputs = previous if not previous.fields else None
+        return previous
 
     def _table(self, parameters: ArrayLike) -> Floats:
         table = np.ascontiguousarray(parameters, dtype=np.float64)
@@ -201,6 +201,6 @@ class CompiledProgram:
             self._function(address_of(block))
 
         share = -(-len(table) // (threads * _CALLS_PER_THREAD))
-        longest, least = _LONGEST_CALL // inputs.length, min(_SHORTEST_CALL // inputs.length, share)
-        size, few = (max(1, designs // self.width) * self.width for designs in (longest, least))
-        spread_over(len(table), size, threads, work, least=few)
+        longest, shortest = _LONGEST_CALL // inputs.length, min(_SHORTEST_CALL // inputs.length, share)
+        size, minimum = (max(1, designs // self.width) * self.width for designs in (longest, shortest))
+        spread_over(len(table), size, threads, work, minimum=minimum)

@@ -116,7 +116,7 @@ class Loaded:
         self.function(entry)
 
     def function(self, entry: str, kind: Any = OF_ONE_ADDRESS) -> Any:
-        """A function of the code, of one address unless another ``kind`` is given; the code stays as long as it.
+        """A function of the code, of one address unless ``kind`` is another; the code lives as long as it.
 
         It gives the lock of the interpreter back while it runs. Raises RuntimeError where the code has none.
         """

@@ -35,13 +35,13 @@ def needed(
 
     ``arguments``: the numbers of the lines that a line takes.
     """
-    seen = set(wanted)
-    stack = list(seen)
+    found = set(wanted)
+    stack = list(found)
     while stack:
         index = stack.pop()
         if index not in stop:
             for arg in arguments(index):
-                if arg not in seen:
-                    seen.add(arg)
+                if arg not in found:
+                    found.add(arg)
                     stack.append(arg)
-    return sorted(seen)
+    return sorted(found)

@@ -16,14 +16,14 @@ from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.registers import Registers
 from linkwright.formula.scalar_backend import LineRunner, start_values
-from linkwright.formula.table import Table, Tables, given_tables
+from linkwright.formula.table import Table, Tables, tables_in_order
 
 Arrays = Mapping[str, ArrayLike]
 Source = tuple[str, tuple[str, ...], Any]
 
 #: Numbers in one buffer of a block; all buffers of a block together stay in a core's cache.
 _CACHE_NUMBERS = 120_000
-_KEPT_PLANS = 6
+_CACHED_PLANS = 6
 
 
 class NumpyProgram:
@@ -72,10 +72,10 @@ class NumpyProgram:
         return plan.outputs.copy()
 
     def _set_design(self, plan: BoundPlan, numbers: list[float], tables: Tables | None) -> None:
-        """The lines per design; those of the call before where the same numbers are given again."""
+        """The lines per design; those of the call before where the same numbers are passed again."""
         if numbers == plan.numbers and not self.program.tables:
             return
-        plan.tables[:] = given_tables(self.program.tables, tables)
+        plan.tables[:] = tables_in_order(self.program.tables, tables)
         values = [*self._start, *plan.tables]
         for index, value in zip(self._parameter_lines, numbers, strict=True):
             values[index] = value
@@ -118,7 +118,7 @@ class NumpyProgram:
         """
         fields = fields or {}
         n = self._length(positions, fields, length)
-        found = given_tables(self.program.tables, tables)
+        found = tables_in_order(self.program.tables, tables)
         size, width = self.block(n)
         for first in range(0, len(table), size):
             part = slice(first, min(first + size, len(table)))
@@ -192,7 +192,7 @@ class NumpyProgram:
         plans: dict[tuple[int | None, int], BoundPlan] = self._own.__dict__.setdefault("plans", {})
         key = designs, n
         if key not in plans:
-            if len(plans) >= _KEPT_PLANS:
+            if len(plans) >= _CACHED_PLANS:
                 plans.pop(next(iter(plans)))
             plans[key] = BoundPlan(self.lines, self.registers, designs, n)
         return plans[key]

@@ -38,10 +38,10 @@ class Program:
     def of(cls, trace: Trace, outputs: Mapping[str, Scalar | bool]) -> Program:
         """What of a trace the named outputs need, renumbered."""
         wanted = {name: trace.lift(value) for name, value in outputs.items()}
-        kept = trace.needed(wanted.values())
-        number = {old: new for new, old in enumerate(kept)}
+        needed = trace.needed(wanted.values())
+        number = {old: new for new, old in enumerate(needed)}
         return cls(
-            tuple([trace.entry(old, number) for old in kept]),
+            tuple([trace.entry(old, number) for old in needed]),
             tuple((name, number[old]) for name, old in wanted.items()),
         )
 
@@ -56,7 +56,7 @@ class Program:
             tuple((name, number[i]) for name, i in outputs),
         )
 
-    def with_given(self, names: Container[str], op: Literal["field", "position"] = "field") -> Program:
+    def with_inputs(self, names: Container[str], op: Literal["field", "position"] = "field") -> Program:
         """The same program with the parameters and positions of some names taken as fields, or as positions."""
         nodes: list[Node] = []
         for node in self.nodes:

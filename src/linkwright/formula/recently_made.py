@@ -1,4 +1,4 @@
-"""What was made for an object lately, kept while it is of use."""
+"""A small cache of what was made for an object."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ Made = TypeVar("Made")
 class Recent(Generic[Owner, Made]):
     """The last ``limit`` results, by the identity of their owner and a key.
 
-    Owners are compared by identity, so that a large one is not hashed; it is kept alive as long
+    Owners are compared by identity, so that a large one is not hashed; it stays alive as long
     as its result. Safe among threads; a result may be made twice, never half. A copy begins empty.
     """
 
     def __init__(self, limit: int) -> None:
         self._limit = limit
-        self._kept: OrderedDict[tuple[int, Hashable], tuple[Owner, Made]] = OrderedDict()
+        self._entries: OrderedDict[tuple[int, Hashable], tuple[Owner, Made]] = OrderedDict()
         self._lock = threading.Lock()
 
     def __reduce__(self) -> tuple[type[Recent[Owner, Made]], tuple[int]]:
@@ -30,12 +30,12 @@ class Recent(Generic[Owner, Made]):
         """The result for ``owner`` and ``key``, made where it is not there."""
         place = (id(owner), key)
         with self._lock:
-            if place in self._kept:
-                self._kept.move_to_end(place)
-                return self._kept[place][1]
+            if place in self._entries:
+                self._entries.move_to_end(place)
+                return self._entries[place][1]
         made = make()
         with self._lock:
-            self._kept[place] = (owner, made)
-            while len(self._kept) > self._limit:
-                self._kept.popitem(last=False)
+            self._entries[place] = (owner, made)
+            while len(self._entries) > self._limit:
+                self._entries.popitem(last=False)
         return made

@@ -93,7 +93,7 @@ class Accumulation:
         return tuple(dict.fromkeys(wanted))
 
     @cached_property
-    def apart(self) -> tuple[Program, Accumulation] | None:
+    def split_by_design(self) -> tuple[Program, Accumulation] | None:
         """What is the same for all designs, and the rest; None where that is not worth while."""
         parted = along_input(self.program)
         if parted is None:
@@ -130,7 +130,7 @@ class Accumulation:
 
     @property
     def key(self) -> str:
-        """What decides the code, apart from the program."""
+        """What decides the code, besides the program."""
         return f"{self.steps} {self.valid} "
 
     def start(self, designs: int) -> Floats:

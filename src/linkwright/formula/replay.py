@@ -18,7 +18,7 @@ _BINARY = {"add", "sub", "mul", "div"}
 class Replay:
     """``values[i]``: line ``i`` of the program in ``trace``; only chosen lines are written (None: all).
 
-    ``inputs``: what stands for inputs of these names; the other inputs stay what they are.
+    ``inputs``: replacements of inputs by name; the other inputs stay as they are.
     """
 
     def __init__(
@@ -31,7 +31,7 @@ class Replay:
         self.trace = Trace() if trace is None else trace
         self.program = program
         self.values: dict[int, Scalar] = {}
-        self._given = inputs or {}
+        self._inputs = inputs or {}
         for index in range(len(program.nodes)) if chosen is None else chosen:
             self.write(index)
 
@@ -50,8 +50,8 @@ class Replay:
         return node.constant if node.op == "constant" else self._input(node)
 
     def _input(self, node: Node) -> Scalar:
-        if node.name in self._given:
-            return self._given[node.name]
+        if node.name in self._inputs:
+            return self._inputs[node.name]
         t = self.trace
         make = {"parameter": t.parameter, "position": t.position, "field": t.field_input}
         return make[node.op](node.name)
@@ -60,12 +60,12 @@ class Replay:
 class Substitution:
     """Values of a trace with other values in the place of some of its inputs, written into the same trace.
 
-    ``given``: what stands for an input, by the number of its line; None leaves the input as it is.
+    ``replacement``: the replacement of an input, by the number of its line; None leaves the input as it is.
     """
 
-    def __init__(self, trace: Trace, given: Callable[[int], Scalar | None]) -> None:
+    def __init__(self, trace: Trace, replacement: Callable[[int], Scalar | None]) -> None:
         self.trace = trace
-        self.given = given
+        self.replacement = replacement
         self.found: dict[int, Scalar] = {}
         self._unchanged: set[int] = set()
 
@@ -87,13 +87,13 @@ class Substitution:
     def _line(self, index: int, line: Operation) -> Scalar:
         t, (op, *args) = self.trace, line
         if args and not self._unchanged.issuperset(args):
-            node = Node(op, (), *t.given(index), False)
+            node = Node(op, (), *t.constant_and_name(index), False)
             return operation(t, node, [self.found[arg] for arg in args])
-        other = self.given(index) if not args and op != "constant" else None
+        other = self.replacement(index) if not args and op != "constant" else None
         if other is not None:
             return other
         self._unchanged.add(index)
-        return t.given(index)[0] if op == "constant" else Value(t, index)
+        return t.constant_and_name(index)[0] if op == "constant" else Value(t, index)
 
 
 def operation(t: Trace, node: Node, args: Sequence[Scalar]) -> Scalar:
@@ -183,7 +183,7 @@ def along_input(program: Program) -> tuple[Program, Program] | None:
     ), rest
 
 
-#: Prefix of the positions that are found from the positions given.
+#: Prefix of the positions that are found from the input positions.
 _ALONE = "along:"
 
 

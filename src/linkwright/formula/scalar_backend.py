@@ -10,7 +10,7 @@ from typing import Any
 from linkwright.formula.functions import FUNCTIONS
 from linkwright.formula.lines import Line, Lines
 from linkwright.formula.program import Program
-from linkwright.formula.table import Tables, given_tables
+from linkwright.formula.table import Tables, tables_in_order
 
 #: (function, line to fill, first argument, second argument); one form for all, as a loop likes it.
 Step = tuple[Callable[[Any, Any], Any], int, int, int]
@@ -133,7 +133,7 @@ class ScalarProgram:
         self.program = program
         self.lines = Lines.of(program)
         lines = self.lines.lines
-        self._start = [*start_values(lines), *given_tables(program.tables, tables)]
+        self._start = [*start_values(lines), *tables_in_order(program.tables, tables)]
         self._design = LineRunner(lines, self.lines.design_lines())
         self._position = LineRunner(lines, [i for i, x in enumerate(lines) if x.varies and x.is_operation])
         self._inputs = {
@@ -179,17 +179,17 @@ class ScalarProgram:
         known, values = self._prepared
         if parameters is known:
             return list(values)
-        given = tuple(float(p) for p in parameters)
-        if given != known:
+        numbers = tuple(float(p) for p in parameters)
+        if numbers != known:
             values = list(self._start)
-            self._put(values, "parameter", given)
+            self._put(values, "parameter", numbers)
             self._design.run(values)
-            self._prepared = given, values
+            self._prepared = numbers, values
         return list(values)
 
-    def _put(self, values: list[Any], op: str, given: Sequence[float]) -> None:
+    def _put(self, values: list[Any], op: str, numbers: Sequence[float]) -> None:
         places = self._inputs[op]
-        if len(places) != len(given):
-            raise ValueError(f"the program has {len(places)} {op} inputs, but {len(given)} are given")
-        for index, value in zip(places, given, strict=True):
+        if len(places) != len(numbers):
+            raise ValueError(f"the program has {len(places)} {op} inputs, found {len(numbers)}")
+        for index, value in zip(places, numbers, strict=True):
             values[index] = float(value)

@@ -97,7 +97,7 @@ class Summaries:
 
 
 def summaries(program: Program, reductions: Sequence[Reduction], valid: str | None = "valid") -> Summaries:
-    """Those of a program, kept for it."""
+    """Those of a program, cached for it."""
     key = (*reductions, valid)
     return _summaries.get(program, key, lambda: Summaries(program, reductions, valid))
 
@@ -125,15 +125,15 @@ def in_blocks(
     if numbers.ndim != 2 or numbers.shape[1] != len(parameters):
         wanted = ", ".join(parameters)
         raise ValueError(f"the table must have the columns {wanted}, not the shape {numbers.shape}")
-    given = {name: np.ascontiguousarray(a, dtype=np.float64) for name, a in (fields or {}).items()}
-    lengths = {int(np.shape(array)[-1]) for array in (*(positions or {}).values(), *given.values())}
+    columns = {name: np.ascontiguousarray(a, dtype=np.float64) for name, a in (fields or {}).items()}
+    lengths = {int(np.shape(array)[-1]) for array in (*(positions or {}).values(), *columns.values())}
     if len(lengths) != 1:
         raise ValueError(f"inputs over the positions must have one length, but have {sorted(lengths)}")
     n = lengths.pop()
     run = Run(positions or {}, n, tables, cores() if threads is None else threads, backend)
     several = max(1, size // max(n, 1))
     parts = [
-        find(numbers[k : k + several], {name: each[k : k + several] for name, each in given.items()}, run)
+        find(numbers[k : k + several], {name: each[k : k + several] for name, each in columns.items()}, run)
         for k in range(0, len(numbers) or 1, several)
     ]
     return (
@@ -170,8 +170,8 @@ def reduced(accumulation: Accumulation, table: Floats, fields: Arrays, run: Run)
 
     ``table``: (designs, parameters) in the order of ``accumulation.parameters``.
     """
-    if len(table) >= _WORTH_PARTING and accumulation.apart is not None:
-        alone, accumulation = accumulation.apart
+    if len(table) >= _WORTH_PARTING and accumulation.split_by_design is not None:
+        alone, accumulation = accumulation.split_by_design
         rows = numpy_program(alone).run((), run.positions, length=run.length, tables=run.tables)
         found = dict(zip(alone.output_names, rows, strict=True))
         run = Run({**run.positions, **found}, run.length, run.tables, run.threads, run.backend)

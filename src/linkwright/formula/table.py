@@ -53,7 +53,7 @@ class Table:
     ) -> Table:
         """Straight lines between the points; beyond the ends the end values (not periodic) stay.
 
-        ``periodic``: the drift is y's change over the table unless given.
+        ``periodic``: the drift is by default y's change over the table.
         """
         xs, ys = _points(x, y)
         slopes = np.diff(ys) / np.diff(xs)
@@ -123,7 +123,7 @@ class Table:
 Tables = Mapping[str, Table]
 
 
-def given_tables(names: tuple[str, ...], tables: Tables | None) -> list[Table]:
+def tables_in_order(names: tuple[str, ...], tables: Tables | None) -> list[Table]:
     """The tables that a program looks up, in its order. Raises ValueError for one that is missing."""
     if not names:
         return []

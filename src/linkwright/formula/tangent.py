@@ -23,7 +23,7 @@ def tangents(replay: Replay, name: str) -> dict[int, Scalar]:
 
 
 def slope(value: Scalar, seeds: Mapping[Value, Scalar]) -> Scalar:
-    """Derivative of a value along given changes of earlier values, in the same trace.
+    """Derivative of a value along changes of earlier values, in the same trace.
 
     ``seeds``: values (inputs, or any line) and their rates; what they depend on counts as constant.
     The result is a value like every other: it can be an output, and be differentiated again.

@@ -29,15 +29,15 @@ def chunks(count: int, size: int) -> Iterator[Chunk]:
     return ((first, min(first + size, count)) for first in range(0, count, size))
 
 
-def tapering(count: int, largest: int, least: int, threads: int) -> Iterator[Chunk]:
-    """The same of chunks of at most ``largest`` that grow smaller to the end, by multiples of ``least``.
+def tapering(count: int, largest: int, minimum: int, threads: int) -> Iterator[Chunk]:
+    """Chunks of at most ``largest`` that grow smaller to the end, by multiples of ``minimum``.
 
     So the threads leave off at nearly the same time.
     """
     first = 0
     while first < count:
         share = (count - first) // (2 * threads)
-        size = min(largest, max(least, share - share % least))
+        size = min(largest, max(minimum, share - share % minimum))
         yield first, min(first + size, count)
         first += size
 
@@ -51,20 +51,20 @@ def _next(waiting: deque[Chunk]) -> Chunk | None:
 
 
 def spread_over(
-    count: int, size: int, threads: int, work: Callable[[int, int], None], *, least: int | None = None
+    count: int, size: int, threads: int, work: Callable[[int, int], None], *, minimum: int | None = None
 ) -> None:
     """Call ``work(first, after_last)`` for every chunk, on ``threads`` threads, this one among them.
 
-    Chunks have ``size``, with ``least`` fewer to the end. The first exception is raised, once all threads have left
-    off; chunks not begun by then are left out.
+    Chunks have ``size``, with ``minimum`` smaller ones at the end. The first exception is raised, once all threads
+    have left off; chunks not begun by then are left out.
     """
     if not count:
         return
-    if count <= (least or size) or (threads <= 1 and count <= size):
+    if count <= (minimum or size) or (threads <= 1 and count <= size):
         work(0, count)
         return
-    tapers = least is not None and threads > 1
-    waiting = deque(tapering(count, size, least or size, threads) if tapers else chunks(count, size))
+    tapers = minimum is not None and threads > 1
+    waiting = deque(tapering(count, size, minimum or size, threads) if tapers else chunks(count, size))
 
     def drain() -> None:
         try:

@@ -117,22 +117,22 @@ class Trace:
 
     lines: list[Operation] = field(default_factory=list)
     varies: list[bool] = field(default_factory=list)
-    _given: dict[int, tuple[float, str]] = field(default_factory=dict)
+    _constants: dict[int, tuple[float, str]] = field(default_factory=dict)
     _known: dict[tuple[object, ...], int] = field(default_factory=dict)
 
     def node(self, index: int) -> Node:
         """A line by its number."""
         line = self.lines[index]
-        return Node(line[0], line[1:], *self._given.get(index, _NEITHER), self.varies[index])
+        return Node(line[0], line[1:], *self._constants.get(index, _NEITHER), self.varies[index])
 
-    def given(self, index: int) -> tuple[float, str]:
+    def constant_and_name(self, index: int) -> tuple[float, str]:
         """The constant and the name of a line."""
-        return self._given.get(index, _NEITHER)
+        return self._constants.get(index, _NEITHER)
 
     def entry(self, index: int, number: Mapping[int, int]) -> Entry:
         """A line whose arguments have other numbers."""
         line = self.lines[index]
-        constant, name = self._given.get(index, _NEITHER)
+        constant, name = self._constants.get(index, _NEITHER)
         return line[0], tuple([number[i] for i in line[1:]]), constant, name, self.varies[index]
 
     def needed(self, wanted: Iterable[int], stop: Container[int] = ()) -> list[int]:
@@ -241,7 +241,7 @@ class Trace:
         return FUNCTIONS[op].value(*(float(a) for a in args if not isinstance(a, Value)))
 
     def power(self, a: Scalar, b: Scalar) -> Scalar:
-        """a to the power b; a small whole power is a product, a half one a root."""
+        """a to the power b; a small integer power is a product, a half one a root."""
         if not isinstance(b, Value) and abs(b) <= _LARGEST_PRODUCT and float(b).is_integer():
             product: Scalar = 1.0
             for bit in bin(int(abs(b)))[2:]:
@@ -251,7 +251,7 @@ class Trace:
         return self.function("sqrt", a) if _is(b, 0.5) else self.function("pow", a, b)
 
     def lookup(self, table: str, x: Scalar, order: int = 0) -> Scalar:
-        """A table's value at x, or its derivative; the table itself is given with every call."""
+        """A table's value at x, or its derivative; the table itself is passed with every call."""
         if order >= _CONSTANT_DERIVATIVES:
             return 0.0
         at = self.lift(x)
@@ -330,7 +330,7 @@ class Trace:
             index = self._known[key] = len(self.lines)
             self.lines.append((op, *args))
             self.varies.append(varies)
-            self._given[index] = constant, name
+            self._constants[index] = constant, name
         return Value(self, index)
 
     def _negated(self, value: Scalar) -> Value | None:
@@ -350,7 +350,7 @@ def _same(a: object, b: object) -> bool:
     return isinstance(a, Value) and isinstance(b, Value) and a.index == b.index and a.trace is b.trace
 
 
-#: Whole powers up to this one are products.
+#: Integer powers up to this one are products.
 _LARGEST_PRODUCT = 8
 #: Derivatives of a cubic of this order and above are zero.
 _CONSTANT_DERIVATIVES = 4
@@ -385,7 +385,7 @@ def absolute(x: Scalar) -> Scalar:
 
 
 def floor(x: Scalar) -> Scalar:
-    """The largest whole number that is not above x; its derivative is zero."""
+    """The largest integer that is not above x; its derivative is zero."""
     return _apply("floor", x)
 
 
@@ -435,7 +435,7 @@ def log(x: Scalar) -> Scalar:
 
 
 def power(a: Scalar, b: Scalar) -> Scalar:
-    """a to the power b; NaN for a negative base and a power that is not whole."""
+    """a to the power b; NaN for a negative base and a power that is not an integer."""
     for x in (a, b):
         if isinstance(x, Value):
             return x.trace.power(a, b)
@@ -483,5 +483,5 @@ def sign(x: Scalar) -> Scalar:
 
 
 def nearest_turn(x: Scalar, reference: Scalar) -> Scalar:
-    """The angle x with as many whole turns as bring it nearest to a reference, at most half a turn off."""
+    """The angle x shifted by full turns to be nearest to a reference, at most half a turn off."""
     return x + math.tau * floor((reference - x) * (1.0 / math.tau) + 0.5)

@@ -56,7 +56,7 @@ def _exports(exports: Mapping[str, int], imported: int) -> bytes:
 
 
 def _imported_functions(body: bytes) -> int:
-    """How many functions are imported; beside them only the memory may be."""
+    """How many functions are imported; besides them only the memory may be."""
     count, place = _number(body, 0)
     found = 0
     for _ in range(count):

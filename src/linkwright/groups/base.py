@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Chain:
-    """One open chain of a group, as seen by the closed form."""
+    """One open chain of a group, as the closed form has it."""
 
     anchor: Vec
     arm: Vec | None = None
@@ -39,7 +39,7 @@ class Solved:
     """Chain coordinates (rotors and slides, chain a first) and what the rates and forces share.
 
     ``inverse_determinant``: of the Jacobian of the closure (cut of chain a minus cut of chain b);
-    ``square``: what stands under the root, negative out of reach, zero at a singular position;
+    ``square``: the radicand, negative out of reach, zero at a singular position;
     ``scale``: the size of ``square`` in a position of best condition;
     ``facts``: numbers that explain a failure.
     """
@@ -63,7 +63,7 @@ class Dyad(Protocol):
         ...
 
     def at_end(self, facts: Mapping[str, float]) -> str:
-        """How the group stands where the range of the input ends; a class without it is called singular."""
+        """The group's position where the range of the input ends; a class without it is called singular."""
         ...
 
     def explain(self, facts: Mapping[str, float]) -> str:
@@ -72,7 +72,7 @@ class Dyad(Protocol):
 
 
 class Tracer(Protocol):
-    """What the closed form of a whole group sees: poses of links solved before, and the traced dimensions."""
+    """Inputs of the closed form of a complete group: poses of links solved before, and the traced dimensions."""
 
     @property
     def poses(self) -> Mapping[str, Pose]: ...
@@ -83,7 +83,7 @@ class Tracer(Protocol):
 class WholeGroup(Protocol):
     """A closed form for a group of any size: it says which groups it fits, and places all their unknowns at once.
 
-    Registered beside the dyads; it has one assembly mode, so ``words`` are empty. ``place`` gives a :class:`Solved`
+    Registered with the dyads; it has one assembly mode, so ``words`` are empty. ``place`` gives a :class:`Solved`
     whose coordinates stand in the order of ``group.unknowns``; the tracer knows the poses of links solved before, and
     the traced dimensions.
     """
@@ -96,7 +96,7 @@ class WholeGroup(Protocol):
         ...
 
     def place(self, tracer: Tracer, group: Group) -> Solved:
-        """The unknowns, what stands under the root (negative out of reach), and facts for ``explain``."""
+        """The unknowns, the radicand (negative out of reach), and facts for ``explain``."""
         ...
 
     def explain(self, facts: Mapping[str, float]) -> str:

@@ -18,7 +18,7 @@ class RPR:
 
     With d = Q - P and e the distance across the guide between the pins (sum of both offsets):
     length along the guide ρ = mode √(d·d - e²), and the guide's direction is d (ρ - i e) / d·d as complex
-    numbers. Modes: the block ahead of or behind the foot of the perpendicular, seen along the guide. Out of
+    numbers. Modes: the block ahead of or behind the foot of the perpendicular along the guide. Out of
     reach if |d| < |e| (rprk of the teaching texts).
     """
 
@@ -52,7 +52,7 @@ class RPR:
     def explain(self, facts: Mapping[str, float]) -> Message:
         distance, offset = root_of(max(facts["distance²"], 0.0)), abs(facts["offset"])
         return _(
-            "the outer pins are {distance} apart, the guide holds them {offset} apart across its "
+            "the distance of the outer pins is {distance}, the guide needs {offset} across its "
             "direction: {missing} too close",
             code="outcome.rpr_near",
             distance=shown(distance, "length", 7),

@@ -17,7 +17,7 @@ class RRP:
     """Outer pin P, link of length r to the inner pin B, which the slider carries along the direction n.
 
     With f = P - B(0), h = n × f (distance of P from the pin's path): s = f·n + mode √(r² - h²).
-    Modes: B ahead of or behind the foot of the perpendicular from P, seen along the guide's direction: along n, and
+    Modes: B ahead of or behind the foot of the perpendicular from P along the guide's direction: along n, and
     against n if the slider carries the guide. Out of reach if |h| > r (rrpk of the teaching texts).
     """
 

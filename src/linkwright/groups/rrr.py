@@ -58,13 +58,13 @@ class RRR:
         reach = r1 + r2 if far else abs(r1 - r2)
         return (
             _(
-                "the outer pins are {distance} apart, links of {first} and {second} reach {reach}: "
+                "the distance of the outer pins is {distance}, links of {first} and {second} reach {reach}: "
                 "{missing} missing",
                 code="outcome.rrr_far",
             )
             if far
             else _(
-                "the outer pins are {distance} apart, links of {first} and {second} need at least "
+                "the distance of the outer pins is {distance}, links of {first} and {second} need at least "
                 "{reach}: {missing} too close",
                 code="outcome.rrr_near",
             )

@@ -1,8 +1,8 @@
 """What a joint kind supplies, and the registry of the kinds.
 
 A kind is one file with one frozen dataclass, registered under the word of its key ``kind``: the fields of the model
-file, what it leaves and ties of its links, its equation, how it hangs a link in an open chain.
-Solvers ask the joint and never its kind. What a kind leaves out is said when it is needed (:class:`LackingError`).
+file, what it leaves and ties of its links, its equation, how it hangs a link in an open chain. Solvers ask the joint
+and never its kind. What a kind leaves out is reported when it is needed (:class:`LackingError`).
 """
 
 from __future__ import annotations
@@ -166,7 +166,7 @@ class Joint(ABC):
         return cls(entry.name, **entry.values)
 
     @classmethod
-    def unpinned(cls, given: Mapping[str, Any]) -> tuple[str, Sequence[str]] | None:
+    def unpinned(cls, values: Mapping[str, Any]) -> tuple[str, Sequence[str]] | None:
         """A point that several links share by an entry with these words, and the links; the last of them is no
         link of the pin that the shared name would imply."""
         return None

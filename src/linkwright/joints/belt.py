@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 @JOINTS.register("belt")
 @dataclass(frozen=True)
 class BeltPair(WheelPair):
-    """A belt without slip around two pulleys of pitch ``radii``, ``run`` open or crossed.
+    """A belt without creep around two pulleys of pitch ``radii``, ``run`` open or crossed.
 
     The row is r_a (θ_a - θ_c) ∓ r_b (θ_b - θ_c) = const, - for an open belt. Its multiplier F is the effective pull,
     positive where it turns a counter-clockwise. The strands lie along the tangents; with the ``pretension`` F0 (N, of
@@ -64,7 +64,7 @@ class BeltPair(WheelPair):
             entry.say(
                 "radii" if self.radii else "teeth",
                 problem,
-                _("put the centres further apart, or take smaller wheels"),
+                _("increase the centre distance, or take smaller wheels"),
                 "range",
             )
 
@@ -73,7 +73,7 @@ class BeltPair(WheelPair):
         if a + b < distance:
             return None
         return _(
-            "the radii add up to {sum}, but the centres {centres} are {distance} apart",
+            "the radii add up to {sum}, but the distance of the centres {centres} is {distance}",
             code="joints.pulleys_touch",
             sum=length(a + b),
             centres=self.centres,
@@ -108,10 +108,10 @@ class BeltPair(WheelPair):
 
     def held(self, at: Ends, force: Scalar, size: Size) -> list[tuple[Scalar, Scalar]]:
         """Both strands pull the centres together, with the difference of their pulls to one side of their line."""
-        apart, aside = self.centres_apart(at)
+        outward, aside = self.centre_offset(at)
         sine = -self.traced_arms(at)[2] * reciprocal(sqrt(self.traced_line(at.dimensions).square))
         pull = at.dimension(f"{self.name}.pretension") * 2.0 if self.pretension else size(force)
-        return [(-aside, sine * force), (apart, -pull * sqrt(1.0 - sine * sine))]
+        return [(-aside, sine * force), (outward, -pull * sqrt(1.0 - sine * sine))]
 
     def place(self, at: Ends, link: str) -> Vec:
         """The centre of a."""

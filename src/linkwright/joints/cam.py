@@ -40,9 +40,9 @@ TOUCH = ("roller", "knife", "flat")
 Points = tuple[float, ...]
 
 
-def _lift(given: Mapping[str, Any]) -> str:
+def _lift(values: Mapping[str, Any]) -> str:
     """Dimension of the lift: an angle where the follower oscillates."""
-    return "angle" if given.get("side") is not None else "length"
+    return "angle" if values.get("side") is not None else "length"
 
 
 @JOINTS.register("cam")
@@ -158,7 +158,7 @@ class CamJoint(HigherPair):
         elif (program is None) == (angles is None):
             entry.say(
                 "program",
-                _("the lift of the cam is not given, or given twice"),
+                _("the lift of the cam is missing, or set twice"),
                 _("give program: or angles: with lifts:, one of them"),
                 "missing-key",
             )
@@ -180,15 +180,15 @@ class CamJoint(HigherPair):
                 "missing-key",
             )
         else:
-            given: dict[str, Any] = {
+            attributes: dict[str, Any] = {
                 key: values[key] for key in ("cam", "follower", "at", "touch", "base_radius")
             }
-            given |= {key: values.get(key) or 0.0 for key in ("roller_radius", "phase")}
-            given |= {key: values.get(key) or "" for key in ("turn", "side", "closure")}
+            attributes |= {key: values.get(key) or 0.0 for key in ("roller_radius", "phase")}
+            attributes |= {key: values.get(key) or "" for key in ("turn", "side", "closure")}
             if program is not None:
-                return cls(name, **given, curve=LiftCurve.of(program).text, program=program)
+                return cls(name, **attributes, curve=LiftCurve.of(program).text, program=program)
             x, y = tuple(angles or ()), tuple(lifts or ())
-            return cls(name, **given, curve=LiftCurve.through(x, y).text, angles=x, lifts=y)
+            return cls(name, **attributes, curve=LiftCurve.through(x, y).text, angles=x, lifts=y)
         return None
 
     def settled(self, mechanism: Model, report: Report) -> Joint:
@@ -236,17 +236,17 @@ class CamJoint(HigherPair):
         if not found.reach > 0:
             remedy = (
                 _(
-                    "take a base_radius above {least} and below {most}, or change the distance of "
+                    "take a base_radius above {minimum} and below {maximum}, or change the distance of "
                     "follower and cam",
                 )
-                if found.most < math.inf
-                else _("take a base_radius above {least}, or bring follower and cam nearer")
+                if found.maximum < math.inf
+                else _("take a base_radius above {minimum}, or bring follower and cam nearer")
             )
-            least, most = (shown(each, "length", 5) for each in (found.least, found.most))
+            minimum, maximum = (shown(each, "length", 5) for each in (found.minimum, found.maximum))
             report(
                 "base_radius",
                 _("the follower does not reach the base circle"),
-                remedy.format(least=least, most=most),
+                remedy.format(minimum=minimum, maximum=maximum),
             )
         return found
 
@@ -346,7 +346,7 @@ class CamJoint(HigherPair):
         return sqrt(arm.square), acos(reach / (2.0 * c * sqrt(arm.square))), side, arm, line
 
     def gains(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float]]:
-        """The follower's coordinate, as the lift gains nothing over whole turns of the cam."""
+        """The follower's coordinate, as the lift gains nothing over full turns of the cam."""
         return ({self.follower: 1.0, self.carrier: -1.0}, {}) if self.side else ({}, {self.holder: 1.0})
 
     def _lifted(self, turn: Any) -> tuple[Any, Any, Any]:
@@ -370,7 +370,7 @@ class CamJoint(HigherPair):
         raise LackingError(
             _(
                 "the lift of a cam is no sum of rotations and displacements, which is all that can "
-                "be said here: exports to MuJoCo and Modelica, and worked solutions of a cam within "
+                "be used here: exports to MuJoCo and Modelica, and worked solutions of a cam within "
                 "a loop, take gears, racks and belts only",
                 code="joints.cam_sums",
             )

@@ -36,8 +36,8 @@ class Geometry:
     """How a follower is held, as numbers: ``along`` its way in the carrier's and ``own`` in its own axes (rad; of a
     pivot: to the cam's centre, to ``at``), ``start`` d (m) or ψ₀ (rad), ``scale`` m per unit of the coordinate;
     ``reach`` positive where follower and base circle meet; ``aside``: of ``at`` to the left of the way through the
-    cam's centre, ``ahead``: where it is along the way when a guide's displacement is 0 (m); ``least`` and ``most``:
-    between them base radii reach (m)."""
+    cam's centre, ``ahead``: where it is along its path when a guide's displacement is 0 (m); ``minimum`` and
+    ``maximum``: between them base radii reach (m)."""
 
     along: float
     own: float
@@ -46,8 +46,8 @@ class Geometry:
     reach: float
     aside: float = 0.0
     ahead: float = 0.0
-    least: float = 0.0
-    most: float = math.inf
+    minimum: float = 0.0
+    maximum: float = math.inf
 
     @classmethod
     def of(cls, joint: Follower, mechanism: Model) -> Geometry:
@@ -63,13 +63,13 @@ class Geometry:
         arm = at - complex(*mechanism.link(joint.follower).points[joint.holder])
         c, length = abs(line), abs(arm)
         flat = joint.touch == "flat"
-        reached, whole = (radius, c) if flat else (c * c + length**2 - radius**2, 2 * c * length)
-        share = reached / whole if c and length else math.inf
+        reached, denominator = (radius, c) if flat else (c * c + length**2 - radius**2, 2 * c * length)
+        share = reached / denominator if c and length else math.inf
         met = min(max(share, -1.0), 1.0)
         start = math.asin(met) if flat else math.acos(met)
-        least, most = (0.0, c) if flat else (abs(c - length), c + length)
+        minimum, maximum = (0.0, c) if flat else (abs(c - length), c + length)
         own, beyond = cmath.phase(arm), radius - joint.base_radius
-        limits = {"least": max(least - beyond, 0.0), "most": most - beyond}
+        limits = {"least": max(minimum - beyond, 0.0), "most": maximum - beyond}
         return cls(cmath.phase(line), own, start, c if flat else length, 1.0 - abs(share), **limits)
 
     @classmethod
@@ -88,10 +88,10 @@ class Geometry:
         ends = (guide.through, guide.at) if outward else (guide.at, guide.through)
         held = complex(*mechanism.link(joint.carrier).points[ends[0]]) - centre
         reached = at - complex(*mechanism.link(joint.follower).points[ends[1]])
-        seen = held * cmath.exp(-1j * along) + reached * cmath.exp(-1j * own)
-        side = seen.imag + guide.offset * (1 if outward else -1)
+        relative = held * cmath.exp(-1j * along) + reached * cmath.exp(-1j * own)
+        side = relative.imag + guide.offset * (1 if outward else -1)
         if joint.touch == "flat":
-            return cls(along, own, radius, 1.0, radius, side, seen.real)
+            return cls(along, own, radius, 1.0, radius, side, relative.real)
         square = radius**2 - side**2
-        least = max(abs(side) - radius + joint.base_radius, 0.0)
-        return cls(along, own, math.sqrt(max(square, 0.0)), 1.0, square, side, seen.real, least)
+        minimum = max(abs(side) - radius + joint.base_radius, 0.0)
+        return cls(along, own, math.sqrt(max(square, 0.0)), 1.0, square, side, relative.real, minimum)

@@ -44,7 +44,7 @@ class ChainPair(BeltPair):
             entry.say(
                 "",
                 _("the chain's pitch is missing", code="joints.no_pitch"),
-                _("give pitch: 12.7 mm beside teeth, or radii instead"),
+                _("give pitch: 12.7 mm with teeth, or radii instead"),
                 "missing-key",
             )
             return None

@@ -224,7 +224,7 @@ class Ends:
         return self.moving[moving]
 
     def symbol(self) -> Value:
-        """A symbol that stands for nothing of the links, such as the coordinate of a chain."""
+        """A symbol that belongs to no link, such as the coordinate of a chain."""
         self._count += 1
         return self.dimensions.symbols.number(self._count - 1)
 

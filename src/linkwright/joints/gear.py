@@ -27,7 +27,7 @@ STANDARD, CLEARANCE = pi / 9, 0.25
 class GearPair(RollingPair):
     """Two gears, which move like wheels that roll on each other with their pitch circles.
 
-    Their teeth press the wheels apart with the separating force |F_t| tan α along AB, ``pressure_angle`` α (Norton,
+    Their teeth press on the wheels with the separating force |F_t| tan α along AB, ``pressure_angle`` α (Norton,
     Design of Machinery, ch. 9 and 11).
     """
 
@@ -107,7 +107,7 @@ class GearPair(RollingPair):
     def _slope(self, angle: Scalar, wanted: Scalar, square: Scalar) -> Scalar:
         """tan of the pressure angle in mesh, traced or a number, at the square of the distance.
 
-        A distance that fits, as a file rounds it, has the given angle to the last digit.
+        A distance that fits, as a file rounds it, has the stated angle to the last digit.
         """
         if not self.involute or (isinstance(angle, float) and angle == 0.0):
             return tan(angle)
@@ -131,9 +131,9 @@ class GearPair(RollingPair):
         return slope
 
     def held(self, at: Ends, force: Scalar, size: Size) -> list[tuple[Scalar, Scalar]]:
-        """And the teeth press the wheels apart: an external a to its own centre, a ring outwards."""
+        """The separating force: on an external gear a towards its own centre, on a ring outwards."""
         square, alpha = self.traced_line(at.dimensions).square, at.dimension(f"{self.name}.pressure_angle")
         slope, teeth = self._slope(alpha, self._asked(at.dimensions), square), super().held(at, force, size)
         if isinstance(slope, float) and slope == 0.0:
             return teeth
-        return [*teeth, (self.centres_apart(at)[0], -self.sense * slope * size(force))]
+        return [*teeth, (self.centre_offset(at)[0], -self.sense * slope * size(force))]

@@ -63,14 +63,14 @@ class State:
         return self.pose.spin(local - self.pose.anchor)
 
     def velocity_of(self, local: Vec) -> Vec:
-        """Velocity of a point given in the link's axes."""
+        """Velocity of a point in the link's axes."""
         share = self._share(local)
         if _real(share):
             return self.velocity + (self.pose.rotor.now.perp * self.omega) * share.x
         return self.velocity_at(self.arm(local))
 
     def acceleration_of(self, local: Vec) -> Vec:
-        """Acceleration of a point given in the link's axes."""
+        """Acceleration of a point in the link's axes."""
         share = self._share(local)
         if _real(share):
             now = self.pose.rotor.now

@@ -13,7 +13,7 @@ from linkwright.formula.trace import Scalar, reciprocal, sqrt
 from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.ends import Ends, Hung
-from linkwright.joints.lower import SlidingJoint
+from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.joints.revolute import FRICTION
 from linkwright.words import _
 from linkwright.words.sentence import together
@@ -65,7 +65,7 @@ class PrismaticJoint(SlidingJoint):
 
     @classmethod
     def read(cls, entry: Entry) -> Joint | None:
-        if not cls._apart(entry):
+        if not cls._points_differ(entry):
             return None
         name, values, links = entry.name, entry.values, entry.links
         guide, direction = values["guide"], values.pop("direction")
@@ -79,16 +79,16 @@ class PrismaticJoint(SlidingJoint):
             return joint
         if math.dist(first, second) == 0:
             problem = _("{points} are at the same place", code="model.same_place", points=together(direction))
-            entry.say("direction", problem, _("name two points apart from each other"), "range")
+            entry.say("direction", problem, _("name two points with different positions"), "range")
         return joint.aligned(links[guide].points)
 
     @classmethod
-    def unpinned(cls, given: Mapping[str, Any]) -> tuple[str, Sequence[str]] | None:
-        at, guide = given.get("at"), given.get("guide")
-        return (at, (guide,)) if at and guide and at == given.get("through") else None
+    def unpinned(cls, values: Mapping[str, Any]) -> tuple[str, Sequence[str]] | None:
+        at, guide = values.get("at"), values.get("guide")
+        return (at, (guide,)) if at and guide and at == values.get("through") else None
 
     @staticmethod
-    def _apart(entry: Entry) -> bool:
+    def _points_differ(entry: Entry) -> bool:
         """Whether guide and block, and their points, are different ones."""
         guide, block, point = (entry.values[key] for key in ("guide", "block", "at"))
         if guide == block:

@@ -23,7 +23,7 @@ from linkwright.joints.base import (
 )
 from linkwright.joints.ends import Ends
 from linkwright.joints.gear import CLEARANCE, STANDARD
-from linkwright.joints.toothed import FITS, length, whole
+from linkwright.joints.toothed import FITS, is_integer, length
 from linkwright.words import Message, _
 
 if TYPE_CHECKING:
@@ -181,14 +181,14 @@ class RackPair(HigherPair):
         distance = abs(way.gap.imag)
         if abs(distance - self.radius) <= max(FITS * self.radius, slack):
             return None
-        apart, radius = length(distance), length(self.radius)
+        shown_distance, radius = length(distance), length(self.radius)
         key = "module" if self.module is not None else "radius"
         return key, _(
             "the pinion's centre {centre!r} is {distance} away from the pitch line, but its "
             "radius is {radius}",
             code="joints.rack_misfit",
             centre=way.centre,
-            distance=apart,
+            distance=shown_distance,
             radius=radius,
         )
 
@@ -243,8 +243,8 @@ class RackPair(HigherPair):
 
     def written(self) -> dict[str, Any]:
         """Teeth of a module tell the radius."""
-        told = "" if self.module is None else "radius"
-        return {key: value for key, value in super().written().items() if key != told}
+        redundant = "" if self.module is None else "radius"
+        return {key: value for key, value in super().written().items() if key != redundant}
 
     def dimensions(self) -> Mapping[str, float]:
         size = {"radius": self.radius}
@@ -307,22 +307,22 @@ class RackPair(HigherPair):
 
 
 def _sized(entry: Entry) -> bool:
-    """Whether the pinion has one size, by its radius or by whole teeth of a module."""
+    """Whether the pinion has one size, by its radius or by an integer number of teeth of a module."""
     radius, teeth, module = (entry.values.get(key) for key in ("radius", "teeth", "module"))
     remedy = _("give radius: 40 mm, or teeth: 20 with module: 4 mm")
     if radius is not None and (teeth is not None or module is not None):
-        entry.say("radius", _("the size is given twice", code="joints.sizes_twice"), remedy, "choice")
+        entry.say("radius", _("the size is set twice", code="joints.sizes_twice"), remedy, "choice")
         return False
     if radius is None and (teeth is None or module is None):
         entry.say(
             "radius", _("nothing says how large the wheels are", code="joints.no_size"), remedy, "missing-key"
         )
         return False
-    if teeth is not None and not whole(teeth):
+    if teeth is not None and not is_integer(teeth):
         entry.say(
             "teeth",
             _("{value:g} is no number of teeth", code="joints.no_teeth", value=teeth),
-            _("give a whole number of 1 or more"),
+            _("give an integer of at least 1"),
             "range",
         )
         return False
@@ -356,14 +356,14 @@ class _Search:
         """The pinion's carrier and pin, and the guides that lead to it from the rack."""
         carriers = self._carriers()
         routes: list[tuple[str, tuple[Guide, ...]]] = [(self.pair.rack, ())]
-        seen = {self.pair.rack}
+        visited = {self.pair.rack}
         for link, route in routes:
             if link in carriers and route:
                 return link, carriers[link], route
             for joint in self.guides:
                 for here, there in (joint.ties, joint.ties[::-1]):
-                    if here == link and there not in seen:
-                        seen.add(there)
+                    if here == link and there not in visited:
+                        visited.add(there)
                         routes.append((there, (*route, joint)))
         return None
 

@@ -11,7 +11,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.ends import Ends, Hung
-from linkwright.joints.lower import TurningJoint
+from linkwright.joints.lower_pair import TurningJoint
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -28,8 +28,10 @@ class RevoluteJoint(TurningJoint):
     letter: ClassVar[str] = "R"
 
     def dimensions(self) -> Mapping[str, float]:
-        given = {f"{self.name}.friction": self.friction} if self.friction else {}
-        return given if self.pin_radius is None else {f"{self.name}.pin_radius": self.pin_radius, **given}
+        friction = {f"{self.name}.friction": self.friction} if self.friction else {}
+        return (
+            friction if self.pin_radius is None else {f"{self.name}.pin_radius": self.pin_radius, **friction}
+        )
 
     # the model file ---------------------------------------------------------------------------
     @classmethod

@@ -63,9 +63,9 @@ class RollingPair(WheelPair):
 
     def check(self, entry: Entry, distance: float) -> None:
         i = self.transmission
-        given = self.teeth or self.radii
-        if self.ratio is not None and given is not None:
-            own = self.sense * given[0] / given[1]
+        numbers = self.teeth or self.radii
+        if self.ratio is not None and numbers is not None:
+            own = self.sense * numbers[0] / numbers[1]
             if abs(self.ratio - own) > FITS * abs(own):
                 key = "teeth" if self.teeth else "radii"
                 problem = _(
@@ -89,16 +89,16 @@ class RollingPair(WheelPair):
             problem = _(
                 "the centres {centres} lie in one place", code="joints.same_centre", centres=self.centres
             )
-            entry.say("links", problem, _("put the centres apart"), "range")
+            entry.say("links", problem, _("put the centres at a distance"), "range")
             return
-        apart = self._apart(distance)
-        if apart is not None:
-            loose = self._apart(distance, self._slack(distance)) is None
+        misfit = self._misfit(distance)
+        if misfit is not None:
+            loose = self._misfit(distance, self._slack(distance)) is None
             key, remedy = (
                 "radii" if self.radii else "module",
                 _("change the distance of the centres, or the sizes of the wheels"),
             )
-            entry.say(key, apart, remedy, "range", "warning" if loose else "error")
+            entry.say(key, misfit, remedy, "range", "warning" if loose else "error")
 
     @property
     def asked(self) -> float:
@@ -110,13 +110,13 @@ class RollingPair(WheelPair):
         """By how much the centres may be off the distance that the sizes ask for, m."""
         return 0.0
 
-    def _apart(self, distance: float, slack: float = 0.0) -> Message | None:
+    def _misfit(self, distance: float, slack: float = 0.0) -> Message | None:
         """What is wrong where the sizes ask for another distance of the centres, by more than the slack, m."""
         wanted = self.asked
         if not wanted or abs(wanted - distance) <= max(FITS * distance, slack):
             return None
         return _(
-            "the centres {centres} on {carrier!r} are {distance} apart, but the {mesh} pair needs {wanted}",
+            "the distance of the centres {centres} on {carrier!r} is {distance}, but the {mesh} pair needs {wanted}",
             code="joints.distance_misfit",
             centres=self.centres,
             carrier=self.carrier,
@@ -129,7 +129,7 @@ class RollingPair(WheelPair):
 
     def misfit(self, mechanism: Model) -> Message | None:
         distance = abs(self.line(mechanism))
-        return self._apart(distance, self._slack(distance))
+        return self._misfit(distance, self._slack(distance))
 
     def fits(self, dimensions: Sizes) -> Mask:
         """Radii ask for their distance of the centres; a ratio or teeth alone take any."""
@@ -141,8 +141,8 @@ class RollingPair(WheelPair):
 
     def written(self) -> dict[str, Any]:
         """A ratio tells the mesh by its sign."""
-        told = "" if self.ratio is None else "mesh"
-        return {key: value for key, value in super().written().items() if key != told}
+        redundant = "" if self.ratio is None else "mesh"
+        return {key: value for key, value in super().written().items() if key != redundant}
 
     def arms(self, mechanism: Model) -> tuple[float, float]:
         points, i = mechanism.link(self.carrier).points, self.transmission
@@ -156,7 +156,7 @@ class RollingPair(WheelPair):
 
     def held(self, at: Ends, force: Scalar, size: Size) -> list[tuple[Scalar, Scalar]]:
         """The tangential force keeps the centres on the carrier's line."""
-        return [(-self.centres_apart(at)[1], force)]
+        return [(-self.centre_offset(at)[1], force)]
 
     def place(self, at: Ends, link: str) -> Vec:
         """The pitch point."""

@@ -163,7 +163,7 @@ class WheelPair(HigherPair):
         a, b = (dimensions.point(self.carrier, each) for each in self.centres)
         return b - a
 
-    def centres_apart(self, at: Ends) -> tuple[Scalar, Scalar]:
+    def centre_offset(self, at: Ends) -> tuple[Scalar, Scalar]:
         """How far b's centre is from a's along the carrier's line and to its left, m: its distance, and zero."""
         (one, other), (a, b) = self.links, self.centres
         along, gap = at.vector(self.carrier, self.axis(at)), at.point(other, b) - at.point(one, a)
@@ -191,13 +191,13 @@ class WheelPair(HigherPair):
         return ((self.carrier, self.centres[0]), (self.carrier, self.centres[1]))
 
 
-def whole(value: float) -> bool:
+def is_integer(value: float) -> bool:
     """Whether a number can be one of teeth."""
     return value >= 1 and value == round(value)
 
 
 class Numbers(Field):
-    """Two whole numbers above zero."""
+    """Two positive integers."""
 
     dimension: ClassVar[str] = "dimensionless"
 
@@ -207,12 +207,12 @@ class Numbers(Field):
             return None
         found = [reader.quantity(item, place.child(str(i)), "dimensionless") for i, item in enumerate(items)]
         for item, value in zip(items, found, strict=True):
-            if value is not None and not whole(value):
+            if value is not None and not is_integer(value):
                 reader.error(
                     item,
                     place,
                     _("{value:g} is no number of teeth", code="joints.no_teeth", value=value),
-                    _("give a whole number of 1 or more"),
+                    _("give an integer of at least 1"),
                     "range",
                 )
                 return None
@@ -231,14 +231,14 @@ class Numbers(Field):
 
 def _one_size(entry: Entry, keys: tuple[str, ...]) -> bool:
     values = entry.values
-    given = [key for key in keys if values.get(key) is not None]
-    if not given:
+    present = [key for key in keys if values.get(key) is not None]
+    if not present:
         remedy = (_("give one of {keys}") if len(keys) > 1 else _("give {keys}")).format(keys=keys)
         entry.say(
             "", _("nothing says how large the wheels are", code="joints.no_size"), remedy, "missing-key"
         )
         return False
-    if {"teeth", "radii"} <= set(given):
+    if {"teeth", "radii"} <= set(present):
         (a, b), (c, d) = values["teeth"], values["radii"]
         if abs(a * d - b * c) > FITS * abs(b * c):
             entry.say(
@@ -307,7 +307,7 @@ class _Centres:
         if not ways:
             self._say(
                 _(
-                    "no link carries the pins of both wheels {wheels}, so nothing keeps their centres apart",
+                    "no link carries the pins of both wheels {wheels}, so nothing fixes their centre distance",
                     code="joints.no_carrier",
                     wheels=self.wheels,
                 ),

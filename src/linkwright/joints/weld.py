@@ -13,7 +13,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.ends import Ends, Hung
-from linkwright.joints.lower import RigidJoint
+from linkwright.joints.lower_pair import RigidJoint
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -46,8 +46,8 @@ class WeldJoint(RigidJoint):
         return cls(entry.name, **entry.values) if all(found) else None
 
     @classmethod
-    def unpinned(cls, given: Mapping[str, Any]) -> tuple[str, Sequence[str]] | None:
-        at, links = given.get("at"), given.get("links")
+    def unpinned(cls, values: Mapping[str, Any]) -> tuple[str, Sequence[str]] | None:
+        at, links = values.get("at"), values.get("links")
         if not at or not isinstance(links, list) or len(links) != 2:
             return None
         return at, sorted(links, key=lambda link: link != "frame")
@@ -55,7 +55,7 @@ class WeldJoint(RigidJoint):
     # motion -----------------------------------------------------------------------------------
 
     def residual(self, at: Ends) -> list[Scalar]:
-        """The common point; what keeps the rotation is said by :attr:`ties`."""
+        """The common point; :attr:`ties` fixes the rotation."""
         gap = self.place(at, at.a) - self.place(at, at.b)
         return [gap.x, gap.y]
 

@@ -97,7 +97,7 @@ class FollowedFormula:
         with self.programs.lock:
             program = Program.of(self.programs.motion.trace, outputs)
         return ScalarProgram(
-            program.with_given([f"{name}.speed" for name in self.programs.mechanism.drivers])
+            program.with_inputs([f"{name}.speed" for name in self.programs.mechanism.drivers])
         )
 
     def _outputs(self) -> Mapping[str, Scalar | bool]:

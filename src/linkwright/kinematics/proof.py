@@ -29,7 +29,7 @@ from linkwright.core.linear_sums import LinearSums
 from linkwright.elements.topology import Connection, TreeJoint
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import Joint, LackingError
-from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
+from linkwright.joints.lower_pair import RigidJoint, SlidingJoint, TurningJoint
 from linkwright.kinematics.groups import upstream
 from linkwright.kinematics.motion import Motion
 from linkwright.words import _

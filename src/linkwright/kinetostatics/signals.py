@@ -86,7 +86,7 @@ class MotionSignals:
         return found if found is not None and found.positions.closed and found.whole else self.cycle
 
     @cached_property
-    def whole(self) -> FullCycle:
+    def full_cycle(self) -> FullCycle:
         """The cycle over which limits are found."""
         return FullCycle(*(self._lap(self.turned.positions) or (None,)))
 

@@ -18,7 +18,7 @@ from linkwright.words import Message, _
 #: Below this share of the largest value a velocity or acceleration at an end is zero.
 SMALL = 1e-9
 #: Distance from a break at which a curve has the value of its side.
-_BESIDE = 1e-13
+_EDGE = 1e-13
 #: What a law does at an end (VDI 2143): neither velocity nor acceleration, velocity alone, acceleration alone, both.
 END_KINDS = ("rest", "velocity", "turn", "motion")
 
@@ -84,7 +84,7 @@ class MotionLaw(ABC):
     @cached_property
     def ends(self) -> Ends:
         """Velocity and acceleration at both ends."""
-        _place, v, a, _jerk = self.curves(np.array([_BESIDE, 1.0 - _BESIDE]))
+        _place, v, a, _jerk = self.curves(np.array([_EDGE, 1.0 - _EDGE]))
         first, last = np.asarray(v, dtype=float), np.asarray(a, dtype=float)
         return Ends((float(first[0]), float(first[1])), (float(last[0]), float(last[1])))
 
@@ -97,7 +97,7 @@ class MotionLaw(ABC):
     def smoothness(self) -> int:
         """Highest derivative without jumps where the law begins and ends in a dwell: -1 to 3."""
         edges = np.array([0.0, *self.breaks, 1.0])
-        left, right = self.curves(edges - _BESIDE), self.curves(edges + _BESIDE)
+        left, right = self.curves(edges - _EDGE), self.curves(edges + _EDGE)
         for order in range(4):
             before, after = np.array(left[order], dtype=float), np.array(right[order], dtype=float)
             outside = (0.0, 1.0 if order == 0 else 0.0)

@@ -1,4 +1,4 @@
-"""Laws by name, with what may be altered; and the laws that fit given ends."""
+"""Laws by name, with their parameters; and the laws that fit boundary conditions."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def motion_law(
 ) -> MotionLaw:
     """A motion law by its name: a rise from 0 to 1 over u from 0 to 1; ``values`` are its own keys.
 
-    ``crossover``: where a symmetric law turns from acceleration to deceleration, 1/2 unless given; ``portion``: the
+    ``crossover``: where a symmetric law turns from acceleration to deceleration, by default 1/2; ``portion``: the
     part from u to u, as a law of its own; ``backwards``: its ends change places. Raises RequestError for a name that
     does not exist and values that do not fit.
     """
@@ -57,7 +57,7 @@ def altered(
 
 @dataclass(frozen=True)
 class FittingLaw:
-    """A law that fits given ends: its name, and the portion or direction in which it does.
+    """A law that fits boundary conditions: its name, and the portion or direction in which it does.
 
     ``any_ends``: it takes whatever velocities and accelerations the program asks for.
     """
@@ -73,7 +73,7 @@ class FittingLaw:
         return motion_law(self.name, portion=self.portion, backwards=self.backwards)
 
     def __str__(self) -> str:
-        """As it stands in a file."""
+        """As written in a file."""
         extra = [f"portion: [{self.portion[0]:g}, {self.portion[1]:g}]"] if self.portion else []
         extra += ["backwards: true"] if self.backwards else []
         return f"{{kind: {self.name}, {', '.join(extra)}}}" if extra else self.name

@@ -1,4 +1,4 @@
-"""Laws of cosines, of a straight line and sines of whole orders, and those that are known by a name."""
+"""Laws of cosines, of a straight line and sines of integer orders, and those that are known by a name."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Cycloidal(MotionLaw):
 @MOTION_LAWS.register("inclined_sine")
 @dataclass(frozen=True)
 class InclinedSine(MotionLaw):
-    """s = u - (1 - v) sin(2πu)/(2π): the inclined sine of Bestehorn between equal velocities v, 0 unless given."""
+    """s = u - (1 - v) sin(2πu)/(2π): the inclined sine of Bestehorn between equal velocities v, by default 0."""
 
     source: ClassVar[str] = "VDI 2143-1"
     velocity: float = file_key(Quantity("dimensionless", doc="velocity at both ends, 0"), 0.0)
@@ -79,7 +79,8 @@ class Gutman(MotionLaw):
 @MOTION_LAWS.register("freudenstein")
 @dataclass(frozen=True)
 class Freudenstein(MotionLaw):
-    """s = u - (27/28) sin(2πu)/(2π) - (1/28) sin(6πu)/(6π): of the first and third order, the least acceleration."""
+    """s = u - (27/28) sin(2πu)/(2π) - (1/28) sin(6πu)/(6π): of the first and third order, with the minimum
+    acceleration."""
 
     formula = two_sines("27/28", "1/28")
     source: ClassVar[str] = "F. Freudenstein, On the dynamics of high-speed cam profiles, IJMS 1, 1960"
@@ -105,14 +106,14 @@ class Freudenstein135(MotionLaw):
 class TripleHarmonic(MotionLaw):
     """Acceleration a = A₁ sin 2πu + A₂ sin 4πu + A₃ sin 6πu from rest to rest, so that A₁ + A₂/2 + A₃/3 = 2π.
 
-    Unless given, A₁ = 9π/4 and A₂ = 0: the jerk is then zero at both ends and in the middle.
+    By default A₁ = 9π/4 and A₂ = 0: the jerk is then zero at both ends and in the middle.
     """
 
     source: ClassVar[str] = "Reeve, Cams for Industry, 1995"
     first: float = file_key(
-        Quantity("dimensionless", doc="amplitude A₁ of the acceleration, 9π/4 unless given"), 9 * pi / 4
+        Quantity("dimensionless", doc="amplitude A₁ of the acceleration; default 9π/4"), 9 * pi / 4
     )
-    second: float = file_key(Quantity("dimensionless", doc="amplitude A₂, 0 unless given; A₃ follows"), 0.0)
+    second: float = file_key(Quantity("dimensionless", doc="amplitude A₂; default 0; A₃ follows"), 0.0)
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         one, two = self.first / (2 * pi), self.second / (4 * pi)
@@ -122,7 +123,7 @@ class TripleHarmonic(MotionLaw):
 @MOTION_LAWS.register("simple_harmonic")
 @dataclass(frozen=True)
 class SimpleHarmonic(MotionLaw):
-    """s = (1 - cos πu)/2: turns at both ends; beside a dwell the acceleration jumps."""
+    """s = (1 - cos πu)/2: turns at both ends; next to a dwell the acceleration jumps."""
 
     source: ClassVar[str] = "Rothbart, Cam Design Handbook, ch. 2"
     formula = "(1-cos(πu))/2"

@@ -76,10 +76,10 @@ class LawPieces:
 
 def law_pieces(law: Law, start: float, end: float) -> LawPieces:
     """Those of a law from ``start`` to ``end``, s; what was found serves again."""
-    return _kept.get(law, (start, end), lambda: LawPieces.of(law, start, end))
+    return _cache.get(law, (start, end), lambda: LawPieces.of(law, start, end))
 
 
-_kept: Recent[Law, LawPieces] = Recent(16)
+_cache: Recent[Law, LawPieces] = Recent(16)
 
 
 def _row(law: Law, a: float, b: float, sizes: list[float]) -> tuple[list[float], float]:

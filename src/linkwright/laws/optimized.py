@@ -1,4 +1,5 @@
-"""The best spline: least peak of acceleration, jerk or velocity, or least residual vibration, within limits."""
+"""The optimal spline: minimum peak of acceleration, jerk or velocity, or minimum residual vibration, within
+limits."""
 
 from __future__ import annotations
 
@@ -33,7 +34,7 @@ def _limited(what: str) -> Quantity:
 @MOTION_LAWS.register("optimized_spline")
 @dataclass(frozen=True)
 class OptimizedSpline(MotionLaw):
-    """The rise from rest to rest of a spline of order 5 with the least peak ``minimize``, within limits.
+    """The rise from rest to rest of a spline of order 5 with the minimum peak of ``minimize``, within limits.
 
     ``residual`` is the largest amplitude |∫ a e^(2πinu) du|/(2πn) over ``ratios`` n of rise time and natural period.
     Peaks are bounded by the control values of the derivatives, so that the limits hold everywhere. A linear program,
@@ -41,7 +42,7 @@ class OptimizedSpline(MotionLaw):
     """
 
     source: ClassVar[str] = "linear program over B-splines; bounds: de Boor, A Practical Guide to Splines"
-    minimize: str = file_key(Word(tuple(AIMS), doc="what is made least"))
+    minimize: str = file_key(Word(tuple(AIMS), doc="what is minimized"))
     velocity: float | None = file_key(_limited("velocity"), None)
     acceleration: float | None = file_key(_limited("acceleration"), None)
     jerk: float | None = file_key(_limited("jerk"), None)
@@ -53,7 +54,7 @@ class OptimizedSpline(MotionLaw):
         if self.minimize not in AIMS:
             raise RequestError(
                 _(
-                    'nothing known to be made least is called "{aim}"; give one of {known}',
+                    '"{aim}" cannot be minimized; give one of {known}',
                     code="laws.aim",
                     aim=self.minimize,
                     known=tuple(AIMS),
@@ -66,7 +67,7 @@ class OptimizedSpline(MotionLaw):
 
     @property
     def limits(self) -> dict[int, float]:
-        """Limits by order of the derivative, those that hold unless given among them."""
+        """Limits by order of the derivative, defaults included."""
         own = {1: self.velocity, 2: self.acceleration, 3: self.jerk}
         usual = {2: 8.0, 3: 200.0} if self.minimize == "residual" else {3: 200.0}
         found = {order: value for order, value in own.items() if value is not None}
@@ -88,12 +89,12 @@ class OptimizedSpline(MotionLaw):
         bounds = [(None, None)] * len(free)
         found = linprog(cost, A_ub=rows[:, free], b_ub=right, bounds=bounds, method="highs")
         if not found.success:
-            said = ", ".join(f"{name} ≤ {self.limits[k]:g}" for name, k in AIMS.items() if k in self.limits)
+            limits = ", ".join(f"{name} ≤ {self.limits[k]:g}" for name, k in AIMS.items() if k in self.limits)
             raise RequestError(
                 _(
                     "no rise of 1 keeps these limits: {limits}; give larger ones",
                     code="laws.limits_too_tight",
-                    limits=said,
+                    limits=limits,
                 )
             )
         held[free[:-1]] = found.x[:-1]
@@ -116,14 +117,14 @@ class OptimizedSpline(MotionLaw):
         return np.concatenate(blocks), np.concatenate(right)
 
     def _residual(self, space: Any) -> Floats:
-        """The residual amplitudes over the ratios, seen from all sides."""
+        """The residual amplitudes over the ratios, in all directions."""
         assert self.ratios is not None
         places, weights = space.gauss
         n = np.linspace(*self.ratios, _RATIOS)
         turn = np.exp(2j * pi * np.outer(n, places)) * weights / (2 * pi * n[:, None])
-        whole = turn @ space.at(places, 2)
+        amplitudes = turn @ space.at(places, 2)
         sides = np.exp(-2j * pi * np.arange(_DIRECTIONS) / _DIRECTIONS)
-        return np.asarray((sides[:, None, None] * whole).real.reshape(-1, space.size))
+        return np.asarray((sides[:, None, None] * amplitudes).real.reshape(-1, space.size))
 
     @property
     def breaks(self) -> tuple[float, ...]:

@@ -24,8 +24,8 @@ class Pieces:
 
         found = PPoly.from_spline((knots, values, degree))
         inner = (np.diff(found.x) > 0) & (found.x[:-1] >= knots[degree]) & (found.x[1:] <= knots[len(values)])
-        kept = np.flatnonzero(inner)
-        return cls(np.append(found.x[kept], found.x[kept[-1] + 1]), found.c[::-1, kept].T)
+        nonempty = np.flatnonzero(inner)
+        return cls(np.append(found.x[nonempty], found.x[nonempty[-1] + 1]), found.c[::-1, nonempty].T)
 
     def curves(self, x: Any) -> tuple[Any, Any, Any, Any]:
         """Value and first three derivatives at x (n,); beyond the ends the last pieces go on."""

@@ -70,7 +70,7 @@ class Polynomial(MotionLaw):
 @MOTION_LAWS.register("polynomial_23")
 @dataclass(frozen=True)
 class Polynomial23(Polynomial):
-    """s = 3u² - 2u³: the acceleration jumps beside dwells."""
+    """s = 3u² - 2u³: the acceleration jumps next to dwells."""
 
     coefficients = (0.0, 0.0, 3.0, -2.0)
 
@@ -116,7 +116,7 @@ class Polynomial7(MeetingLaw, Polynomial):
 @MOTION_LAWS.register("polynomial")
 @dataclass(frozen=True)
 class PolynomialOf(Polynomial):
-    """The polynomial of least order with these derivatives at the ends: velocity, acceleration, jerk and so on.
+    """The polynomial of lowest order with these derivatives at the ends: velocity, acceleration, jerk and so on.
 
     Without any it is s = u.
     """
@@ -175,7 +175,7 @@ class Polydyne(Polynomial):
 @MOTION_LAWS.register("constant_velocity")
 @dataclass(frozen=True)
 class ConstantVelocity(MotionLaw):
-    """s = u: for passages between motions of the same velocity; beside a dwell the velocity jumps."""
+    """s = u: for transitions between motions of the same velocity; next to a dwell the velocity jumps."""
 
     source: ClassVar[str] = "VDI 2143-1; Norton, Cam Design and Manufacturing Handbook, ch. 2"
 

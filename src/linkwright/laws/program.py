@@ -24,7 +24,7 @@ USUAL_LAW = "polynomial_5"
 #: Share of the largest value within which the sides of a junction are the same.
 _SAME = 1e-7
 #: Distance from an end at which a derivative has the value of its side.
-_BESIDE = 1e-13
+_EDGE = 1e-13
 TURN = 2 * math.pi
 
 
@@ -133,11 +133,11 @@ class Junction:
 
 @dataclass(frozen=True)
 class MotionProgram(Program):
-    """Segments one after the other, beginning at ``start`` (m or rad); ``period`` one turn unless given.
+    """Segments one after the other, beginning at ``start`` (m or rad); ``period`` by default one turn.
 
     ``closed``: it comes back to its beginning and goes on there, so position and velocity meet there as well. Laws
     that meet any ends take over what their neighbours do; where two such laws meet, velocity and acceleration are
-    those given at the junction, else zero. Raises ModelError with all findings.
+    those set at the junction, else zero. Raises ModelError with all findings.
     """
 
     segments: tuple[Segment, ...]
@@ -251,14 +251,14 @@ class MotionProgram(Program):
                             "take a law that ends and begins with the same velocity, such as polynomial_5, or "
                             "give the velocity at the junction",
                         ),
-                        place=self.said(junction.place),
+                        place=self.place_text(junction.place),
                         before=junction.before[1] + 0.0,
                         after=junction.after[1] + 0.0,
                     )
                 )
         return found
 
-    def said(self, place: float) -> str:
+    def place_text(self, place: float) -> str:
         """A place in words: ``90°`` or ``0.2 s``."""
         return shown(place, "angle" if self.period == TURN else "time")
 
@@ -316,7 +316,8 @@ class MotionProgram(Program):
         return _Piece(first, rise, rise, law)
 
     def _junction_ends(self, own: Sequence[_Piece | None]) -> list[tuple[float, float]]:
-        """Velocity and acceleration at every edge: given, or those of a neighbour with ends of its own, or zero."""
+        """Velocity and acceleration at every edge: set ones, or those of a neighbour with ends of its own, or
+        zero."""
         count = len(self.segments)
         found = []
         for edge in range(count + 1):
@@ -408,7 +409,7 @@ class MotionProgram(Program):
         for low, width, piece in zip(self.edges, np.diff(self.edges), self._pieces, strict=False):
             inner = np.array(piece.law.breaks if piece.law is not None else ())
             if len(inner):
-                before, after = (piece.curves(inner + side, width)[order] for side in (-_BESIDE, _BESIDE))
+                before, after = (piece.curves(inner + side, width)[order] for side in (-_EDGE, _EDGE))
                 jump = np.abs(np.asarray(after) - before) > _SAME * self._sizes[order]
                 found += (low + width * inner[jump]).tolist()
         return tuple(sorted(found))
@@ -416,6 +417,6 @@ class MotionProgram(Program):
 
 def _at(piece: _Piece, u: float, width: float) -> tuple[float, float, float, float]:
     """Lift, velocity at an end of a piece; acceleration and jerk on its inner side."""
-    inner = u + _BESIDE if u == 0.0 else u - _BESIDE
+    inner = u + _EDGE if u == 0.0 else u - _EDGE
     s, v, a, j = (each.tolist() for each in piece.curves(np.array([u, inner]), width))
     return s[0], v[0], a[1], j[1]

@@ -25,7 +25,7 @@ RATES = {
     ("angle", "time"): ("angular_velocity", "angular_acceleration"),
 }
 _ALTERED: Mapping[str, Field] = {
-    "crossover": Quantity("dimensionless", above=0.0, doc="where a symmetric law turns, 1/2 unless given"),
+    "crossover": Quantity("dimensionless", above=0.0, doc="where a symmetric law turns; default 1/2"),
     "portion": Quantities("dimensionless", count=2, doc="the part of the law from u to u"),
     "backwards": Word(("true", "false"), doc="its ends change places"),
 }
@@ -109,7 +109,7 @@ class LawField(Field):
         if fields is None or value.meeting(Ends(), 1.0) is not None:
             raise RequestError(
                 _(
-                    "the law {law} is given with values that no file can hold; give its name and the "
+                    "the law {law} has values that no file can hold; give its name and the "
                     "velocities of the segments",
                     code="laws.not_written",
                     law=value.key,
@@ -146,7 +146,7 @@ class ProgramField(Field):
             "fall": Quantity(lift, doc=_("how far down")),
             "to": Quantity(lift, doc=_("to this lift")),
             "over": Quantity(self.across, above=0.0, doc=_("while this passes")),
-            "law": LawField(doc=_("motion law, polynomial_5 unless given")),
+            "law": LawField(doc=_("motion law; default polynomial_5")),
             "velocity": Quantity(velocity, doc=_("velocity at its end, where both sides can meet it")),
             "acceleration": Quantity(acceleration, doc=_("acceleration at its end")),
         }

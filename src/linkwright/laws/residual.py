@@ -13,7 +13,7 @@ from linkwright.laws.base import MotionLaw
 _GAUSS = np.polynomial.legendre.leggauss(20)
 _PIECES, _SWINGS, _AT_ONCE = 24, 2.0, 100_000
 #: Swings in a rise above which only jumps leave anything; distance from a break at which a curve is of its side.
-_MOST, _BESIDE = 2e4, 1e-13
+_MOST, _EDGE = 2e4, 1e-13
 
 
 def residual(law: MotionLaw, ratio: Floats) -> Floats:
@@ -41,17 +41,17 @@ def _residual(law: MotionLaw, n: Floats, pieces: int) -> Floats:
     weights = (0.5 * width * _GAUSS[1]).ravel()
     turn = np.exp(2j * np.pi * np.outer(n, u))
     first, last = np.asarray(law.curves(np.array([0.0, 1.0]))[1], dtype=float).tolist()
-    whole = turn @ (weights * np.asarray(law.curves(u)[2])) + first - last * np.exp(2j * np.pi * n)
-    return np.asarray(np.abs(whole) / (2 * np.pi * n))
+    transform = turn @ (weights * np.asarray(law.curves(u)[2])) + first - last * np.exp(2j * np.pi * n)
+    return np.asarray(np.abs(transform) / (2 * np.pi * n))
 
 
 def _of_jumps(law: MotionLaw, n: Floats) -> Floats:
     """What very many swings in a rise leave: the first terms by parts, jumps of velocity, acceleration and jerk."""
     edges, w = np.array([0.0, *law.breaks, 1.0]), 2j * np.pi * n
-    left = [np.asarray(each, dtype=float) for each in law.curves(edges - _BESIDE)[1:]]
-    right = [np.asarray(each, dtype=float) for each in law.curves(edges + _BESIDE)[1:]]
-    whole = np.zeros(len(n), dtype=complex)
+    left = [np.asarray(each, dtype=float) for each in law.curves(edges - _EDGE)[1:]]
+    right = [np.asarray(each, dtype=float) for each in law.curves(edges + _EDGE)[1:]]
+    total = np.zeros(len(n), dtype=complex)
     for order, (before, after) in enumerate(zip(left, right, strict=True)):
         before[0], after[-1] = 0.0, 0.0
-        whole += (np.exp(np.outer(w, edges)) @ (after - before)) / (-w) ** order
-    return np.asarray(np.abs(whole) / (2 * np.pi * n))
+        total += (np.exp(np.outer(w, edges)) @ (after - before)) / (-w) ** order
+    return np.asarray(np.abs(total) / (2 * np.pi * n))

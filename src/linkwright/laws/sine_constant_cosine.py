@@ -116,7 +116,7 @@ class SineConstantCosine(Family):
 @MOTION_LAWS.register("constant_acceleration")
 @dataclass(frozen=True)
 class ConstantAcceleration(Family):
-    """Two parabolas, s = 2u² up to the middle: the least acceleration; it jumps."""
+    """Two parabolas, s = 2u² up to the middle: the minimum acceleration; it jumps."""
 
     shares = (0.0, 1.0, 0.0, 0.0)
 

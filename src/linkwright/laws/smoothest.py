@@ -18,7 +18,7 @@ from linkwright.laws.spline_space import DEGREE, SplineSpace
 from linkwright.words import _
 
 ORDERS = {"velocity": 1, "acceleration": 2, "jerk": 3}
-#: Places of a window between two knots at which it is kept, and rounds in which what lies between is mended.
+#: Places of a window between two knots at which it is enforced, and rounds that correct what lies between.
 _LOOKS, _ROUNDS = 6, 4
 #: What a limit is worth, as a share of the aim, for it to be called binding.
 _WORTH = 1e-7
@@ -51,7 +51,7 @@ class Binding:
 
 @dataclass(frozen=True)
 class FoundProgram(Program):
-    """The periodic spline of order 5 with the least peak of ``minimize`` (velocity, acceleration or jerk).
+    """The periodic spline of order 5 with the minimum peak of ``minimize`` (velocity, acceleration or jerk).
 
     ``points``: (x, lift) it goes through; ``windows`` it stays in; ``limits`` on the derivatives by name, in lift per
     rad, rad², rad³. Derivatives are bounded by their control values, so limits hold everywhere; ``pieces`` of the
@@ -78,7 +78,7 @@ class FoundProgram(Program):
                 fault(
                     "aim",
                     "find.minimize",
-                    _('nothing known to be made least is called "{aim}"; give one of {known}'),
+                    _('"{aim}" cannot be minimized; give one of {known}'),
                     _("write minimize: acceleration"),
                     aim=self.minimize,
                     known=tuple(ORDERS),
@@ -128,8 +128,8 @@ class FoundProgram(Program):
         even = np.linspace(0.0, self.period, self.pieces + 1)
         own = {x for each in self.windows for x in (each.start, each.end) if 0 < x < self.period}
         near = 0.3 * self.period / self.pieces
-        kept = [x for x in even[1:-1] if all(abs(x - each) > near for each in own)]
-        return SplineSpace(np.array([0.0, *sorted({*kept, *own}), self.period]), periodic=True)
+        inner = [x for x in even[1:-1] if all(abs(x - each) > near for each in own)]
+        return SplineSpace(np.array([0.0, *sorted({*inner, *own}), self.period]), periodic=True)
 
     @property
     def _size(self) -> float:
@@ -151,7 +151,7 @@ class FoundProgram(Program):
         return pieces, binding, peak
 
     def _outside(self, pieces: Pieces) -> Floats:
-        """How far every window is left between the places at which it is kept."""
+        """By how much every window is violated between the places at which it is enforced."""
         found = np.zeros(len(self.windows))
         for k, each in enumerate(self.windows):
             if each.least == each.most:
@@ -264,7 +264,7 @@ class FoundProgram(Program):
 
     @property
     def peak(self) -> float:
-        """The least bound of the peak of what was to be made small; the peak itself is a little below it."""
+        """The lowest bound on the peak of what is minimized; the peak itself is a little below it."""
         return self._solution[2]
 
     @property

@@ -1,4 +1,4 @@
-"""Laws through given points: exactly, or smoothed."""
+"""Laws through points: exactly, or smoothed."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def _checked(places: tuple[float, ...], values: tuple[float, ...]) -> tuple[Floa
                 values=len(values),
             )
         )
-    kept = [s for x, s in zip(places, values, strict=True) if 0.0 < x < 1.0]
+    inner = [s for x, s in zip(places, values, strict=True) if 0.0 < x < 1.0]
     ends = [s for x, s in zip(places, values, strict=True) if x in (0.0, 1.0) and s != x]
     if ends:
         raise RequestError(
@@ -44,7 +44,7 @@ def _checked(places: tuple[float, ...], values: tuple[float, ...]) -> tuple[Floa
                 value=ends[0],
             )
         )
-    return u, np.array([0.0, *kept, 1.0])
+    return u, np.array([0.0, *inner, 1.0])
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ class Through(MotionLaw):
 @MOTION_LAWS.register("spline")
 @dataclass(frozen=True)
 class SplineThrough(Through):
-    """The spline of order 5 through points, from 0 to 1 with given velocity and acceleration at the ends.
+    """The spline of order 5 through points, from 0 to 1 with set velocity and acceleration at the ends.
 
     Continuous up to the fourth derivative (de Boor, A Practical Guide to Splines).
     """
@@ -101,7 +101,7 @@ class SplineThrough(Through):
 class SmoothedTable(Through):
     """The smoothest rise from rest to rest that stays within ``tolerance`` (a share of the lift) of measured points.
 
-    A spline of order 5 with the least ∫ j² du for the weight that just keeps the tolerance (Reinsch 1967).
+    A spline of order 5 with the minimum ∫ j² du for the weight that just meets the tolerance (Reinsch 1967).
     """
 
     source: ClassVar[str] = "C. H. Reinsch, Smoothing by spline functions, Numer. Math. 10, 1967"

@@ -73,7 +73,7 @@ class LiftCurve:
     def through(cls, angles: Sequence[float], lifts: Sequence[float]) -> LiftCurve:
         """The periodic spline of order 5 through points of a turn, the angles increasing within it.
 
-        Four equal lifts or more in a row are a rest: the lift does not change there at all, and the spline beside it
+        Four equal lifts or more in a row are a rest: the lift does not change there at all, and the spline next to it
         begins and ends without velocity and acceleration. (A spline through them would swing by what the table's
         last digit leaves open, and every swing would count as a reversal.)
         """

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from linkwright.core.linear_sums import SMALL, LinearSums
 from linkwright.joints.base import Joint
-from linkwright.joints.lower import SlidingJoint
+from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.mechanism.mechanism import Mechanism
 
 Vec = tuple[float, float]

@@ -17,7 +17,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.fields.base import Field, Quantities, Quantity
 from linkwright.fields.references import PLACE
 from linkwright.joints.base import Joint
-from linkwright.joints.lower import RigidJoint, SlidingJoint, TurningJoint
+from linkwright.joints.lower_pair import RigidJoint, SlidingJoint, TurningJoint
 from linkwright.mechanism.link import Link, Vec
 from linkwright.mechanism.named_output import NamedOutput
 from linkwright.registry import nearest, no_such

@@ -25,7 +25,9 @@ def found_again(load: Load, motion: Motion) -> bool:
     given = load.magnitude
     if given.limits is None or not given.has_formula:
         return given.has_formula
-    return known_between(motion) and (motion.positions.closed or MotionSignals(motion).whole.period is None)
+    return known_between(motion) and (
+        motion.positions.closed or MotionSignals(motion).full_cycle.period is None
+    )
 
 
 def traced_name(load: Load) -> str:

@@ -152,7 +152,7 @@ class PagePrograms:
         motion = self.solver.motion
         outputs = {**self._outputs(motion), "ok": motion.valid}
         program = self._after_step(outputs) if self.iterated else Program.of(motion.trace, outputs)
-        return program.with_given([str(each["field"]) for each in self._angles])
+        return program.with_inputs([str(each["field"]) for each in self._angles])
 
     def _after_step(self, outputs: Mapping[str, Scalar | bool]) -> Program:
         """Outputs after a step from the position before, and whether that counts."""

@@ -25,7 +25,7 @@ from linkwright.reports.numbers import Heads, without_rounding
 from linkwright.reports.settings import Settings, worked_place
 from linkwright.topology.analysis import Structure
 from linkwright.words import Say, _
-from linkwright.words.sentence import in_language, links_said
+from linkwright.words.sentence import in_language, numbered_links
 
 if TYPE_CHECKING:
     from linkwright.analysis.table import MetricsTable
@@ -278,7 +278,9 @@ class Case:
     @property
     def links_text(self) -> str:
         """The links with the numbers that stand in symbols."""
-        return self.say(_("Links: {links}.", links=", ".join(links_said(self.heads.numbers, self.language))))
+        return self.say(
+            _("Links: {links}.", links=", ".join(numbered_links(self.heads.numbers, self.language)))
+        )
 
     # pictures -----------------------------------------------------------------------------------
     def diagram(self, kind: str, source: object = None, **options: object) -> str:

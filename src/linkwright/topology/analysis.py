@@ -12,7 +12,7 @@ from linkwright.joints.base import JOINTS, PAIRS
 from linkwright.topology.mobility import lower_pairs
 from linkwright.topology.trains import GearTrain, written
 from linkwright.words import Say, _, language_of, ngettext
-from linkwright.words.sentence import link_said
+from linkwright.words.sentence import link_label
 
 
 @dataclass(frozen=True)
@@ -213,7 +213,7 @@ def _kind(kind: str, say: Say) -> str:
 def _train(train: GearTrain, say: Say) -> Table:
     """The ratios of a train by the method of the stopped carrier."""
     wheels = list(train.ratios)
-    carrier, frame = (link_said(name, language_of(say)) for name in (train.carrier, "frame"))
+    carrier, frame = (link_label(name, language_of(say)) for name in (train.carrier, "frame"))
     stopped = say(_("{carrier} stopped", carrier=carrier))
     rows = [["", *wheels], [stopped, *map(written, train.ratios.values())]]
     if train.planetary:

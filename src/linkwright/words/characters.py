@@ -11,11 +11,11 @@ _UNPRINTABLE = re.compile(rf"(?!\x1b\[[0-9;]*m|\r\x1b\[K){UNFIT.pattern}")
 _FORMULA = re.compile(r"[=+\-@\t\r]")
 _COLOUR = re.compile("\x1b\\[[0-9;]*m")
 #: What stays together where lines break: a word with a number before it, up to a plus or dash; a Chinese character;
-#: and the Chinese marks behind.
+#: and the Chinese punctuation behind.
 _PIECE = (
     r"\s*(?:\d[\d.]* )?(?:[\u2e80-\uffef]|[^\s+–\u2e80-\uffef]*[+–]|[^\s+–\u2e80-\uffef]+)[，。；：、）]*"
 )
-#: Columns of tables stand apart; the last one is folded where it has so many cells.
+#: Space between columns of tables; the last one is folded where it has so many cells.
 _COLUMNS = r"(?<=\S) {2,}(?=\S)"
 NARROWEST = 12
 
@@ -94,12 +94,12 @@ def aligned_within(
 def _narrowed(rows: Sequence[Sequence[str]], widths: Sequence[int], room: int) -> list[int]:
     """Widths of columns in a room: the widest are made narrower, none narrower than its widest word."""
     found = list(widths)
-    least = [
+    narrowest = [
         max((cells(each.strip()) for row in rows for each in pieces(row[i])), default=0)
         for i in range(len(widths))
     ]
     while sum(found) > room:
-        foldable = [i for i, each in enumerate(least) if found[i] > each]
+        foldable = [i for i, each in enumerate(narrowest) if found[i] > each]
         if not foldable:
             break
         found[max(foldable, key=lambda i: found[i])] -= 1
@@ -112,7 +112,7 @@ def pieces(text: str) -> list[str]:
 
 
 def folded(text: str, width: int) -> list[str]:
-    """A text in lines of at most so many cells; a word that is wider stays whole."""
+    """A text in lines of at most so many cells; a wider word is not split."""
     if cells(text) <= width:
         return [text]
     lines = [""]

@@ -35,7 +35,7 @@ class Message(str):
 
     Values may be messages themselves, anything else that has ``say(language)`` such as an error, or tuples of
     these, which are joined by commas, or lists, by semicolons; or functions of the language. ``code`` is a stable
-    word for programs and tests, ``context`` tells equal English texts with different translations apart.
+    word for programs and tests, ``context`` distinguishes equal English texts with different translations.
     """
 
     msgid: str
@@ -61,9 +61,9 @@ class Message(str):
     def __getnewargs_ex__(self) -> tuple[tuple[str, dict[str, object]], dict[str, str]]:
         return (self.msgid, self.values), {"plural": self.plural, "context": self.context, "code": self.code}
 
-    def format(self, *given: object, **values: object) -> Message:
+    def format(self, *args: object, **values: object) -> Message:
         """The message of a template with its values."""
-        if given:
+        if args:
             raise TypeError("fields of messages have names")
         (msgid, own), about = self.__getnewargs_ex__()
         return Message(msgid, {**own, **values}, **about)

@@ -40,7 +40,7 @@ class Worded(str):
 
 
 def in_language(text: str, language: str) -> str:
-    """A sentence, or a text that is given in several languages, in a language; other texts as they are."""
+    """A message or localized text in a language; plain texts as they are."""
     return text.say(language) if isinstance(text, Message | Worded) else text
 
 
@@ -68,19 +68,19 @@ def in_words(subject: str, language: str) -> str:
     """A subject with the names that the program itself gives (frame, driver, max→min) in a language."""
     if language == "en":
         return subject
-    told = _OWN_NAMES.sub(lambda found: NAMES[found[0]].translate(language), subject)
-    joint, on, link = told.partition(" on ")
-    return _("{joint} on {link}", joint=joint, link=link).translate(language) if on else told
+    translated_subject = _OWN_NAMES.sub(lambda found: NAMES[found[0]].translate(language), subject)
+    joint, on, link = translated_subject.partition(" on ")
+    return _("{joint} on {link}", joint=joint, link=link).translate(language) if on else translated_subject
 
 
-def link_said(name: str, language: str) -> str:
-    """A link's name; of the frame its word in a language."""
+def link_label(name: str, language: str) -> str:
+    """A link's name; the frame's is translated."""
     return _("frame").translate(language) if name == "frame" else name
 
 
-def links_said(numbers: Mapping[str, int], language: str) -> list[str]:
+def numbered_links(numbers: Mapping[str, int], language: str) -> list[str]:
     """Links with their numbers: ``0 frame``, ``1 crank``."""
-    return [f"{number} {link_said(name, language)}" for name, number in numbers.items()]
+    return [f"{number} {link_label(name, language)}" for name, number in numbers.items()]
 
 
 def code_of(text: object) -> str:

@@ -1,4 +1,4 @@
-"""What names of machine parts and quantities mean, so that a wrong name finds the right one by its meaning."""
+"""Synonyms for names of machine parts and quantities, so that a wrong name finds the right one by its meaning."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable
 from functools import cache
 
-#: Words of machine design that stand for the same thing, in English, in Chinese, and as symbols that are usual.
-ALIKE = """
+#: Synonyms in machine design, a line each: English, Chinese and the usual symbols.
+SYNONYMS = """
 ram rammer slider block piston plunger punch carriage crosshead 滑块 活塞
 crank crankshaft handle eccentric 曲柄
 rocker lever arm beam oscillator 摇杆 摆杆
@@ -86,8 +86,8 @@ toggle knee 肘板 肘杆
 """
 
 #: What a thing goes with, where nothing means just that thing: a slider runs in a guide, which is a joint; a cylinder
-#: guides its rod and presses on it; other things that the same letter stands for.
-BESIDE = {
+#: guides its rod and presses on it; other quantities with the same letter.
+RELATED = {
     "cylinder": "guide pressure",
     "ram": "guide",
     "frame": "weld",
@@ -112,17 +112,17 @@ BESIDE = {
 
 @cache
 def _concepts() -> dict[str, str]:
-    return {word: line.split()[0] for line in ALIKE.strip().splitlines() for word in line.split()}
+    return {word: line.split()[0] for line in SYNONYMS.strip().splitlines() for word in line.split()}
 
 
 @cache
 def meaning(name: str) -> frozenset[str]:
-    """What a name says: its words, each as the first of those that are :data:`ALIKE`, in no order; a letter says
+    """Meaning of a name: its words, each as the first of its :data:`SYNONYMS`, unordered; a letter means
     something alone."""
     known = _concepts()
-    whole = re.sub(r"\W", "", name).casefold()
-    if whole in known:
-        return frozenset((known[whole],))
+    letters_only = re.sub(r"\W", "", name).casefold()
+    if letters_only in known:
+        return frozenset((known[letters_only],))
     words = re.findall(r"[a-z]+|[\u4e00-\u9fff]+", re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).casefold())
     letters = frozenset(word for word in words if len(word) == 1 and word.isascii())
     return letters | {
@@ -133,11 +133,13 @@ def meaning(name: str) -> frozenset[str]:
 def nearest_in_meaning(name: str, candidates: Iterable[str]) -> tuple[str, float]:
     """The candidate that shares most words with a name, by their meaning, and the share of all words that it is;
     where none shares any, one for what the name goes with."""
-    said, named = meaning(name), {each: meaning(each) for each in candidates}
-    while said:
-        shares = {each: len(said & other) / len(said | other) for each, other in named.items() if other}
+    meanings, named = meaning(name), {each: meaning(each) for each in candidates}
+    while meanings:
+        shares = {
+            each: len(meanings & other) / len(meanings | other) for each, other in named.items() if other
+        }
         best = max(shares, key=shares.__getitem__, default="")
         if best and shares[best]:
             return best, shares[best]
-        said = frozenset(each for word in said if word in BESIDE for each in BESIDE[word].split())
+        meanings = frozenset(each for word in meanings if word in RELATED for each in RELATED[word].split())
     return "", 0.0

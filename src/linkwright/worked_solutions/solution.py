@@ -20,7 +20,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.words import _, language_of
-from linkwright.words.sentence import link_said, links_said
+from linkwright.words.sentence import link_label, numbered_links
 from linkwright.worked_solutions.applied_forces import KnownForces
 from linkwright.worked_solutions.higher_pairs import closures
 from linkwright.worked_solutions.places import Places
@@ -196,7 +196,7 @@ def _refuse_missing(motion: Motion, position: int) -> None:
 
 def _legend(book: Book) -> list[str]:
     say = book.say
-    links = ", ".join(links_said(book.numbers, language_of(say)))
+    links = ", ".join(numbered_links(book.numbers, language_of(say)))
     return [
         say(_("Links: {links}.", links=links)),
         say(
@@ -248,7 +248,7 @@ class _Kinematics:
                 else _("{head}{link} slides on {relative} in {joint}.")
             )
             head = f"{name}: " if len(book.mechanism.drivers) > 1 else ""
-            relative = link_said(driver.relative_to, language_of(say))
+            relative = link_label(driver.relative_to, language_of(say))
             step.say(say(told.format(head=head, link=driver.link, relative=relative, joint=driver.joint)))
             unit = "rad" if turning else "m"
             measures: tuple[str | Output, ...] = (

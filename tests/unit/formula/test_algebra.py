@@ -250,9 +250,9 @@ def test_a_chain_of_sums_needs_one_buffer() -> None:
 def test_inputs_become_fields_and_parameters_positions() -> None:
     plain = random_program(3)[0]
     first, *rest = plain.parameters
-    given = plain.with_given([first])
+    given = plain.with_inputs([first])
     assert given.parameters == tuple(rest) and {*given.fields} == {first, *plain.fields}
-    assert first in plain.with_given([first], "position").positions
+    assert first in plain.with_inputs([first], "position").positions
     lanes = across_designs(plain)
     assert lanes.parameters == () and set(plain.parameters) <= set(lanes.positions)
     again = Replay(plain)

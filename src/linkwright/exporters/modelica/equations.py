@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from linkwright.exporters.modelica.laws import Names, law_text, number, quoted
 from linkwright.exporters.results import Results
 from linkwright.joints.base import Joint
-from linkwright.joints.lower import RigidJoint, SlidingJoint
+from linkwright.joints.lower_pair import RigidJoint, SlidingJoint
 from linkwright.kinematics.names import canonical
 from linkwright.kinematics.placement import placements
 

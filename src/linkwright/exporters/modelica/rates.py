@@ -10,7 +10,7 @@ from linkwright.exporters.modelica.equations import Equations, Text
 from linkwright.exporters.modelica.laws import law_text, number, quoted
 from linkwright.exporters.results import Results
 from linkwright.joints.base import Joint
-from linkwright.joints.lower import RigidJoint, SlidingJoint
+from linkwright.joints.lower_pair import RigidJoint, SlidingJoint
 
 Pair = tuple[str, str]
 

@@ -27,7 +27,7 @@ from linkwright.plotting.diagrams.scaled_page import (
 from linkwright.plotting.diagrams.source import Source
 from linkwright.plotting.free_bodies.actions import STYLES, Action, free_bodies
 from linkwright.words import _, pgettext
-from linkwright.words.sentence import links_said
+from linkwright.words.sentence import numbered_links
 
 #: Pictures in a row.
 IN_ROW = 3
@@ -89,7 +89,9 @@ class ForcePolygon(Kind):
         roles = {PLAIN.get(force.role, force.role) for each in parts.values() for force in each}
         wide = page_width(cells[:IN_ROW], IN_ROW)
         title = request.titled(source.label, f"{say(self.title)}, {source.place_text(forces.motion, say)}")
-        numbered = fold(", ".join(links_said(link_numbers(forces.mechanism), request.language)), wide, SIZE)
+        numbered = fold(
+            ", ".join(numbered_links(link_numbers(forces.mechanism), request.language)), wide, SIZE
+        )
         below = [key([(say(ROLES[role]), style) for role, style in STYLES.items() if role in roles])]
         below += [[((line, "lw-legend"), 0.0)] for line in numbered]
         return page(cells, IN_ROW, below, request.heading(title), title)

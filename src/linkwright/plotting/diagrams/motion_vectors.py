@@ -14,7 +14,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
-from linkwright.joints.lower import SlidingJoint
+from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.words import _

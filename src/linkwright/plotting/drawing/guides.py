@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.drivers.base import Driver
-from linkwright.joints.lower import SlidingJoint
+from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.kinematics.placement import Placement
 from linkwright.pictures.picture import Vec
 from linkwright.pictures.symbols.base import SYMBOLS, points

@@ -13,7 +13,7 @@ from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import fold
 from linkwright.plotting.drawing.vectors import Arrows, Torques, Vectors, round_length, scale_of, with_unit
 from linkwright.words import _
-from linkwright.words.sentence import links_said
+from linkwright.words.sentence import numbered_links
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
@@ -72,7 +72,7 @@ class Legend(Sketch):
 
     def numbers(self, mechanism: Mechanism, language: str) -> None:
         """What the indices of joint forces mean."""
-        links = links_said(link_numbers(mechanism), language)
+        links = numbered_links(link_numbers(mechanism), language)
         self.sentence(_("F₁₂: force of link 1 on link 2; {links}", links=tuple(links)).say(language))
         if any(len(joint.joined) > 2 for joint in mechanism.joints.values()):
             self.sentence(_("F with a pin's name: force of the pin on the link").translate(language))

@@ -59,7 +59,11 @@ def _held(machine: Machine, load: Load, index: int) -> Shape:
 
 def named_points(machine: Machine, load: Load) -> list[LinkPoint]:
     """The points that a load of any kind names in its fields, and those of the joints that it names."""
-    joints = [value for _, each, value in load.given() if isinstance(each, JointName) and value is not None]
+    joints = [
+        value
+        for _, each, value in load.fields_with_values()
+        if isinstance(each, JointName) and value is not None
+    ]
     return [*load.named_points, *(_joint_point(machine, name) for name in joints)]
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.applied_loads.base import Load
 from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
-from linkwright.joints.lower import SlidingJoint, TurningJoint
+from linkwright.joints.lower_pair import SlidingJoint, TurningJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import Placement
 from linkwright.mechanism.link import Link

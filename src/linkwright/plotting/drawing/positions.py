@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
 from linkwright.events.limit_positions import LimitPosition
-from linkwright.joints.lower import SlidingJoint
+from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import solve_motion, with_times

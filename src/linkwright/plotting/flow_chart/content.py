@@ -21,7 +21,7 @@ from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.wheel_sizes import wheel_sizes
 from linkwright.words import Say, _, say
-from linkwright.words.sentence import link_said
+from linkwright.words.sentence import link_label
 
 Shape = Literal["terminator", "data", "preparation", "process", "call", "decision"]
 #: Places to which decisions jump.
@@ -183,7 +183,7 @@ class _Writer:
             _(
                 "{symbol}: coordinate of {driver}",
                 symbol=self._over.symbol,
-                driver=link_said(driver.link, self.language),
+                driver=link_label(driver.link, self.language),
             )
         )
 
@@ -412,7 +412,7 @@ class _Writer:
 
     def _numbered(self, links: Sequence[str]) -> str:
         return self.say(_(", ")).join(
-            f"{self.numbers[name]} {link_said(name, self.language)}" for name in links
+            f"{self.numbers[name]} {link_label(name, self.language)}" for name in links
         )
 
     def _points_of(self, links: Sequence[str]) -> list[str]:

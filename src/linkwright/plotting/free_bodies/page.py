@@ -27,7 +27,7 @@ from linkwright.plotting.free_bodies.picture import (
     body_sketch,
 )
 from linkwright.words import Say, _, pgettext
-from linkwright.words.sentence import link_said
+from linkwright.words.sentence import link_label
 
 #: Width of a cell, space between cells, height of a page's pictures, mm.
 WIDE, APART, TALLEST = 82.0, 6.0, 216.0
@@ -101,7 +101,7 @@ def free_body_pages(
 # one link -------------------------------------------------------------------------------------
 def _cell(drawn: BodySketch, say: Say, language: str) -> Cell:
     body, sketch = drawn.body, Sketch()
-    named = say(_("{number} {link}", number=body.number, link=link_said(body.link, language)))
+    named = say(_("{number} {link}", number=body.number, link=link_label(body.link, language)))
     sketch.text((0.0, TITLE), sentence_runs(named), "lw-legend lw-flow-call", TITLE)
     sketch.text((0.0, TITLE_LINE + SIZE + 2.0), sentence_runs(_scales(drawn)), size=SIZE)
     left, top, right, bottom = drawn.box

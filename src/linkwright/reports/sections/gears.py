@@ -18,7 +18,7 @@ from linkwright.reports.machine_results import Case, Missing
 from linkwright.reports.section import section
 from linkwright.topology.trains import GearTrain, written
 from linkwright.words import _, pgettext
-from linkwright.words.sentence import link_said
+from linkwright.words.sentence import link_label
 
 
 @section("gears", _("Gears, racks and belts"), 8.5, optional=True)
@@ -83,7 +83,7 @@ def _train(case: Case, train: GearTrain) -> Iterator[Block]:
     """The table of the stopped carrier, and the equations that follow from it."""
     say, wheels = case.say, list(train.ratios)
     carrier = [train.carrier] if train.planetary else []
-    held, frame = (link_said(name, case.language) for name in (train.carrier, "frame"))
+    held, frame = (link_label(name, case.language) for name in (train.carrier, "frame"))
     stopped = [say(_("{carrier} stopped", carrier=held)), *map(written, train.ratios.values())]
     rows = [(*stopped, "0") if carrier else tuple(stopped)]
     if carrier:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import cos, sin, sqrt
 
-from linkwright.formula.kernel import Reals, Wholes, higher, load, lower, root, spread, store, total
+from linkwright.formula.kernel import Reals, Wholes, load, maximum, minimum, root, spread, store, total
 from linkwright.synthesis.free_curve.kernels import TURN
 
 #: Points of a part, turns tried, points of the target; angles and rings of the table, radius that it reaches to.
@@ -45,14 +45,14 @@ def polar(x: Reals, y: Reals, out: Reals) -> None:
     """Angles of points, in steps of the table (within 0.04), and their rings after them."""
     for t in range(0, POINTS, 8):
         ux, uy = load(x, t), load(y, t)
-        ax, ay = higher(ux, 0.0 - ux), higher(uy, 0.0 - uy)
-        q = lower(ax, ay) / (higher(ax, ay) + 1e-30)
+        ax, ay = maximum(ux, 0.0 - ux), maximum(uy, 0.0 - uy)
+        q = minimum(ax, ay) / (maximum(ax, ay) + 1e-30)
         angle = q * (1.0584 - 0.273 * q)
         angle = angle if ay < ax else QUARTER - angle
         angle = HALF_TURN - angle if ux < 0.0 else angle
         angle = TURN - angle if uy < 0.0 else angle
         store(out, t, angle * (ANGLES / TURN) + 0.5)
-        store(out, POINTS + t, lower(root(ux * ux + uy * uy) * (RINGS / REACH), RINGS - 1.0))
+        store(out, POINTS + t, minimum(root(ux * ux + uy * uy) * (RINGS / REACH), RINGS - 1.0))
 
 
 def distances_turned(x: Reals, y: Reals, tables: Reals, room: Reals, sums: Reals) -> None:
@@ -84,7 +84,7 @@ def distance_back(x: Reals, y: Reals, turn: int, mx: Reals, my: Reals, room: Rea
         for k in range(POINTS):
             ux = px - room[k]
             uy = py - room[POINTS + k]
-            low = lower(low, ux * ux + uy * uy)
+            low = minimum(low, ux * ux + uy * uy)
         sum_ += root(low)
     return total(sum_) / MARKS
 

@@ -10,11 +10,11 @@ from math import cos, sin, sqrt
 
 from linkwright.formula.kernel import (
     Reals,
-    higher,
     load,
-    lower,
     mark_of,
     marked,
+    maximum,
+    minimum,
     root,
     spread,
     store,
@@ -93,9 +93,9 @@ def nearest(px: Reals, py: Reals, count: int, x: Reals, y: Reals, n: int, closed
         qx, qy, low, mark = load(px, j), load(py, j), spread(1e18), spread(0.0)
         for t in range(last + closed):
             ux, uy = qx - x[t], qy - y[t]
-            s = lower(higher((ux * ex[t] + uy * ey[t]) * inverse[t], 0.0), 1.0)
+            s = minimum(maximum((ux * ex[t] + uy * ey[t]) * inverse[t], 0.0), 1.0)
             vx, vy = ux - s * ex[t], uy - s * ey[t]
-            low = lower(low, marked(vx * vx + vy * vy, mark))
+            low = minimum(low, marked(vx * vx + vy * vy, mark))
             mark += 1.0
         store(work, 12 * WIDE + j, low)
 
@@ -119,7 +119,7 @@ def feet(
     for j in range(0, count, 8):
         ex, ey = load(work, 2 * WIDE + j), load(work, 3 * WIDE + j)
         ux, uy = load(px, j) - load(work, j), load(py, j) - load(work, WIDE + j)
-        s = lower(higher((ux * ex + uy * ey) / (ex * ex + ey * ey + 1e-30), 0.0), 1.0)
+        s = minimum(maximum((ux * ex + uy * ey) / (ex * ex + ey * ey + 1e-30), 0.0), 1.0)
         vx, vy = ux - s * ex, uy - s * ey
         d = root(vx * vx + vy * vy + soft)
         store(work, 6 * WIDE + j, vx / d)

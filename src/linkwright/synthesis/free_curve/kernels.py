@@ -24,11 +24,11 @@ from math import cos, exp, sin
 from linkwright.formula.kernel import (
     Reals,
     Wholes,
-    higher,
-    least,
     load,
-    lower,
+    maximum,
+    minimum,
     root,
+    smallest,
     spread,
     store,
     total,
@@ -87,12 +87,12 @@ def place_dyad(
         square = ux * ux + uy * uy
         along = square + apart
         across = 4.0 * a * a * square - along * along
-        low = lower(low, across * scale)
-        h = side * root(higher(across, 0.0))
+        low = minimum(low, across * scale)
+        h = side * root(maximum(across, 0.0))
         half = 0.5 / square
         store(x, t, load(px, t) + (ux * along - uy * h) * half)
         store(y, t, load(py, t) + (uy * along + ux * h) * half)
-    return least(low)
+    return smallest(low)
 
 
 def place_point(
@@ -153,7 +153,7 @@ def too_large(
         ax = load(X, t) - cx
         ay = load(Y, t) - cy
         ratio = (ax * ax + ay * ay) * scale
-        over = higher(ratio - 1.0, 0.0)
+        over = maximum(ratio - 1.0, 0.0)
         sum_ += over * over
         slope = 4.0 * share * scale * over
         store(gX, t, slope * ax)
@@ -238,7 +238,7 @@ def dyad_back(
         along_u = (vy * hx - vx * hy) * over
         along_v = (ux * hy - uy * hx) * over
         cosine = ux * vx + uy * vy
-        lack = higher(limit - 1.0 + cosine * cosine, 0.0) * (1.0 / limit)
+        lack = maximum(limit - 1.0 + cosine * cosine, 0.0) * (1.0 / limit)
         miss += lack * lack
         slope = lack * cosine * (4.0 * kappa / (limit * N))
         dx = load(X, j + t) - load(X, i + t)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import cos, sin
 
-from linkwright.formula.kernel import Reals, higher, least, load, lower, root, spread, store, total
+from linkwright.formula.kernel import Reals, load, maximum, minimum, root, smallest, spread, store, total
 
 
 def place_slider(
@@ -22,11 +22,11 @@ def place_slider(
         dy = load(py, t) - load(qy, t)
         h = c * dy - s * dx
         square = r * r - h * h
-        low = lower(low, square * inverse)
-        along = c * dx + s * dy + side * root(higher(square, 0.0))
+        low = minimum(low, square * inverse)
+        along = c * dx + s * dy + side * root(maximum(square, 0.0))
         store(x, t, load(qx, t) + c * along)
         store(y, t, load(qy, t) + s * along)
-    return least(low)
+    return smallest(low)
 
 
 def slider_back(
@@ -45,7 +45,7 @@ def slider_back(
         dx = load(X, i + t) - load(X, j + t)
         dy = load(Y, i + t) - load(Y, j + t)
         cosine = (c * dy - s * dx) * inverse
-        lack = higher(limit - 1.0 + cosine * cosine, 0.0) * (1.0 / limit)
+        lack = maximum(limit - 1.0 + cosine * cosine, 0.0) * (1.0 / limit)
         miss += lack * lack
         slope = lack * cosine * (4.0 * kappa / (limit * N))
         gr += along_u * r - slope * cosine
@@ -71,11 +71,11 @@ def place_block(
         dy = load(qy, t) - load(py, t)
         square = dx * dx + dy * dy
         inverse = 1.0 / square
-        low = lower(low, 1.0 - e * e * inverse)
-        along = side * root(higher(square - e * e, 0.0))
+        low = minimum(low, 1.0 - e * e * inverse)
+        along = side * root(maximum(square - e * e, 0.0))
         store(x, t, load(px, t) + a * inverse * (dx * along + dy * e))
         store(y, t, load(py, t) + a * inverse * (dy * along - dx * e))
-    return least(low)
+    return smallest(low)
 
 
 def block_back(
@@ -93,7 +93,7 @@ def block_back(
         one = 1.0 / (dx * dx + dy * dy)
         turning = a * (ux * hy - uy * hx) / (ux * dx + uy * dy)
         square = e * e * one
-        lack = higher(limit - 1.0 + square, 0.0) * (1.0 / limit)
+        lack = maximum(limit - 1.0 + square, 0.0) * (1.0 / limit)
         miss += lack * lack
         slope = lack * (4.0 * kappa / (limit * N)) * one
         ga += hx * ux + hy * uy

@@ -14,10 +14,10 @@ from linkwright.formula.kernel import (
     Reals,
     choose,
     fetch,
-    higher,
     inverse,
     load,
-    lower,
+    maximum,
+    minimum,
     put,
     root,
     spread,
@@ -102,12 +102,12 @@ def relative_size(du: Reals, u: Reals, size: Reals) -> None:
     """Squares of the largest relative components of eight corrections: ``tracker.relative_size``."""
     largest, worst = spread(0.0), spread(0.0)
     for j in range(8):
-        largest = higher(largest, square(fetch(u, 8 + j)))
+        largest = maximum(largest, square(fetch(u, 8 + j)))
     for c in range(8):
-        worst = higher(worst, square(fetch(du, c)) / (square(fetch(u, c)) + 1e-4))
+        worst = maximum(worst, square(fetch(du, c)) / (square(fetch(u, c)) + 1e-4))
         g = fetch(u, 8 + c)
-        floor = lower(square(g) + 0.01 * largest, square(1.0 + g))
-        worst = higher(worst, square(fetch(du, 8 + c)) / floor)
+        floor = minimum(square(g) + 0.01 * largest, square(1.0 + g))
+        worst = maximum(worst, square(fetch(du, 8 + c)) / floor)
     for c in range(16):  # a correction that is no number makes the size none either
         worst = worst + 0.0 * square(fetch(du, c))
     store(size, 0, worst)

@@ -19,7 +19,7 @@ class TurningJoint(Joint):
     """A pin through the point ``name`` of every link in ``links`` (two or more, in the order of the file).
 
     Coordinate: angle of the second link's x axis against the first's, in rad, counter-clockwise positive.
-    ``pin_radius`` in m (None: not given), ``friction`` the dimensionless coefficient of Coulomb friction.
+    ``pin_radius`` in m (None: not set), ``friction`` the dimensionless coefficient of Coulomb friction.
     """
 
     freedoms: ClassVar[int] = 1
