@@ -23,10 +23,12 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from linkwright.errors import RequestError
 from linkwright.formula import machine_code
 from linkwright.formula.cache import loaded_code
 from linkwright.formula.kernel_writer import KernelWriter, annotation
 from linkwright.formula.late_import import ir
+from linkwright.words import _
 
 
 class Vector:
@@ -194,6 +196,10 @@ class Kernels:
         return self._code().function(name, ctypes.CFUNCTYPE(result, *kinds_of_arguments))
 
     def _code(self) -> machine_code.Loaded:
+        if not machine_code.available():
+            raise RequestError(
+                _("llvmlite cannot be loaded, and this runs in compiled code only; install it again")
+            )
         digest = hashlib.blake2b(digest_size=16)
         for name, tree in self.trees.items():
             digest.update(ast.dump(tree).encode())

@@ -1,4 +1,4 @@
-"""Four-bars with a turning crank of length 1, by three free numbers; their paths and the path's derivatives.
+"""Four-bars with a turning crank of length 1, by three free numbers; their lengths and coupler positions.
 
 With the crank of length 1, coupler b, output c and frame d, the transmission angle never falls below μ just where
 (κ = cos μ, s = b + c, m = b - c)
@@ -15,8 +15,7 @@ other, the border included:
 for μ = 0, where s has no highest value, s = d + 1 + y².
 
 The coupler's unit vector U at crank angle θ, with A = e^{iθ} and D = d - A, is
-U = D (t + i √(4 b² D·D - t²)) / (2 b D·D), t = D·D + b² - c². From |b U - D| = c follow its rates: with V = b U - D,
-dU = i U dψ,  dψ = (c dc - Re(V* U) db + Re(V* dD)) / Re(i V* b U),  dD = dd - i A dθ.
+U = D (t + i √(4 b² D·D - t²)) / (2 b D·D), t = D·D + b² - c².
 """
 
 from __future__ import annotations
@@ -92,16 +91,3 @@ def couplers(theta: Floats, shape: Floats) -> tuple[Complexes, Complexes]:
     t = square + b * b - c * c
     root = np.sqrt(np.maximum(4 * b * b * square - t * t, 0.0))
     return a, reach * (t + 1j * root) / (2 * b * square)
-
-
-def coupler_rates(a: Complexes, u: Complexes, shape: Floats, rates: Floats) -> tuple[Complexes, Complexes]:
-    """Derivatives of U by the free numbers, (K, n, 3), and by θ, (K, n)."""
-    b, c, d = shape[:, :, None]
-    db, dc, dd = rates[:, :, None]
-    v = b * u - (d - a)
-    across = -(v.conj() * u).imag * b
-    across = np.where(np.abs(across) < 1e-9, np.copysign(1e-9, across), across)
-    toward = (v.conj() * u).real
-    turned = c[:, :, None] * dc - toward[:, :, None] * db + v.real[:, :, None] * dd
-    by_angle = (v.conj() * (-1j * a)).real / across
-    return 1j * u[:, :, None] * turned / across[:, :, None], 1j * u * by_angle

@@ -58,11 +58,11 @@ def test_the_start_set_is_closed_under_monodromy() -> None:
     assert len(new_classes(ends, np.empty(0, complex))) == len(ends)
 
 
-def test_without_a_compiler_paths_end_at_the_same_solutions(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_compiled_paths_end_where_those_of_numpy_do() -> None:
     q, u = start_set()
     goal = random_points(np.random.default_rng(5))
     compiled = tracker.track(u[:24], q, goal)
-    monkeypatch.setattr(tracker, "available", lambda: False)
-    plain = tracker.track(u[:24], q, goal)
+    places = [tracker.Places(*points, np.empty(0, complex)) for points in (q, goal)]
+    plain = tracker.carried(u[:24], *places)
     assert plain.arrived.all() and compiled.arrived.all()
     assert np.abs(class_keys(plain.solutions) - class_keys(compiled.solutions)).max() < 1e-9

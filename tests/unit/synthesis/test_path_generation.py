@@ -1,23 +1,42 @@
-"""Descents of path generation, compiled and in arrays, and candidates that are one to a designer."""
+"""Descents of path generation against NumPy's least squares, and candidates that are one to a designer."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.invariants.hidden_paths import hidden
 
 import linkwright as lw
-from linkwright.formula.machine_code import available
-from linkwright.synthesis.crank_family import CrankFamily
-from linkwright.synthesis.path_generation import search
+from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.path_generation.compiled_starts import CompiledPaths
-from linkwright.synthesis.path_generation.projection import Demand, ProjectedPaths
+from linkwright.synthesis.path_generation.demand import Demand, PathStarts
 from linkwright.synthesis.result import different
 
 pytestmark = pytest.mark.rotating
 
 
-@pytest.mark.skipif(not available(), reason="llvmlite does not run here")
+def projected(paths: PathStarts, free: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Residuals (K, 2n) of every start and its best z, α, β (K,), by NumPy's least squares of one after another."""
+    who = np.arange(len(free))
+    demand, sign = paths.demand, np.where(paths.mirrored, -1.0, 1.0)
+    shapes = couplers(paths.theta(free, who), paths.family.lengths(free))
+    found = []
+    for a, u, y, side in zip(*shapes, paths.target(who), sign, strict=True):
+        turned = [a, 1j * a] if demand.direction is None else [a * np.exp(1j * side * demand.direction)]
+        placed = [] if demand.pivot is not None else [np.ones_like(a), 1j * np.ones_like(a)]
+        columns = np.array([*placed, *turned, u, 1j * u]).T
+        real = np.concatenate([columns.real, columns.imag])
+        x = np.linalg.lstsq(real, np.concatenate([y.real, y.imag]), rcond=None)[0]
+        left = y - columns @ x
+        first, last = len(x) - 2 - len(turned), len(x) - 2
+        z, alpha, beta = (
+            columns[0, k:n] @ x[k:n] / columns[0, k] if n > k else 0.0
+            for k, n in ((0, first), (first, last), (last, len(x)))
+        )
+        frame = 1.0 if demand.direction is None else np.exp(1j * side * demand.direction)
+        found.append((np.concatenate([left.real, left.imag]), z, alpha * frame, beta))
+    return tuple(np.array(each) for each in zip(*found, strict=True))
+
+
 @pytest.mark.parametrize(
     "given", [{}, {"pivot": 0.3 + 0.1j}, {"direction": 0.4}, {"pivot": 0j, "direction": -1.0}]
 )
@@ -28,20 +47,12 @@ def test_compiled_deviations_are_those_of_the_projection(given: dict) -> None:
         demand = Demand(points, np.linspace(0, 4, 9), True, timed, **given)
         family, shape = CrankFamily.random(rng, 40, transmission)
         free = np.column_stack([shape, rng.uniform(0, 7, (40, 1 if timed else 9))])
-        paths, who = ProjectedPaths(demand, family, rng.random(40) < 0.5), np.arange(40)
+        paths = PathStarts(demand, family, rng.random(40) < 0.5)
         compiled = CompiledPaths.of(demand, family, paths.mirrored, free, None).judged()
-        expected, *linear = paths.fit(free, who)
+        expected, *linear = projected(paths, free)
         assert compiled.deviation * demand.size**2 == pytest.approx((expected**2).sum(1), rel=1e-9)
         assert np.array(compiled.linear) == pytest.approx(np.array(linear), rel=1e-6, abs=1e-9)
         assert np.all(compiled.iterated(30).deviation <= compiled.deviation)
-
-
-def test_without_a_compiler_the_same_optimum_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    points, theta = hidden(np.random.default_rng(8), "crank_rocker", 12, 1.0)
-    points[::3] += 0.1
-    compiled = lw.path_generation(points, angles=theta).best.error
-    monkeypatch.setattr(search, "available", lambda: False)
-    assert lw.path_generation(points, angles=theta).best.error == pytest.approx(compiled, rel=1e-8)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Complexes
 from linkwright.core.progress import Progress, current_progress
 from linkwright.designs.finished_parts import RESUME, surrounding
-from linkwright.formula.machine_code import available
 from linkwright.synthesis.free_curve.curve_file import read_curve
 from linkwright.synthesis.free_curve.drawing_order import drawing
 from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
@@ -151,13 +150,6 @@ def free_curve(
         raise SynthesisError(TRANSMISSION_RANGE.format(given=f"{math.degrees(transmission_angle):g}"))
     positive(size=size, seconds=seconds)
     not_negative(error=error)
-    if not available():
-        raise SynthesisError(
-            _(
-                "free curves need llvmlite, which does not run here; install it, or use the task path",
-                code="synthesize.free_curve.compiler",
-            )
-        )
     target = Target(curve, closes, transmission_angle, size, turning)
     search = Search(target, int(joints), seconds, int(seed), progress or current_progress())
     return _ranked(target, search.run(), curve, error, int(count), search)

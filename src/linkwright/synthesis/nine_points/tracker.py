@@ -26,7 +26,6 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.designs.finished_parts import once
-from linkwright.formula.machine_code import available
 from linkwright.formula.threads import cores, spread_over
 
 #: Paths that are carried together: their matrices stay in the processor's cache.
@@ -66,18 +65,17 @@ def track(
     start: Complexes, q0: Complexes, q1: Complexes, *,
     tolerance: float = TOLERANCE, most: int = MOST_STEPS, rounding: float = ROUNDING,
 ) -> Ends:  # fmt: skip
-    """Solutions (N, 16) of the points q0 (2, 8) carried to the points q1, in compiled code where there is a compiler.
+    """Solutions (N, 16) of the points q0 (2, 8) carried to the points q1, in compiled code.
 
     A second correction below ``rounding`` is taken for the rounding of ill-conditioned solutions.
     """
     places = [Places(q[0], q[1], np.empty(0, complex)) for q in (q0, q1)]
-    way = _carried_compiled if available() else carried
 
     def all_carried() -> tuple[Complexes, Flags]:
         done, arrived = start.copy(), np.zeros(len(start), bool)
 
         def carry(first: int, last: int) -> None:
-            ends = way(start[first:last], places[0], places[1], tolerance, most, rounding)
+            ends = _carried_compiled(start[first:last], places[0], places[1], tolerance, most, rounding)
             done[first:last], arrived[first:last] = ends.solutions, ends.arrived
 
         spread_over(len(start), CHUNK, cores(), carry)

@@ -1,10 +1,8 @@
-"""Paths whose lengths and coordinates are bounded: the same least squares in all numbers, within the bounds.
+"""Paths whose lengths and coordinates are bounded: the best solutions carried to the end within the bounds.
 
-A solution is written by *measures*, in units of the bound: ratios and crank angles as in the projection, the crank's
-length, the coupler point's and the pivot's coordinates, and the angle of the frame. For the iteration of many
-starts a coordinate is sin q and the crank sin² q of the length at which the longest link reaches the bound, so that
-no step can leave the bounds; the best are then carried to the end along their active bounds by sequential quadratic
-programming (Kraft 1988).
+A solution is written by *measures*, in units of the bound: ratios and crank angles as in the free numbers of a start,
+the crank's length, the coupler point's and the pivot's coordinates, and the angle of the frame. The end is reached
+along the active bounds by sequential quadratic programming (Kraft 1988).
 """
 
 from __future__ import annotations
@@ -13,38 +11,25 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats, Integers
 from linkwright.synthesis.crank_family import couplers
-from linkwright.synthesis.least_squares import minimise, with_differences
-from linkwright.synthesis.path_generation.projection import ProjectedPaths
+from linkwright.synthesis.least_squares import with_differences
+from linkwright.synthesis.path_generation.demand import PathStarts
 
 Linear = tuple[Complexes, Complexes, Complexes]
 
-#: Starts are moved this far inside the bounds, so that no sine begins at its turning point.
-INSIDE = 0.97
-#: Steps with the bounds as penalties (timed, untimed) and starts kept; steps inside the bounds; solutions carried to
-#: the end; ratios and coordinates that differ less are one solution. Then steps and tolerance of that end.
-NEAR, KEPT, WITHIN, FINISHED, ALIKE = (40, 50), 48, (40, 140), (3, 7), 0.02
+#: Solutions carried to the end, timed and untimed; ratios and coordinates that differ less are one solution. Then
+#: steps and tolerance of that end.
+FINISHED, ALIKE = (3, 7), 0.02
 ROUGH, EXACT = (150, 1e-14), (300, 1e-16)
 
 
 class BoundedPaths:
     """A demand's paths with lengths and coordinates of coupler point and crank pivot up to ``bound`` (m)."""
 
-    def __init__(self, paths: ProjectedPaths, bound: float) -> None:
+    def __init__(self, paths: PathStarts, bound: float) -> None:
         self.paths, self.bound = paths, bound
         demand = paths.demand
         self.inner = 3 + (int(demand.phase) if demand.timed else int(demand.same.max()) + 1)
         self.placed, self.turned = demand.pivot is None, demand.direction is None
-
-    def solve(self, free: Floats) -> tuple[Floats, Integers, Linear]:
-        """Iterated solutions from the starts of the projection: ratios and angles, start numbers, z α β."""
-        free_timing = int(not self.paths.demand.timed)
-        near, _, rows = minimise(
-            with_differences(self.penalised), free, keep=KEPT, steps=NEAR[free_timing], halve=10
-        )
-
-        found, rows = self._iterated(near, rows, WITHIN[free_timing])
-        found = self.finished(found, rows)
-        return found[:, : self.inner], rows, self.linear(found, rows)
 
     def finished(self, found: Floats, rows: Integers) -> Floats:
         """Measures, the best of them carried to the end along their active bounds."""
@@ -59,52 +44,13 @@ class BoundedPaths:
         return found
 
     def of(self, free: Floats, linear: Linear) -> Floats:
-        """Measures of solutions: free numbers of the projection and z, α, β."""
+        """Measures of solutions: free numbers of starts and z, α, β."""
         z, alpha, beta = linear
         crank = np.abs(alpha)
         local = beta * alpha.conj() / crank
         columns = [crank, local.real, local.imag, *((z.real, z.imag) if self.placed else ())]
         angle = [np.angle(alpha)] if self.turned else []
         return np.column_stack([free, *(each / self.bound for each in columns), *angle])
-
-    def _iterated(self, free: Floats, rows: Integers, steps: int) -> tuple[Floats, Integers]:
-        """Measures of starts iterated within the bounds, and their numbers."""
-
-        def residual(q: Floats, chosen: Integers) -> Floats:
-            return self.residual(self.measures(q, rows[chosen]), rows[chosen])
-
-        system = with_differences(residual)
-        q, _, chosen = minimise(system, self.start(free, rows), keep=16, steps=steps, halve=30)
-        return self.measures(q, rows[chosen]), rows[chosen]
-
-    def penalised(self, free: Floats, who: Integers) -> Floats:
-        """Residuals of the projection (K, 2n), and how far lengths and coordinates lie beyond the bound (K, 5)."""
-        residual, z, alpha, beta = self.paths.fit(free, who)
-        crank = np.abs(alpha) + 1e-300
-        local = beta * alpha.conj() / crank
-        longest = crank / self._longest(free, who)
-        sizes = np.abs(np.stack([longest, local.real, local.imag, z.real, z.imag], 1)) / self.bound
-        beyond = np.log(np.maximum(sizes, 1.0))
-        return np.concatenate([residual, self.paths.demand.size * beyond], 1)
-
-    def start(self, free: Floats, who: Integers) -> Floats:
-        """Parameters q (K, m) of starts of the projection, moved into the bounds."""
-        _, z, alpha, beta = self.paths.fit(free, who)
-        frame = alpha / np.maximum(np.abs(alpha), 1e-300)
-        local = beta / frame / self.bound
-        share = np.clip(np.abs(alpha) / self.bound / self._longest(free, who), 0.03, INSIDE)
-        columns = [np.arcsin(np.sqrt(share)), _inverse(local.real), _inverse(local.imag)]
-        if self.placed:
-            columns += [_inverse(z.real / self.bound), _inverse(z.imag / self.bound)]
-        return np.column_stack([free, *columns, *([np.angle(frame)] if self.turned else [])])
-
-    def measures(self, q: Floats, who: Integers) -> Floats:
-        """The measures of parameters q, (K, m)."""
-        found = q.copy()
-        last = q.shape[1] - int(self.turned)
-        found[:, self.inner : last] = np.sin(q[:, self.inner : last])
-        found[:, self.inner] = found[:, self.inner] ** 2 * self._longest(q, who)
-        return found
 
     def linear(self, measures: Floats, who: Integers) -> Linear:
         """z, α, β (K,), m."""
@@ -152,14 +98,6 @@ class BoundedPaths:
         )
         inside = np.isfinite(done.x).all() and float(room(done.x).min()) > -1e-9
         return np.asarray(done.x) if inside and done.fun < value(measures)[0] else measures
-
-    def _longest(self, free: Floats, who: Integers) -> Floats:
-        """The crank's length, in units of the bound, at which the longest link reaches the bound, (K,)."""
-        return np.asarray(1.0 / np.maximum(1.0, self.paths.family.chosen(who).lengths(free).max(0)))
-
-
-def _inverse(value: Floats) -> Floats:
-    return np.arcsin(np.clip(value, -INSIDE, INSIDE))
 
 
 def _different(shapes: Floats) -> list[int]:

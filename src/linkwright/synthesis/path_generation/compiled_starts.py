@@ -10,6 +10,7 @@ from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.designs.finished_parts import once
 from linkwright.formula.threads import cores, spread_over
 from linkwright.synthesis.crank_family import CrankFamily
+from linkwright.synthesis.path_generation.demand import Demand, PathStarts
 from linkwright.synthesis.path_generation.kernels import (
     ANGLES,
     ANY_LENGTHS,
@@ -20,7 +21,6 @@ from linkwright.synthesis.path_generation.kernels import (
     SHIFTS,
     kernels,
 )
-from linkwright.synthesis.path_generation.projection import Demand, ProjectedPaths
 
 #: Starts of one share of a thread's work.
 SHARE = 512
@@ -54,14 +54,14 @@ class CompiledPaths:
         return cls(demand, bound, family.transmission, family.rocking, starts)
 
     @property
-    def paths(self) -> ProjectedPaths:
-        """The same starts in arrays."""
+    def paths(self) -> PathStarts:
+        """Crank angles and points of the starts."""
         family = CrankFamily(self.starts[:, 4] == 1.0, self.transmission, self.rocking)
-        return ProjectedPaths(self.demand, family, self.starts[:, 5] < 0)
+        return PathStarts(self.demand, family, self.starts[:, 5] < 0)
 
     @property
     def free(self) -> Floats:
-        """Free numbers as in ``projection``."""
+        """Free numbers (K, 3 and phase or crank angles)."""
         if not self.demand.timed:
             return np.column_stack([self.starts[:, :3], self.starts[:, ANGLES:]])
         return self.starts[:, : 4 if self.demand.phase else 3]

@@ -13,7 +13,7 @@ from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.crank_family import couplers
 from linkwright.synthesis.merit import extent_of
-from linkwright.synthesis.path_generation.projection import Demand
+from linkwright.synthesis.path_generation.demand import Demand
 from linkwright.synthesis.path_generation.search import Found, search
 from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import (

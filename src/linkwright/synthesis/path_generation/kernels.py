@@ -1,4 +1,7 @@
-"""Least squares of one path after another, compiled: Levenberg and Marquardt's steps of ``projection`` (kernels).
+"""Least squares of one path after another, compiled: Levenberg and Marquardt's steps (kernels).
+
+From |b U - D| = c follow the rates of the coupler's unit vector U: with D = d - A and V = b U - D, dU = i U dψ,
+dψ = (c dc - Re(V* U) db + Re(V* dD)) / Re(i V* b U), dD = dd - i A dθ.
 
 Unknown in this order: the linear numbers (z where the pivot is free; α, or its length where the frame's direction is
 given; β), the three free numbers of the shape, and a common phase. A free crank angle belongs to one point alone and

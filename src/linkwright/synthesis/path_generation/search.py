@@ -11,16 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
-from linkwright.formula.machine_code import available
 from linkwright.synthesis.crank_family import CrankFamily, couplers
-from linkwright.synthesis.least_squares import minimise
 from linkwright.synthesis.path_generation.bounded_dimensions import BoundedPaths
 from linkwright.synthesis.path_generation.compiled_starts import CompiledPaths
-from linkwright.synthesis.path_generation.projection import Demand, ProjectedPaths
+from linkwright.synthesis.path_generation.demand import Demand, PathStarts
 
-#: Starts tried, iterated, and carried to the end: timed and untimed; in arrays.
+#: Starts tried, iterated, and carried to the end: timed and untimed.
 TIMED, UNTIMED = (4000, 256, 32), (20000, 1536, 128)
-IN_ARRAYS = (3000, 64, 16), (16000, 256, 16)
 #: Steps before the worse half is given up, and to the end.
 FIRST_STEPS, LAST_STEPS = 15, 500
 #: Where the points ask for more than the unknowns can give, a share of 1/FEW of the starts is tried first; a sum of
@@ -39,7 +36,7 @@ FIRST_WEIGHT, INSIDE = 0.1, 0.97
 class Found(NamedTuple):
     """Solutions: paths, their free numbers (K, m), numbers of the starts (K,), and z, α, β (K,)."""
 
-    paths: ProjectedPaths
+    paths: PathStarts
     free: Floats
     who: Integers
     linear: tuple[Complexes, Complexes, Complexes]
@@ -49,8 +46,6 @@ def search(
     demand: Demand, bound: float | None, transmission: float, rocking: bool, rng: np.random.Generator
 ) -> Found:
     """The best paths for a demand; ``rocking``: of any four-bars, else of those with a turning crank."""
-    if not available():
-        return _in_arrays(demand, bound, transmission, rocking, rng)
     tried, kept, last = TIMED if demand.timed else UNTIMED
 
     def judged(share: int) -> CompiledPaths:
@@ -135,31 +130,6 @@ def _finished(found: Found, bound: float) -> Found:
     paths = BoundedPaths(found.paths, bound)
     measures = paths.finished(paths.of(found.free, found.linear), found.who)
     return Found(found.paths, measures[:, : paths.inner], found.who, paths.linear(measures, found.who))
-
-
-def _in_arrays(
-    demand: Demand, bound: float | None, transmission: float, rocking: bool, rng: np.random.Generator
-) -> Found:
-    """The same without a compiler, from fewer starts."""
-    tried, kept, last = IN_ARRAYS[not demand.timed]
-    tried = _fewer(demand, tried)
-    family, mirrored, free = _random(demand, tried, transmission, rocking, rng, False)
-    paths, who = ProjectedPaths(demand, family, mirrored), np.arange(tried)
-    best = np.argsort(_squares(paths.fit(free, who)[0]))[:kept]
-    if bound is not None:
-        bounded = BoundedPaths(paths, bound)
-        inside = np.argsort(_squares(bounded.residual(bounded.start(free, who), who)))[:kept]
-        best = np.unique(np.concatenate([best[: kept // 2], inside]))
-    paths, free = ProjectedPaths(demand, family.chosen(best), mirrored[best]), free[best]
-    if bound is not None:
-        free, who, linear = BoundedPaths(paths, bound).solve(free)
-        return Found(paths, free, who, linear)
-    solved, _, who = minimise(paths, free, keep=last, steps=80 if demand.timed else 120)
-    return Found(paths, solved, who, paths.fit(solved, who)[1:])
-
-
-def _squares(residual: Floats) -> Floats:
-    return np.asarray(np.einsum("ki,ki->k", residual, residual))
 
 
 def _random(
