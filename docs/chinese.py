@@ -18,21 +18,6 @@ LOADS = {
     "A torsion spring between links [a, b]: torque on b is M = -(M0 + k·(φ - φ0)), in N·m, and -M on a.":
         "构件 [a, b] 之间的扭簧：b 受 M = -(M0 + k·(φ - φ0))，单位 N·m，a 受 -M。",
 }  # fmt: skip
-#: Dimensions and things that a name refers to.
-FORMS = {
-    "acceleration":
-        "加速度", "angle": "角度", "angular acceleration": "角加速度", "angular velocity": "角速度",
-    "area": "面积", "damping": "阻尼", "dimensionless": "无量纲数", "force": "力", "inertia": "转动惯量",
-    "length":
-        "长度", "length per angle": "每弧度的长度", "length per angle squared": "每弧度平方的长度",
-    "mass": "质量",
-    "pressure":
-        "压力", "stiffness": "刚度", "time": "时间", "torque": "力矩", "torsional damping": "扭转阻尼",
-    "torsional stiffness":
-        "扭转刚度", "velocity": "速度", "joint": "运动副", "link": "构件", "link.point": "构件.点",
-    "output": "输出", "point": "点", "string": "文本", "number": "数", "integer": "整数", "object": "键值表",
-    "boolean": "真或假", "array": "列表",
-}  # fmt: skip
 #: What every public name is.
 NAMES = {
     "Cam": "凸轮：运动循环、从动件、尺寸与限制",

@@ -8,6 +8,7 @@ from typing import Any
 
 from docutils.nodes import SkipNode
 from latex2mathml.converter import convert
+from sphinx.ext.napoleon import GoogleDocstring
 from sphinx.search.en import SearchEnglish
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -19,7 +20,15 @@ pages.make()
 project = "Linkwright"
 author = "Linkwright contributors"
 copyright = "2026, Linkwright contributors"
-extensions = ["myst_parser", "sphinx_design"]
+extensions = ["myst_parser", "sphinx_design", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+autodoc_default_options = {
+    "members": True, "inherited-members": "BaseException, Exception, tuple", "member-order": "bysource",
+}  # fmt: skip
+autodoc_typehints_format = "short"
+autodoc_type_aliases = {"ArrayLike": "ArrayLike", "Floats": "Floats"}
+maximum_signature_line_length = 100
+napoleon_google_docstring = napoleon_numpy_docstring = False  # see sections_of_docstrings
+default_role = "code"
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist", "colon_fence", "html_image"]
 myst_heading_anchors = 3
 source_suffix = {".md": "markdown", ".markdown": "markdown"}
@@ -141,9 +150,26 @@ def joined_lines(app: Any, name: str, source: list[str]) -> None:
     source[0] = "\n".join(joined)
 
 
+def sections_of_docstrings(app: Any, what: str, name: str, value: Any, options: Any, lines: list[str]) -> None:
+    """Google's sections as fields; in properties, Napoleon would take what is before a colon for a type."""
+    if what != "property":
+        lines[:] = GoogleDocstring(lines, app.config, app, what, name, value, options).lines()
+
+
+def short_signature(
+    app: Any, what: str, name: str, value: Any, options: Any, arguments: str | None, returned: str | None
+) -> tuple[str | None, str | None]:
+    """Aliases by their names; ``...`` for defaults from a factory, so that Sphinx can parse and wrap the arguments."""
+    texts = (text and re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", text) for text in (arguments, returned))
+    arguments, returned = texts
+    return arguments and arguments.replace("<factory>", "..."), returned
+
+
 def setup(app: Any) -> None:
     app.connect("html-page-context", language_link)
     app.connect("html-page-context", theme_words)
     app.connect("source-read", joined_lines)
+    app.connect("autodoc-process-docstring", sections_of_docstrings)
+    app.connect("autodoc-process-signature", short_signature)
     app.add_search_language(BothLanguages)
     app.add_html_math_renderer("mathml", (inline_formula, None), (formula, None))

@@ -2,7 +2,7 @@
 
 Gallery and reference numbers are made when the documentation is built; they have the ending ``.markdown`` and stand
 in ``docs/made``, outside the repository. The reference of keys and names (``model_file.md``, ``functions.md``,
-``codes.md``, ``api.md``) is part of the repository, so that a clone has it: ``python docs/pages.py`` writes it anew.
+``codes.md``) is part of the repository, so that a clone has it: ``python docs/pages.py`` writes it anew.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ from typing import Any
 import linkwright as lw
 from linkwright import gallery
 from linkwright.cli.commands.gallery import title_and_purpose
-from linkwright.core.attached import Plotted
 from linkwright.errors import LinkwrightError
+from linkwright.fields.form import form
 from linkwright.validation.validate import validate
 from linkwright.words import Message
 from linkwright.words.sentence import in_language
 
 sys.path.insert(0, str(Path(__file__).parent))
 import codes as coded
-from chinese import FORMS, LOADS, NAMES
+from chinese import LOADS, NAMES
 
 ROOT = Path(__file__).parent
 MADE = ROOT / "made"
@@ -82,7 +82,7 @@ def make() -> None:
 @cache
 def reference() -> dict[Path, str]:
     """The pages of keys and names that the repository holds."""
-    found = {ROOT / "en/api.md": api()}
+    found = {}
     for language in ("en", "zh"):
         found[ROOT / language / "model_file.md"] = model_file(language)
         found[ROOT / language / "functions.md"] = functions(language)
@@ -190,10 +190,6 @@ FILE_WORDS = {
         'written with its unit (`"60.5 mm"`) or as an expression of `parameters`; the right column shows the form.',
         "head": "| key | meaning | form |",
         "required": " (required)",
-        "name": "name of a {}",
-        "list": "list of {}({})",
-        "of": "",
-        "or": " or ",
         "see": "Its keys: [{0}]({0}).",
     },
     "zh": {
@@ -202,10 +198,6 @@ FILE_WORDS = {
         '量要写单位（`"60.5 mm"`），或写成 `parameters` 的表达式；右栏为写法。',
         "head": "| 键 | 含义 | 写法 |",
         "required": "（必须）",
-        "name": "{}的名称",
-        "list": "{}（{}）的列表",
-        "of": "个",
-        "or": "，或",
         "see": "各键见 [{0}]({0})。",
     },
 }
@@ -255,7 +247,7 @@ def section_body(schema: Mapping[str, Any], language: str) -> Iterator[str]:
         yield f"{words['head']}\n|---|---|---|"
         for key, value in kind["properties"].items():
             needed = words["required"] if key in kind.get("required", ()) else ""
-            meaning, written = cell(sentence(value, language)), cell(form(value, language))
+            meaning, written = cell(sentence(value, language)), cell(form(value).translate(language))
             yield f"| `{key}`{needed} | {meaning} | {written} |"
         yield ""
 
@@ -264,29 +256,10 @@ def cell(text: str) -> str:
     return text.replace("|", "\\|").replace("\n", " ")
 
 
-def form(schema: Mapping[str, Any], language: str) -> str:
-    """How a value is written."""
-    words = FILE_WORDS[language]
-
-    def said(word: str) -> str:
-        return FORMS.get(word, word) if language == "zh" else word
-
-    if "enum" in schema:
-        return ", ".join(f"`{each}`" for each in schema["enum"])
-    if "x-dimension" in schema:
-        dimension = said(schema["x-dimension"].replace("_", " "))
-        return f"{dimension}, `{schema['examples'][0]}`" if "examples" in schema else dimension
-    if "x-reference" in schema:
-        return words["name"].format(said(schema["x-reference"]))
-    if schema.get("type") == "array" and isinstance(schema.get("items"), Mapping):
-        least, most = schema.get("minItems"), schema.get("maxItems")
-        count = f"{least} {words['of']}" if least == most and least else ""
-        return words["list"].format(count, form(schema["items"], language))
-    options = schema.get("anyOf") or schema.get("oneOf")
-    if options:
-        return words["or"].join(dict.fromkeys(filter(None, (form(each, language) for each in options))))
-    kind = schema.get("type", "")
-    return words["or"].join(map(said, kind)) if isinstance(kind, list) else said(str(kind))
+def plain(line: str) -> str:
+    """Signs outside of code without a meaning of their own."""
+    parts = line.split("`")
+    return "`".join(re.sub(r"([*<>$\[\]|#])", r"\\\1", p) if i % 2 == 0 else p for i, p in enumerate(parts))
 
 
 # functions --------------------------------------------------------------------------------------
@@ -309,16 +282,27 @@ def functions(language: str) -> Iterator[str]:
     """Public names with the pages that have a runnable example of them."""
     title, intro, head = FUNCTION_WORDS[language]
     yield f"# {title}\n\n{intro}\n\n{head}\n|---|---|---|"
-    shown = names_shown(language)
+    shown, sections = names_shown(language), api_sections()
     english = {} if language == "en" else names_shown("en")
-    for name in sorted((each for names in lw.PUBLIC.values() for each in names), key=str.lower):
+    for name in sorted(lw.__all__, key=str.lower):
         text = NAMES.get(name, "") if language == "zh" else plain(first_line(getattr(lw, name)))
         pages = (shown.get(name) or english[name])[:3]
         links = ", ".join(
             f"[{heading(each)}]({Path(os.path.relpath(each, ROOT / language)).as_posix()})" for each in pages
         )
         where = "api.md" if language == "en" else "../en/api.md"
-        yield f"| [`{name}`]({where}#{name.lower()}) | {cell(text)} | {links} |"
+        yield f"| [`{name}`]({where}#{sections[name]}) | {cell(text)} | {links} |"
+
+
+def api_sections() -> dict[str, str]:
+    """Public names, with the anchor of the section of ``api.md`` that documents them."""
+    found, anchor = {}, ""
+    for line in (ROOT / "en/api.md").read_text("utf-8").splitlines():
+        if line.startswith("## "):
+            anchor = re.sub("[^a-z-]", "", line[3:].lower().replace(" ", "-"))
+        if directive := re.fullmatch(r"\.\. auto(?:function|class|exception):: (\w+)", line):
+            found[directive[1]] = anchor
+    return found
 
 
 def first_line(value: Any) -> str:
@@ -419,77 +403,6 @@ def codes(language: str) -> Iterator[str]:
     for area, some in coded.of_errors().items():
         shown = ", ".join(f"`{each}`" for each in some[:3])
         yield f"| `{area}` | {coded.AREAS[area][column]} | {shown} |"
-
-
-# API --------------------------------------------------------------------------------------------
-def api() -> Iterator[str]:
-    """Every public name with its signature and docstring."""
-    yield "# API reference\n"
-    yield "Public names of `linkwright`, generated from their docstrings. Quantities are SI, angles radians.\n"
-    for module, names in sorted(lw.PUBLIC.items()):
-        for name in names:
-            value = getattr(__import__(module, fromlist=[name]), name)
-            yield f"## `{name}`\n"
-            yield f"```text\n{name}{signature(value)}\n```\n"
-            yield f"From `{module}`.\n"
-            yield f"{docstring(value)}\n"
-            if inspect.isclass(value):
-                yield from members(value)
-
-
-def signature(value: Any) -> str:
-    """How it is called, annotations shortened."""
-    try:
-        found = str(inspect.signature(value))
-    except (TypeError, ValueError):
-        return ""
-    found = re.sub(r"(: |-> )'([^']*)'", r"\1\2", found)
-    found = re.sub(r"\b(?:[a-z_]\w*\.)+([A-Z]\w*)", r"\1", found)
-    return found if len(found) < 90 else found.replace("(", "(\n    ", 1).replace(", ", ",\n    ")
-
-
-def docstring(value: Any) -> str:
-    """A docstring as Markdown: headings of its parts bold, arguments as a list."""
-    text = inspect.getdoc(value) or ""
-    lines: list[str] = []
-    for line in text.replace("``", "`").splitlines():
-        head = re.fullmatch(r"(Args|Returns|Raises|Attributes|Examples?):", line)
-        item = re.match(r"    (\*{0,2}\w[\w, *]*): (.*)", line)
-        if head:
-            lines += ["", f"**{head[1]}**", ""]
-        elif item:
-            lines.append(f"- `{item[1]}`: {plain(item[2])}")
-        elif line.startswith("    "):
-            lines.append(("  " if lines and lines[-1].startswith(("-", "  ")) else "") + plain(line.strip()))
-        else:
-            lines.append(plain(line))
-    return "\n".join(lines)
-
-
-def plain(line: str) -> str:
-    """Signs outside of code without a meaning of their own."""
-    parts = line.split("`")
-    return "`".join(re.sub(r"([*<>$\[\]|#])", r"\\\1", p) if i % 2 == 0 else p for i, p in enumerate(parts))
-
-
-def members(value: type) -> Iterator[str]:
-    """Methods and properties that are documented, one line each."""
-    rows = []
-    room = value.__module__.rpartition(".")[0]
-    own = [each for each in value.__mro__ if each.__module__.rpartition(".")[0] == room]
-    shared = [Plotted] if issubclass(value, Plotted) else []
-    listed = {name: member for each in (*reversed(own), *shared) for name, member in vars(each).items()}
-    for name, member in listed.items():
-        if name.startswith("_") or not inspect.getdoc(member) or isinstance(member, type):
-            continue
-        if not (callable(member) or isinstance(member, property) or hasattr(member, "func")):
-            continue
-        call = signature(member).split(" ->")[0] if inspect.isfunction(member) else ""
-        short = re.sub(r"\s+", " ", call.replace("self, ", "").replace("(self)", "()"))
-        text = (inspect.getdoc(member) or "").replace("``", "`").split("\n\n")[0].replace("\n", " ")
-        rows.append(f"- `{name}{short}`: {plain(text)}")
-    if rows:
-        yield "\n".join(rows) + "\n"
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ _NAMES = {
 def form(shape: Mapping[str, Any]) -> Message:
     """The words for a JSON Schema: ``a length, such as 60.5 mm``; ``list of 2: a link's name``."""
     match shape:
-        case {"const": only}:
+        case {"const": only} | {"enum": [only]}:
             return _("{value}", value=only)
         case {"enum": names}:
             return _("one of {names}", names=tuple(names))
@@ -59,6 +59,10 @@ def form(shape: Mapping[str, Any]) -> Message:
             return _("a mapping by name: {item}", item=form(item))
         case {"properties": Mapping() as inner}:
             return _("a mapping with keys of {names}", names=tuple(inner))
+        case {"type": "boolean"}:
+            return _("true or false")
+        case {"type": "number"}:
+            return _("a number")
         case {"type": "integer"}:
             return _("an integer")
         case {"type": ["string", "number"]}:

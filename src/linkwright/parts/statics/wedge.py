@@ -59,7 +59,7 @@ class Wedge(Problem):
 
         R = Q cos ρw/cos(α + ρ + ρw), P = R sin(α + ρ + ρf)/cos ρf; for sinking the friction angles are
         negative, and where α < ρ the wedge that is pulled out takes the load to the other side of its guide, whose
-        friction holds the load as well: R = Q cos ρw/cos(|α - ρ| - ρw).
+        friction holds the load as well: ``R = Q cos ρw/cos(|α - ρ| - ρw)``.
         """
         slope, floor, _unused = (sense * angle for angle in self.friction_angles)
         return self.between(sense, load) * math.sin(self.angle + slope + floor) / math.cos(floor)

@@ -43,7 +43,7 @@ LABELS: Mapping[str, Message] = {
 class Particle(Problem):
     """A ``mass`` (kg) thrown with ``speed`` (m/s) under an ``angle`` (rad) from the ``height`` (m) over the ground.
 
-    Drag −b v with ``linear`` b (N·s/m), −k |v| v with ``quadratic`` k (kg/m); k = ½ ρ c_w A from
+    Drag −b v with ``linear`` b (N·s/m), ``−k |v| v`` with ``quadratic`` k (kg/m); k = ½ ρ c_w A from
     ``drag_coefficient``, ``area`` and ``density`` (of air unless given).
     """
 
