@@ -150,7 +150,9 @@ def joined_lines(app: Any, name: str, source: list[str]) -> None:
     source[0] = "\n".join(joined)
 
 
-def sections_of_docstrings(app: Any, what: str, name: str, value: Any, options: Any, lines: list[str]) -> None:
+def sections_of_docstrings(
+    app: Any, what: str, name: str, value: Any, options: Any, lines: list[str]
+) -> None:
     """Google's sections as fields; in properties, Napoleon would take what is before a colon for a type."""
     if what != "property":
         lines[:] = GoogleDocstring(lines, app.config, app, what, name, value, options).lines()
@@ -159,8 +161,10 @@ def sections_of_docstrings(app: Any, what: str, name: str, value: Any, options: 
 def short_signature(
     app: Any, what: str, name: str, value: Any, options: Any, arguments: str | None, returned: str | None
 ) -> tuple[str | None, str | None]:
-    """Aliases by their names; ``...`` for defaults from a factory, so that Sphinx can parse and wrap the arguments."""
-    texts = (text and re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", text) for text in (arguments, returned))
+    """Aliases by name; ``...`` for defaults from a factory, so that Sphinx can parse and wrap the signature."""
+    texts = (
+        text and re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", text) for text in (arguments, returned)
+    )
     arguments, returned = texts
     return arguments and arguments.replace("<factory>", "..."), returned
 

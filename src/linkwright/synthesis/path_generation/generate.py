@@ -74,8 +74,8 @@ def path_generation(
         seed: of the random starts.
 
     Returns:
-        Candidates; ``error``: ``Σ |P_j - target_j|²``, m². ``P = z + α e^{iθ} + β U(θ; b, c, d)``: place, size and coupler
-        point are projected out, ratios and timing iterated from an atlas of starts.
+        Candidates; ``error``: ``Σ |P_j - target_j|²``, m². ``P = z + α e^{iθ} + β U(θ; b, c, d)``: place, size and
+        coupler point are projected out, ratios and timing iterated from an atlas of starts.
 
     Raises:
         SynthesisError: fewer than three points, points that coincide, angles that do not fit; points that lie apart
