@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from tests import store
 from tests.contract.calculations import solved
+from tests.public import PUBLIC
 
 import linkwright as lw
 from linkwright import parts
@@ -230,8 +231,7 @@ def copies_say_the_same(result: Any) -> None:
 def test_every_public_type_is_among_them() -> None:
     found = {type(each) for name in RESULTS for each in _flat(made(name))}
 
-    public = {getattr(lw, name) for names in lw.PUBLIC.values() for name in names}
-    types = {each for each in public if isinstance(each, type)}
+    types = {each for each in PUBLIC.values() if isinstance(each, type)}
     bases = {lw.LinkwrightError, lw.StructureError}
     missing = {each.__name__ for each in types - bases if not any(issubclass(kind, each) for kind in found)}
     assert missing <= MADE_OF_CODE, missing

@@ -16,6 +16,7 @@ HOOKS = PROJECT.with_name(".pre-commit-config.yaml")
 DISTRIBUTIONS = {
     "yaml": "pyyaml",
     "PIL": "pillow",
+    "lazy_loader": "lazy-loader",
     "resvg_py": "resvg-py",
     "docx": "python-docx",
     "markdown_it": "markdown-it-py",

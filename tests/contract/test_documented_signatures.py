@@ -12,12 +12,12 @@ from typing import Any
 import pytest
 from tests.every import every
 from tests.files.documentation import PAGES, blocks, name
+from tests.public import PUBLIC
 from tests.refusals import refused
 
 import linkwright as lw
 from linkwright import parts
 
-PUBLIC = {each: getattr(lw, each) for names in lw.PUBLIC.values() for each in names}
 SAVES = ("save", "write", "save_profile", "save_dxf", "export")
 
 

@@ -16,7 +16,6 @@ STAGES = (
         "errors",
         "units",
         "registry",
-        "lazy",
         "filesystem",
         "words",
         "gallery",

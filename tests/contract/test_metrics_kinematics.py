@@ -7,7 +7,8 @@ import pytest
 from tests.every import every
 
 import linkwright as lw
-from linkwright.analysis import METRICS, Analysis, Summary, centrode, instant_centre, metrics
+from linkwright.analysis import METRICS, Analysis, centrode, instant_centre, metrics
+from linkwright.cycle import Summary
 from linkwright.files.build import Model
 
 

@@ -11,8 +11,8 @@ import pytest
 from tests import store
 
 import linkwright as lw
+from linkwright import plot
 from linkwright.cli import main
-from linkwright.plotting import plot
 from linkwright.plotting.animation import animate
 
 #: Positions of the coarse cycle, and of the fine one.

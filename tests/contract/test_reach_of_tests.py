@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from tests.every import every
+from tests.public import PUBLIC
 
 import linkwright as lw
 
@@ -23,13 +24,14 @@ FILES = [
 
 @cache
 def public() -> frozenset[tuple[str, str]]:
-    """Module and name: offered by `linkwright`, in the ``__all__`` of one of its packages, or imported by an example
+    """Module and name: of a public name, offered by one of the packages, or imported by an example
     of the documentation (what packages of others build on)."""
-    offered = {(module, name) for module, names in lw.PUBLIC.items() for name in names}
+    offered = {(value.__module__, name) for name, value in PUBLIC.items()}
     home = Path(lw.__file__).parent
     for path in home.glob("*/**/__init__.py"):
         module = import_module(".".join(("linkwright", *path.parent.relative_to(home).parts)))
-        offered |= {(module.__name__, name) for name in getattr(module, "__all__", ())}
+        names = getattr(module, "__all__", vars(module))
+        offered |= {(module.__name__, name) for name in names if not name.startswith("__")}
     for page in (TESTS.parent / "README.md", *sorted(DOCS.rglob("*.md"))):
         for block in re.findall(
             r"^```(?:python|pycon|py)\b[^\n]*\n(.*?)^```", page.read_text("utf-8"), re.M | re.S

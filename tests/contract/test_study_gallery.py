@@ -7,7 +7,7 @@ import pytest
 from tests import store
 
 import linkwright as lw
-from linkwright.designs import sensitivity, sweep
+from linkwright import sensitivity, sweep
 
 STEPS = 24
 

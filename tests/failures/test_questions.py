@@ -11,7 +11,7 @@ from tests import store
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.designs import study
+from linkwright import study
 
 
 def six() -> lw.Mechanism:

@@ -12,8 +12,8 @@ from tests import store
 from tests.refusals import refused
 
 import linkwright as lw
+from linkwright import compare, sensitivity, study, sweep
 from linkwright.cli import main
-from linkwright.designs import compare, sensitivity, study, sweep
 from linkwright.errors import RequestError
 
 SIX, FOUR = "gallery:jaw_crusher_sixbar", "gallery:jaw_crusher_fourbar"

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
+from linkwright import Diagram, plot
 from linkwright.errors import LinkwrightError
-from linkwright.plotting import Diagram, plot
 
 
 def drawn_in_chinese(result: Any, kind: str | None = None, **options: Any) -> Diagram:

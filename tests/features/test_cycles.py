@@ -10,7 +10,6 @@ import pytest
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.kinematics import CycleError
 
 TWO = """
 format: 1
@@ -120,9 +119,9 @@ def test_turns_of_a_fast_driver_leave_the_slow_one_on_its_way() -> None:
 
 
 def test_a_cycle_that_cannot_be_laid_out_is_refused() -> None:
-    with refused("motion.law_without_end", CycleError, driver="first"):
+    with refused("motion.law_without_end", driver="first"):
         time_span(machine(STILL.replace(" m", " rad"), STILL.replace(" m", " rad"), "speed: 1 m/s"))
-    with refused("motion.law_without_end", CycleError, driver="first"):
+    with refused("motion.law_without_end", driver="first"):
         time_span(machine(STILL.replace(" m", " rad"), STILL.replace(" m", " rad")))
     with refused("given_instead.no_whole_from", option="steps", value="0"):
         lw.solve_motion(machine(), steps=0)

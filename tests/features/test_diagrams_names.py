@@ -10,7 +10,7 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.plotting import plot
+from linkwright import plot
 
 SHIFT = re.compile(r"translate\(([-\d.]+) ([-\d.]+)\)(?: rotate\(([-\d.]+)\))?")
 

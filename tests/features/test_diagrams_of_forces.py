@@ -8,7 +8,7 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.plotting import Diagram, plot
+from linkwright import Diagram, plot
 
 EXCAVATOR = store.machine("excavator")
 #: Times, and what stands in the gallery's file, solved there with Lagrange multipliers; N.

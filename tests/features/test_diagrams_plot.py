@@ -14,9 +14,9 @@ from tests.features.chinese import drawn_in_chinese
 from tests.refusals import refused
 
 import linkwright as lw
+from linkwright import Diagram, plot
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.machine import steady_running
-from linkwright.plotting import Diagram, plot
 
 CRUSHER = store.machine("jaw_crusher_sixbar")
 

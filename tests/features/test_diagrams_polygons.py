@@ -9,8 +9,8 @@ from tests import store
 from tests.refusals import refused
 
 import linkwright as lw
+from linkwright import plot
 from linkwright.errors import RequestError
-from linkwright.plotting import plot
 
 #: Places in the file have two decimals, a polygon is some 200 units long.
 RESOLUTION = 3e-4

@@ -16,12 +16,11 @@ from tests.features.chinese import drawn_in_chinese
 from tests.refusals import refused
 
 import linkwright as lw
+from linkwright import Comparison, Diagram, Study, compare, sensitivity, study, sweep
 from linkwright.analysis import coupler_curve, metrics
 from linkwright.cli import main
-from linkwright.designs import Comparison, Study, compare, sensitivity, study, sweep
 from linkwright.errors import RequestError
 from linkwright.machine import Balancing, TorqueCurve, balance
-from linkwright.plotting import Diagram
 
 Floats = NDArray[np.float64]
 

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from tests.every import every
 
-from linkwright import parts
-from linkwright.plotting import plot
+from linkwright import parts, plot
 
 
 @cache

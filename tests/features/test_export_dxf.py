@@ -11,7 +11,7 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.exporters import export
+from linkwright import export
 
 ezdxf = pytest.importorskip("ezdxf")
 

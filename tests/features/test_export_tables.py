@@ -15,9 +15,8 @@ from tests.every import every
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright import Forces
+from linkwright import Forces, export
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.exporters import export
 
 FORMULA = '=HYPERLINK("http://example.org","x")'
 

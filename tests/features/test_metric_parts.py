@@ -13,8 +13,9 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.analysis import METRICS, Analysis, Summary, coupler_curve, metrics
+from linkwright.analysis import METRICS, Analysis, coupler_curve, metrics
 from linkwright.analysis.base import Metric, Number
+from linkwright.cycle import Summary
 
 DENSE = 7200
 MACHINE = store.machine("crank_rocker")

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import linkwright as lw
-from linkwright.plotting import plot
+from linkwright import plot
 from linkwright.plotting.animation import animate
 
 NAME = "a\x01b\ufffe\uffff\x1b[31m\x85 <&> %%c"

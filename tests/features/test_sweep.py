@@ -9,7 +9,7 @@ from tests.every import every
 from tests.features.scaled import SCALED
 
 import linkwright as lw
-from linkwright.designs import sweep
+from linkwright import sweep
 
 CRANK = np.array([20.0, 35.0, 50.0, 65.0]) / 1000
 ROD = np.array([150.0, 400.0, 170.0, 220.0]) / 1000

@@ -14,7 +14,8 @@ from tests.refusals import findings
 from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.analysis import METRICS, Analysis, Summary
+from linkwright.analysis import METRICS, Analysis
+from linkwright.cycle import Summary
 
 Floats = NDArray[np.float64]
 

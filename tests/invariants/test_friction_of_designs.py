@@ -11,7 +11,8 @@ from tests.reference.random_mechanisms import random_mechanism
 from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.analysis import Analysis, Summary
+from linkwright.analysis import Analysis
+from linkwright.cycle import Summary
 
 STEPS = 48
 

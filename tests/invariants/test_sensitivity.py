@@ -12,7 +12,7 @@ from tests.refusals import refused
 from tests.store import machine as stored
 
 import linkwright as lw
-from linkwright.designs import sensitivity
+from linkwright import sensitivity
 
 KINDS: dict[str, Callable[[np.ndarray], float]] = {
     "rms": lambda y: np.sqrt((y * y).mean()),

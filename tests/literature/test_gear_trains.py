@@ -10,7 +10,7 @@ from tests import store
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.designs import sensitivity
+from linkwright import sensitivity
 from linkwright.mechanism.wheel_sizes import wheel_sizes
 
 RPM = np.pi / 30.0

@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.analysis.evaluate import metrics
 from linkwright.core.arguments import real
-from linkwright.kinematics import solve_motion
+from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.synthesis.linkage import Linkage
 

@@ -9,8 +9,7 @@ from tests.every import every
 from tests.refusals import refused
 
 from linkwright.errors import RequestError
-from linkwright.exporters import export
-from linkwright.exporters.export import FORMATS, chosen_format
+from linkwright.exporters.export import FORMATS, chosen_format, export
 from linkwright.exporters.formats import xlsx
 from linkwright.exporters.formats.xlsx import number_format
 

@@ -97,7 +97,7 @@ def run(options: Options, session: Session) -> int:
     from linkwright.cli.files import refuse_existing
     from linkwright.cli.solving import chosen_motion
     from linkwright.cli.source import read_model
-    from linkwright.exporters import export
+    from linkwright.exporters.export import export
 
     path = Path(options.output)
     chosen, form = _checked(path, options)

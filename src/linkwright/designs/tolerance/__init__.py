@@ -1,13 +1,6 @@
 """Tolerances of a mechanism: from dimensions and clearances to the spread of its numbers and curves."""
 
-from typing import TYPE_CHECKING
-
-from linkwright.lazy import offer
-
-if TYPE_CHECKING:
-    from linkwright.designs.tolerance.problem import Clearance as Clearance
-    from linkwright.designs.tolerance.problem import Tolerance as Tolerance
-    from linkwright.designs.tolerance.result import Spread as Spread
-    from linkwright.designs.tolerance.study import ToleranceStudy as ToleranceStudy
-
-offer(__name__)
+from linkwright.designs.tolerance.problem import Clearance as Clearance
+from linkwright.designs.tolerance.problem import Tolerance as Tolerance
+from linkwright.designs.tolerance.result import Spread as Spread
+from linkwright.designs.tolerance.study import ToleranceStudy as ToleranceStudy
