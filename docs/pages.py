@@ -285,11 +285,7 @@ def functions(language: str) -> Iterator[str]:
     yield f"# {title}\n\n{intro}\n\n{head}\n|---|---|---|"
     shown, sections = names_shown(language), api_sections()
     english = {} if language == "en" else names_shown("en")
-<<<<<<< HEAD
-    for name in sorted(lw.__all__, key=str.lower):
-=======
     for name in sorted(PUBLIC, key=str.lower):
->>>>>>> 63ad8a36 (Import public names lazily by lazy_loader with stubs)
         text = NAMES.get(name, "") if language == "zh" else plain(first_line(getattr(lw, name)))
         pages = (shown.get(name) or english[name])[:3]
         links = ", ".join(
@@ -410,77 +406,5 @@ def codes(language: str) -> Iterator[str]:
         yield f"| `{area}` | {coded.AREAS[area][column]} | {shown} |"
 
 
-<<<<<<< HEAD
-=======
-# API --------------------------------------------------------------------------------------------
-def api() -> Iterator[str]:
-    """Every public name with its signature and docstring."""
-    yield "# API reference\n"
-    yield "Public names of `linkwright`, generated from their docstrings. Quantities are SI, angles radians.\n"
-    for name, value in sorted(PUBLIC.items(), key=lambda each: (each[1].__module__, each[0])):
-        yield f"## `{name}`\n"
-        yield f"```text\n{name}{signature(value)}\n```\n"
-        yield f"From `{value.__module__}`.\n"
-        yield f"{docstring(value)}\n"
-        if inspect.isclass(value):
-            yield from members(value)
-
-
-def signature(value: Any) -> str:
-    """How it is called, annotations shortened."""
-    try:
-        found = str(inspect.signature(value))
-    except (TypeError, ValueError):
-        return ""
-    found = re.sub(r"(: |-> )'([^']*)'", r"\1\2", found)
-    found = re.sub(r"\b(?:[a-z_]\w*\.)+([A-Z]\w*)", r"\1", found)
-    return found if len(found) < 90 else found.replace("(", "(\n    ", 1).replace(", ", ",\n    ")
-
-
-def docstring(value: Any) -> str:
-    """A docstring as Markdown: headings of its parts bold, arguments as a list."""
-    text = inspect.getdoc(value) or ""
-    lines: list[str] = []
-    for line in text.replace("``", "`").splitlines():
-        head = re.fullmatch(r"(Args|Returns|Raises|Attributes|Examples?):", line)
-        item = re.match(r"    (\*{0,2}\w[\w, *]*): (.*)", line)
-        if head:
-            lines += ["", f"**{head[1]}**", ""]
-        elif item:
-            lines.append(f"- `{item[1]}`: {plain(item[2])}")
-        elif line.startswith("    "):
-            lines.append(("  " if lines and lines[-1].startswith(("-", "  ")) else "") + plain(line.strip()))
-        else:
-            lines.append(plain(line))
-    return "\n".join(lines)
-
-
-def plain(line: str) -> str:
-    """Signs outside of code without a meaning of their own."""
-    parts = line.split("`")
-    return "`".join(re.sub(r"([*<>$\[\]|#])", r"\\\1", p) if i % 2 == 0 else p for i, p in enumerate(parts))
-
-
-def members(value: type) -> Iterator[str]:
-    """Methods and properties that are documented, one line each."""
-    rows = []
-    room = value.__module__.rpartition(".")[0]
-    own = [each for each in value.__mro__ if each.__module__.rpartition(".")[0] == room]
-    shared = [Plotted] if issubclass(value, Plotted) else []
-    listed = {name: member for each in (*reversed(own), *shared) for name, member in vars(each).items()}
-    for name, member in listed.items():
-        if name.startswith("_") or not inspect.getdoc(member) or isinstance(member, type):
-            continue
-        if not (callable(member) or isinstance(member, property) or hasattr(member, "func")):
-            continue
-        call = signature(member).split(" ->")[0] if inspect.isfunction(member) else ""
-        short = re.sub(r"\s+", " ", call.replace("self, ", "").replace("(self)", "()"))
-        text = (inspect.getdoc(member) or "").replace("``", "`").split("\n\n")[0].replace("\n", " ")
-        rows.append(f"- `{name}{short}`: {plain(text)}")
-    if rows:
-        yield "\n".join(rows) + "\n"
-
-
->>>>>>> 63ad8a36 (Import public names lazily by lazy_loader with stubs)
 if __name__ == "__main__":
     write(reference())
