@@ -23,7 +23,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.formula.late_import import numpy as np
 from linkwright.units import Dimension, si_symbol, si_unit
 from linkwright.words import _
-from linkwright.words.characters import aligned, aligned_within, cell_text
+from linkwright.words.characters import aligned, cell_text
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
@@ -134,23 +134,15 @@ class Table:
         columns = max(map(len, (self.head, *self.rows)))
         return (self.align or "<" + ">" * columns)[:columns]
 
-    def lines(self, language: str = "en", width: int | None = None) -> list[str]:
-        """Title, rows and notes on a terminal; under a heading the rows are indented, folded within a width, without
-        one they are set in."""
+    def lines(self, language: str = "en") -> list[str]:
+        """Title, rows and notes; rows without a heading are indented, a heading has empty lines around its rows."""
         head, *body = self.texts(language)
         title = [in_language(self.title, language)] if self.title else []
         notes = [in_language(note, language) for note in self.notes]
         if not head:
             return [*title, *(f"  {line}" for line in aligned(body, self.alignment)), *notes]
-        rows = aligned_within([head, *body], self.alignment, width)
-        gap = [""]
-        return [
-            *title,
-            *gap * len(title),
-            *(line for each in rows for line in each),
-            *gap * bool(notes),
-            *notes,
-        ]
+        rows = aligned([head, *body], self.alignment)
+        return [*title, *[""] * len(title), *rows, *[""] * bool(notes), *notes]
 
     def html(self, language: str = "en") -> str:
         """The table as notebooks show it."""
@@ -204,12 +196,9 @@ class Tabular(ABC):
         """Curves, or numbers of many designs, by name with unit, SI; empty where there are none."""
         return {}
 
-    def text(self, language: str = "en", width: int | None = None, **options: Any) -> str:
-        """The tables as a terminal shows them, in a language (``en``, ``zh``).
-
-        ``width``: characters across within which texts of tables are folded; ``options``: those of ``tables``.
-        """
-        parts = ("\n".join(each.lines(language, width)) for each in self.tables(language, **options))
+    def text(self, language: str = "en", **options: Any) -> str:
+        """The tables as plain text, in a language (``en``, ``zh``); ``options``: those of ``tables``."""
+        parts = ("\n".join(each.lines(language)) for each in self.tables(language, **options))
         return "\n\n".join(filter(None, parts))
 
     def markdown(self, language: str = "en") -> str:

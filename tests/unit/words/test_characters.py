@@ -11,7 +11,7 @@ def test_control_characters_never_reach_a_terminal(
 ) -> None:
     assert (
         terminal_text("a\x1b]0;x\x07b\ufffe\x1b[31mred\x1b[0m\n\t")
-        == "a\ufffd]0;x\ufffdb\ufffd\x1b[31mred\x1b[0m\n\t"
+        == "a\ufffd]0;x\ufffdb\ufffd\ufffd[31mred\ufffd[0m\n\t"
     )
     assert main(["check", "no\x1b]0;evil\x07such.yaml"]) == 2
     said = capsys.readouterr()
