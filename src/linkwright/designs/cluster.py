@@ -60,7 +60,7 @@ def on_cluster(cluster: Any) -> Iterator[Any]:
     one by one, are computed by the workers of a Dask cluster: a client, or the address of a scheduler. Gives the
     client. None: threads of this machine.
 
-    Results are equal to the bit to those of threads, but where a clock ends a search. Raises
+    Results are equal to those of threads but for rounding, but where a clock ends a search. Raises
     LinkwrightError without the extra ``cluster``, and for a scheduler that does not answer.
     """
     client = None if cluster is None else connected(cluster)

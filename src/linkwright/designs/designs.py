@@ -25,7 +25,6 @@ from linkwright.designs.of_positions import note_of_positions
 from linkwright.designs.sweep_run import Manner, SweepRun
 from linkwright.designs.varied_dimensions import design_values, refuse_moved_positions
 from linkwright.errors import RequestError
-from linkwright.formula.machine_code import available
 from linkwright.formula.summaries import BACKENDS, Backend
 from linkwright.formula.threads import chunks
 from linkwright.kinematics.cycle import over_cycle
@@ -188,7 +187,7 @@ def sweep(
     columns = design_values(mechanism, vary)
     refuse_moved_positions(mechanism, positions, columns)
     asked = wanted(outputs)
-    client, backend = current(), _of_all(backend, columns)
+    client = current()
     sampled = steps is not None or not mechanism.drivers  # which rests in one position
     numbers = [each.name for each in asked if not (sampled and each.kind)]
     progress = progress or current_progress()
@@ -223,12 +222,6 @@ def sweep(
         run.margins,
         dimensions,
     )
-
-
-def _of_all(backend: Backend, columns: Mapping[str, Floats]) -> Backend:
-    """What serves all pieces of a sweep, however few designs are in the last; else numbers differ in last bits."""
-    many = len(next(iter(columns.values()))) > SHARED
-    return "llvm" if backend == "auto" and many and available() else backend
 
 
 def _shared(client: Any, run: SweepRun, asked: Sequence[Summary], steps: int | None) -> Sweep:
@@ -296,7 +289,7 @@ def sweep_curves(
     columns = design_values(mechanism, vary)
     refuse_moved_positions(mechanism, positions, columns)
     asked = wanted([(output, "max") for output in outputs])
-    client, backend = current(), _of_all(backend, columns)
+    client = current()
     run = SweepRun(mechanism, columns, asked, positions, Manner(False, threads, backend, progress))
     if client is not None and run.designs > SHARED:
         return _shared_curves(client, run, [*outputs], steps)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -33,16 +33,12 @@ from linkwright.designs.sampling import grid, sobol
 from linkwright.designs.varied_dimensions import varied_ranges
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.files.write import dump
-from linkwright.formula.machine_code import available
 from linkwright.kinematics.names import place_meant
 from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.units import si_unit
 from linkwright.words import _
-
-if TYPE_CHECKING:
-    from linkwright.formula.summaries import Backend
 
 Sampling = Literal["grid", "sobol"]
 _Piece = tuple[dict[str, Floats], dict[str, str], dict[str, None], dict[int, str]]
@@ -270,16 +266,14 @@ class _Work:
             (*found.of_motion, *self.notes),
         )  # fmt: skip
 
-    def found(
-        self, asked: list[Criterion], designs: Indices, together: bool, backend: Backend = "auto"
-    ) -> None:
+    def found(self, asked: list[Criterion], designs: Indices, together: bool) -> None:
         """Numbers of the designs, at once as far as they are certain so (``together``), the others one by one."""
         names = {each.name: each for each in asked}
         found = numbers_of(
             self.mechanism, self.columns, [*names], designs,
             lambda changes, some: self._measured(changes, [names[each] for each in some]),
             (str(self.output), self.fluctuation, self.steps),
-            asked=Asked(self.output, self.fluctuation), together=together, backend=backend, progress=self.progress,
+            asked=Asked(self.output, self.fluctuation), together=together, progress=self.progress,
         )  # fmt: skip
         for name, values in found.values.items():
             self.values[name][designs] = values[designs]
@@ -387,9 +381,7 @@ def _piece(
     """Numbers of some designs, on a worker of a cluster: values, dimensions, notes, and what is wrong with which."""
     asked = criteria(names)
     work = _Work(mechanism, columns, asked, output, fluctuation, steps, None)
-    work.found(
-        asked, np.arange(work.count), True, "llvm" if available() else "auto"
-    )  # as many designs have it
+    work.found(asked, np.arange(work.count), True)
     return work.values, work.dimensions, work.notes, work.troubled
 
 
