@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tests.refusals import refused
-from tests.unit.loads.turning_crank import JAW, PERIOD, Turning
+from tests.unit.applied_loads.turning_crank import JAW, PERIOD, Turning
 
 from linkwright.applied_loads.force import Force
 from linkwright.applied_loads.magnitude import Magnitude

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from tests import store
 from tests.refusals import refused
-from tests.unit.loads.turning_crank import JAW, Turning
+from tests.unit.applied_loads.turning_crank import JAW, Turning
 
 from linkwright.applied_loads.force import Force
 from linkwright.applied_loads.magnitude import Magnitude
