@@ -384,7 +384,7 @@ import linkwright as lw
 try:
     lw.solve_motion(lw.load("gallery:crank_rocker"), steps=0)
 except lw.LinkwrightError as error:
-    print(error.code, error.values["given"])
+    print(error.code, error.values["value"])
 # given_instead.no_whole_from 0
 ```
 """
