@@ -80,9 +80,9 @@ def test_every_design_number_is_named_with_how_it_is_had(language: str) -> None:
 
 
 def test_links_of_pages_lead_to_pages() -> None:
-    """In a clone, which has no page that only a build makes; those of the README too, which no build looks at.
+    """In a clone, which has no page that only a build makes; those outside of ``docs`` too, which no build looks at.
     What stands in code is no link of the page."""
-    for page in (DOCS.parent / "README.md", *DOCS.rglob("*.md")):
+    for page in (*DOCS.parent.glob("*.md"), *DOCS.parent.glob("examples/*.md"), *DOCS.rglob("*.md")):
         words = re.sub(r"^```.*?^```|`[^`\n]+`", "", page.read_text("utf-8"), flags=re.DOTALL | re.MULTILINE)
         for target in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", words):
             found = page.parent / target
