@@ -180,16 +180,3 @@ def test_a_machine_of_dyads_is_checked_without_numpy() -> None:
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
-
-
-def test_a_plot_reads_no_axes_in_space(tmp_path: Path) -> None:
-    """They would take a tenth of its start; nothing is said of their absence."""
-    program = (
-        "import sys; from linkwright.cli import main\n"
-        f"sys.argv[1:] = ['plot', 'gallery:crank_rocker', '--output', {str(tmp_path / 'drawn.svg')!r}]\n"
-        "code = main()\n"
-        "sys.exit(code or 'mpl_toolkits.mplot3d.axes3d' in sys.modules)\n"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert (tmp_path / "drawn.svg").stat().st_size > 0

@@ -10,10 +10,11 @@ from tests.every import every
 
 import linkwright as lw
 from linkwright import parts
-from linkwright.reports import SECTIONS
 
 PAGES = {each: Path("docs", each, "cases", "contents.md") for each in ("en", "zh")}
 ROOT = Path(__file__).parents[2]
+SETTINGS = lw.json_schema()["properties"]["report"]["properties"]
+CHAPTERS = set(SETTINGS["sections"]["items"]["anyOf"][0]["enum"])
 
 
 def tables(language: str) -> dict[str, list[str]]:
@@ -29,7 +30,7 @@ def tables(language: str) -> dict[str, list[str]]:
 
 def named(rows: list[str]) -> set[str]:
     """The chapters that rows name."""
-    return {each for row in rows for each in re.findall(r"`(\w+)`", row) if each in SECTIONS}
+    return {each for row in rows for each in re.findall(r"`(\w+)`", row) if each in CHAPTERS}
 
 
 def test_both_languages_name_the_same() -> None:

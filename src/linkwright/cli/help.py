@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
-from importlib import metadata
 from importlib.util import find_spec
 from io import StringIO
 from shutil import get_terminal_size
@@ -131,6 +130,8 @@ def version(session: Session) -> None:
 
 
 def _version_of(package: str) -> str | None:
+    from importlib import metadata  # 10 ms
+
     try:
         return metadata.version(package) if find_spec(package) else None
     except metadata.PackageNotFoundError:

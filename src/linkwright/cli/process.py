@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import _signal as signal  # type: ignore[import-not-found]  # signal itself imports a good deal first
 import gc
 import os
+import signal
 import sys
-import warnings
 
 #: Exit code of a process that was interrupted.
 INTERRUPTED = 130
@@ -16,7 +15,7 @@ AGAIN = 0.01
 
 #: Objects that are made before Python looks for cycles of references among them: with its own 700 it goes again and
 #: again through what imports made, which stays.
-COLLECT_AFTER = 50_000
+COLLECT_AFTER = 200_000
 
 
 def main() -> int:
@@ -25,7 +24,6 @@ def main() -> int:
     gc.set_threshold(COLLECT_AFTER)
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, and threads that wait spin
     _open_streams()
-    _draw_flat()
     from linkwright.cli.program import run
 
     try:
@@ -51,12 +49,6 @@ def _end() -> None:
         except (OSError, ValueError):
             continue  # nobody reads any more
     os._exit(INTERRUPTED)
-
-
-def _draw_flat() -> None:
-    """Keeps matplotlib from reading its axes in space, a tenth of the start of ``plot``: no command needs them."""
-    sys.modules["mpl_toolkits.mplot3d"] = None  # type: ignore[assignment]
-    warnings.filterwarnings("ignore", "Unable to import Axes3D")
 
 
 def _leave(number: int, frame: object) -> None:

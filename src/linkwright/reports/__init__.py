@@ -1,3 +1,1 @@
 """Reports: what a course design or an engineering file needs, from a model and its results."""
-
-from linkwright.reports.section import SECTIONS as SECTIONS
