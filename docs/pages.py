@@ -160,7 +160,7 @@ def gallery_by_kinds(language: str) -> Iterator[str]:
 
 def gallery_page(name: str, language: str) -> Iterator[str]:
     """One model: picture, purpose, source, commands, structure, file."""
-    model, words = lw.load(f"gallery:{name}").said_in(language), WORDS[language]
+    model, words = lw.load(f"gallery:{name}").translate(language), WORDS[language]
     yield f"# {model.name}\n"
     yield f"{escaped(model.purpose)}\n"
     if (EXTRA / "living" / f"{name}.html").exists():

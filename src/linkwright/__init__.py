@@ -26,7 +26,7 @@ ATTACHED.update(
         "Motion._repr_svg_": "linkwright.plotting.drawing.draw:picture_of",
         "Motion.columns": "linkwright.kinematics.table:motion_columns",
         "Motion._named_course": "linkwright.kinematics.output_formulas:named_course",
-        "Motion.outcomes": "linkwright.kinematics.reach_sentences:explain",
+        "Motion.outcomes": "linkwright.kinematics.reach_messages:explain",
         "Motion.refusal": "linkwright.kinematics.refusal:refusal",
         "Motion.to_dataframe": "linkwright.kinematics.table:motion_frame",
         "Optimum.tables": "linkwright.designs.optimise.report:tables",

@@ -217,10 +217,10 @@ def _turned(mechanism: Mechanism) -> tuple[list[Finding], list[Finding]]:
     from linkwright.kinematics.solve import try_motion
 
     motion = try_motion(mechanism, TRIED)
-    if motion.whole and motion.notes:
+    if motion.complete and motion.notes:
         motion = try_motion(mechanism, STEPS)  # of other commands; they may lie on change points
     notes = [Finding("note", "", "", note, code=code_of(note)) for note in motion.notes if motion.ok.any()]
-    if motion.whole:
+    if motion.complete:
         return [], [*_hardly_determined(motion), *notes]
     barred = motion.refusal()
     return [Finding("error", "", "", barred.sentence, code=barred.code)], notes

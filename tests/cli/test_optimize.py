@@ -106,7 +106,7 @@ MISTAKES: list[tuple[str, str, str, str, str, dict[str, object]]] = [
     ("200..300 mm", "200-300 mm", "13:17", SEARCHED, "study.no_dots", {"right": "200..300 mm"}),
     ("200..300 mm", "200 mm ~ 300 mm", "13:17", SEARCHED, "study.no_dots", {"right": "200 mm..300 mm"}),
     ("at least 60 deg", "at least 60", "16:25", KEPT, "wrong-dimension", {"given": "60", "right": "60 deg"}),
-    ("at least 60 deg", "more than 60 deg", "16:25", KEPT, "demand", {"given": "more than 60 deg"}),
+    ("at least 60 deg", "more than 60 deg", "16:25", KEPT, "demand", {"text": "more than 60 deg"}),
     ("at least 60 deg", "> 60 deg", "16:27", "", "syntax", {}),
     ("peak_reaction B", "peak_raction B", "12:3", "optimize", "study.no_metric", {"offer": "peak_reaction"}),
     ("minimize", "minimise", "14:3", "optimize.minimise", "unknown-key", {"offer": "minimize"}),

@@ -66,7 +66,7 @@ assert np.abs(found.input_torque - expected.input_torque).max() < 1e-9
 assert np.abs(found.reaction("Q", on="lever") - expected.reaction("Q", on="lever")).max() < 1e-8
 assert found.balance_residual.max() < 1e-9
 structure = lw.structure(mechanism)
-assert (found.motion.followed is None) == (sys.argv[1] == "closed")
+assert (found.motion.tracked is None) == (sys.argv[1] == "closed")
 assert (structure.mobility, [g.signature for g in structure.groups]) == (1, ["R", "RS"])
 assert "pin_in_slot" in str(json_schema()["properties"]["joints"])
 assert lw.loads(dump(mechanism)).joints == mechanism.joints

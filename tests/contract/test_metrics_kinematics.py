@@ -224,7 +224,7 @@ def test_a_gap_between_two_positions_is_reached_from_both_sides(steps: int) -> N
     machine = four_bar().with_dimensions({"coupler.length": 2.5, "rocker.length": 2.499})
     motion = lw.solve_motion(machine, steps=steps, failures="mark")
     end = acos((1 + 16 - 4.999**2) / 8) / 10
-    assert motion.ok.all() and not motion.whole
+    assert motion.ok.all() and not motion.complete
     edges = Analysis.of(motion).resolver.edges
     assert edges == (pytest.approx((end, -1), rel=1e-12), pytest.approx((pi / 5 - end, 1), rel=1e-12))
     rims = np.array([end - 1e-6, end + 1e-6, pi / 5 - end - 1e-6, pi / 5 - end + 1e-6])

@@ -91,7 +91,7 @@ def test_any_number_of_a_calculation_that_takes_long(name: str) -> None:
 def test_whole_numbers_of_a_tolerance_study(key: str, given: str) -> None:
     text = (FOLDER / "pressed_pins.yaml").read_text("utf-8")
     changed = re.sub(rf"(?m)^{key}: .*\n", "", text) + f"{key}: {given}\n"
-    with faulty("range", key, message='"{text}" is not a whole number from {least} to {most}') as caught:
+    with faulty("range", key, message='"{text}" is not an integer from {minimum} to {maximum}') as caught:
         parts.loads(changed, "pressed_pins.yaml", FOLDER)
     assert re.match(r"pressed_pins.yaml:\d+:\d+", caught.value.findings[0].where)
 

@@ -40,8 +40,8 @@ CASES = {
             "range",
             {
                 "message": (
-                    "the centres {centres} on {carrier!r} are {distance} apart, but the {mesh} pair "
-                    "needs {wanted}"
+                    "the distance of the centres {centres} on {carrier!r} is {distance}, but the {mesh} pair needs "
+                    "{wanted}"
                 ),
                 "mesh": "external",
                 "distance": "60 mm",
@@ -56,8 +56,8 @@ CASES = {
             "range",
             {
                 "message": (
-                    "the centres {centres} on {carrier!r} are {distance} apart, but the {mesh} pair "
-                    "needs {wanted}"
+                    "the distance of the centres {centres} on {carrier!r} is {distance}, but the {mesh} pair needs "
+                    "{wanted}"
                 ),
                 "mesh": "internal",
                 "wanted": "40 mm",
@@ -97,8 +97,8 @@ CASES = {
             "range",
             {
                 "message": (
-                    "the centres {centres} on {carrier!r} are {distance} apart, but the {mesh} pair "
-                    "needs {wanted}"
+                    "the distance of the centres {centres} on {carrier!r} is {distance}, but the {mesh} "
+                    "pair needs {wanted}"
                 ),
                 "mesh": "external",
                 "wanted": "60.0006 mm",
@@ -132,7 +132,7 @@ CASES = {
             "reference",
             {
                 "message": (
-                    "no link carries the pins of both wheels {wheels}, so nothing keeps their centres apart"
+                    "no link carries the pins of both wheels {wheels}, so nothing fixes their centre distance"
                 ),
                 "wheels": ("b", "bar"),
             },
@@ -167,7 +167,7 @@ CASES = {
             "joints.m.radii",
             "range",
             {
-                "message": "the radii add up to {sum}, but the centres {centres} are {distance} apart",
+                "message": "the radii add up to {sum}, but the distance of the centres {centres} is {distance}",
                 "sum": "70 mm",
             },
         ),
@@ -178,7 +178,7 @@ CASES = {
             "joints.m.radii",
             "range",
             {
-                "message": "the radii add up to {sum}, but the centres {centres} are {distance} apart",
+                "message": "the radii add up to {sum}, but the distance of the centres {centres} is {distance}",
                 "sum": "60 mm",
                 "distance": "60 mm",
             },
@@ -278,7 +278,7 @@ CASES = {
     "rack of two sizes": (
         GUIDE
         + "  m: {kind: rack, pinion: a, rack: rack, through: T, teeth: 20, module: 2 mm, radius: 20 mm}",
-        ("joints.m.radius", "choice", {"message": "the size is given twice"}),
+        ("joints.m.radius", "choice", {"message": "the size is set twice"}),
     ),
     "rack of half a tooth": (
         GUIDE + "  m: {kind: rack, pinion: a, rack: rack, through: T, teeth: 20.5, module: 2 mm}",
@@ -342,11 +342,11 @@ CASES = {
     ),
     "cam without a lift": (
         CAM.format(cam="a", follower="rack", more=""),
-        ("joints.m.program", "missing-key", {"message": "the lift of the cam is not given, or given twice"}),
+        ("joints.m.program", "missing-key", {"message": "the lift of the cam is missing, or set twice"}),
     ),
     "cam of two lifts": (
         CAM.format(cam="a", follower="rack", more=PROGRAM + TABLE),
-        ("joints.m.program", "missing-key", {"message": "the lift of the cam is not given, or given twice"}),
+        ("joints.m.program", "missing-key", {"message": "the lift of the cam is missing, or set twice"}),
     ),
     "cam with a short table": (
         CAM.format(cam="a", follower="rack", more=TABLE),
@@ -461,7 +461,7 @@ joints:
             [1, 0],
             {
                 "sum": "30 mm",
-                "reason": "the radii add up to {sum}, but the centres {centres} are {distance} apart",
+                "reason": "the radii add up to {sum}, but the distance of the centres {centres} is {distance}",
             },
         ),
     ],
@@ -802,7 +802,7 @@ def test_teeth_within_their_clearance_are_read_with_a_warning(kind: str, severit
         [found],
         "range",
         message=(
-            "the centres {centres} on {carrier!r} are {distance} apart, but the {mesh} pair needs {wanted}"
+            "the distance of the centres {centres} on {carrier!r} is {distance}, but the {mesh} pair needs {wanted}"
         ),
         mesh="external",
     )

@@ -72,30 +72,30 @@ def forces(text: str, load: str, steps: int = 36) -> lw.Forces:
             "reference",
             {"message": "the frame does not move"},
         ),
-        (f"{{{FORCE}}}", "loads.push", "choice", {"message": "none of {words} is given"}),
+        (f"{{{FORCE}}}", "loads.push", "choice", {"message": "none of {words} is set"}),
         (
             f"{{{FORCE}, magnitude: 1 N, in_link: 0 deg}}",
             "loads.push",
             "choice",
-            {"message": "{given} are both given", "first": ("direction",), "last": "in_link"},
+            {"message": "{keys} are both set", "first": ("direction",), "last": "in_link"},
         ),
         (
             f"{{{FORCE}, components: [1 N, 2 N]}}",
             "loads.push",
             "choice",
-            {"message": "{given} are both given", "first": ("direction",), "last": "components"},
+            {"message": "{keys} are both set", "first": ("direction",), "last": "components"},
         ),
         (
             "{kind: force, on: rocker, at: B, components: [1 N, 2 N], magnitude: 3 N}",
             "loads.push",
             "choice",
-            {"message": "{given} are both given", "first": ("magnitude",), "last": "components"},
+            {"message": "{keys} are both set", "first": ("magnitude",), "last": "components"},
         ),
         (
             f"{{{FORCE}, ramp: [0 N, 1 N]}}",
             "loads.push.ramp",
             "load",
-            {"message": "a ramp runs over a phase, and none is given"},
+            {"message": "a ramp needs a phase, and there is none"},
         ),
         (f"{{{FORCE}, magnitude: 5}}", "loads.push.magnitude", "missing-unit", {"right": "5 N", "text": "5"}),
         (f"{{{FORCE}, magnitude: 5 N·m}}", "loads.push.magnitude", "wrong-dimension", {"text": "5 N·m"}),
@@ -163,7 +163,7 @@ def forces(text: str, load: str, steps: int = 36) -> lw.Forces:
             "{kind: torsion_damper, links: [crank], damping: 1 N·m·s/rad}",
             "loads.push.links",
             "count",
-            {"message": "the number of values is {given}, not {count} as needed", "given": 1, "count": 2},
+            {"message": "expected {count} values, found {found}", "found": 1, "count": 2},
         ),
         (
             "{kind: pressure, joint: B, bore: 80 mm, magnitude: 2 bar}",
@@ -185,7 +185,7 @@ def test_findings_in_the_file(load: str, key: str, code: str, values: dict[str, 
             "{kind: pressure, joint: cylinder, magnitude: 2 bar}",
             "loads.push",
             "choice",
-            {"message": "none of {words} is given", "words": ("area", "bore")},
+            {"message": "none of {words} is set", "words": ("area", "bore")},
         ),
         (
             "{kind: pressure, joint: cylinder, bore: 0 m, magnitude: 2 bar}",
@@ -197,7 +197,7 @@ def test_findings_in_the_file(load: str, key: str, code: str, values: dict[str, 
             "{kind: pressure, joint: cylinder, bore: 8 cm, area: 1 m², magnitude: 2 bar}",
             "loads.push",
             "choice",
-            {"message": "{given} are both given", "first": ("area",), "last": "bore"},
+            {"message": "{keys} are both set", "first": ("area",), "last": "bore"},
         ),
         (
             "{kind: pressure, joint: cylinder, bore: 8 cm, magnitude: 2 bar, pushes: back}",
@@ -327,11 +327,11 @@ def test_a_table_that_does_not_cover_the_cycle() -> None:
     [
         (
             "over: input, x: [0 deg, 90 deg, 300 deg], y: [0 N, 5 N, 0 N]",
-            "a periodic table goes over whole turns of an angle, and this one does not",
+            "a periodic table covers full turns of an angle, and this one does not",
         ),
         (
             "over: time, x: [0 s, 1 s], y: [5 N, 5 N]",
-            "a periodic table goes over whole turns of an angle, and this one does not",
+            "a periodic table covers full turns of an angle, and this one does not",
         ),
         (
             "over: input, x: [0 deg, 90 deg, 360 deg], y: [0 N, 5 N, 1 N]",
@@ -347,7 +347,7 @@ def test_a_table_that_cannot_be_periodic(table: str, message: str) -> None:
         "table",
         "loads.push.table",
         message=message,
-        remedy="close it (whole turns, the last value as the first), or write interpolation: cubic",
+        remedy="close it (full turns, the last value as the first), or write interpolation: cubic",
     )
 
 

@@ -50,7 +50,7 @@ def test_an_element_beside_its_section_is_one_finding(line: str, section: str) -
     said(
         [found],
         "misplaced",
-        message='"{name}" stands beside the section "{section}", not in it',
+        message='"{name}" is at the level of the section "{section}", not in it',
         name=line.split(":", maxsplit=1)[0].strip(),
         section=section,
     )
@@ -68,7 +68,7 @@ def test_a_section_within_another_one_is_one_finding(section: str) -> None:
         told,
         "misplaced",
         f"links.{section}",
-        message='the section "{section}" stands within "{within}"',
+        message='the section "{section}" is inside "{within}"',
         section=section,
         within="links",
     )
@@ -93,9 +93,9 @@ def test_the_line_of_a_section_that_is_missing_or_indented_is_one_finding(
     else:
         (found,) = findings(broken)
         message = (
-            'in "{within}" stands what belongs in "{section}": {names}'
+            '"{within}" contains what belongs in "{section}": {names}'
             if indent is None
-            else 'the section "{section}" stands within "{within}"'
+            else 'the section "{section}" is inside "{within}"'
         )
         said([found], "misplaced", message=message, section=section, within=within)
 
@@ -138,7 +138,12 @@ def test_elements_may_have_names_of_sections() -> None:
 def test_a_list_of_links_is_one_finding(form: str) -> None:
     names = ("crank", "coupler", "rocker")
     (found,) = findings(changed(*((f"{name}: {{", form.format(name=name)) for name in names)))
-    said([found], "type", "links", message='"{section}" holds a list, where each entry stands under its name')
+    said(
+        [found],
+        "type",
+        "links",
+        message='"{section}" is a list; expected a mapping with each entry under its name',
+    )
     assert "crank: {" in found.remedy
 
 

@@ -84,7 +84,7 @@ ONE_CHANGE = [
         "3:38",
         "frame.points.O2",
         "decimal-comma",
-        {"form": "[60.5 mm, 60.5 mm]", "given": 3},
+        {"form": "[60.5 mm, 60.5 mm]", "found": 3},
     ),
     ("  rocker:", "  crank:", "7:3", "links.crank", "duplicate-key", {"line": 5}),
     (
@@ -170,7 +170,7 @@ ONE_CHANGE = [
         "5:19",
         "links.crank.points",
         "type",
-        {"message": "{node} stands where a list is needed", "form": "[A, B]"},
+        {"message": "expected a list, not {node}", "form": "[A, B]"},
     ),
     (
         "[O1, A]",
@@ -186,7 +186,7 @@ ONE_CHANGE = [
         "5:9",
         "links.crank",
         "type",
-        {"message": "{node} stands where a mapping (key: value) is needed"},
+        {"message": "expected a mapping (key: value), not {node}"},
     ),
     (
         "about: O1",
@@ -222,7 +222,7 @@ ONE_CHANGE = [
         "8:9",
         "driver",
         "choice",
-        {"message": "{laws} are both given", "first": ("position",), "last": "speed"},
+        {"message": "{laws} are both present", "first": ("position",), "last": "speed"},
     ),
     (
         "speed: 10 rpm",
@@ -271,7 +271,7 @@ ONE_CHANGE = [
         "5:9",
         "links.loop",
         "alias",
-        {"message": 'the alias "*{name}" stands inside its own anchor', "name": "l"},
+        {"message": 'the alias "*{name}" is inside its own anchor', "name": "l"},
     ),
     ("name: four-bar", "expected: " + "[" * 60 + "]" * 60, "2:51", "", "depth", {"most": 40}),
     ("  crank:", "\tcrank:", "5:1", "", "tab", {"sign": "\t", "character": "U+0009"}),
@@ -316,16 +316,16 @@ ADDED = [
         "gravity: 9.81 m/s²",
         "gravity",
         "type",
-        {"message": "{node} stands where a list is needed", "form": "[0, -9.81 m/s²]"},
+        {"message": "expected a list, not {node}", "form": "[0, -9.81 m/s²]"},
     ),
     (
         "gravity: [0 m/s²， -9.81 m/s²]",
         "gravity",
         "count",
         {
-            "message": "the number of values is {given}, not {count} as needed",
+            "message": "expected {count} values, found {found}",
             "form": "[0, -9.81 m/s²]",
-            "given": 1,
+            "found": 1,
         },
     ),
     ("gravity: [0, -9.81]", "gravity.y", "missing-unit", {"right": "-9.81 m/s²", "text": "-9.81"}),
@@ -380,13 +380,13 @@ ADDED = [
         "loads: {l: {kind: force, on: rocker, at: B, magnitude: 5 N}}",
         "loads.l",
         "choice",
-        {"message": "none of {words} is given"},
+        {"message": "none of {words} is set"},
     ),
     (
         "loads: {l: {kind: force, on: rocker, at: B, direction: 0, ramp: [0 N, 5 N]}}",
         "loads.l.ramp",
         "load",
-        {"message": "a ramp runs over a phase, and none is given"},
+        {"message": "a ramp needs a phase, and there is none"},
     ),
     (
         "loads: {l: {kind: force, on: rocker, at: B, in_link: 0, table: {over: rockr, x: [], y: []}}}",
@@ -423,7 +423,7 @@ ADDED = [
     ),
     ("cycle: {duration: -1 s}", "cycle.duration", "range", {"fault": "negative", "shown": "-1 s"}),
     ("drawing: {Q: [1 m, 0 m]}", "drawing.Q", "unknown-name", {"names": ("O1", "O2", "A", "B"), "name": "Q"}),
-    ("drivers: {}", "drivers", "choice", {"message": "driver and drivers are both given"}),
+    ("drivers: {}", "drivers", "choice", {"message": "driver and drivers are both present"}),
     ("speed: 3 rpm", "speed", "unknown-key", {"key_": "speed"}),
 ]
 
@@ -652,8 +652,12 @@ driver: {turn: crank, about: A, speed: 90 rpm}
             "quantity",
             {"message": '"{plain}" has a separator inside the number', "digits": "1", "rest": "000 mm"},
         ),
-        ("1,000 mm", "decimal-comma", {"right": "1.000 mm", "whole": "1000 mm"}),
-        ("1,000,000 mm", "decimal-comma", {"remedy": 'write "{whole}"', "whole": "1000000 mm"}),
+        ("1,000 mm", "decimal-comma", {"right": "1.000 mm", "without_comma": "1000 mm"}),
+        (
+            "1,000,000 mm",
+            "decimal-comma",
+            {"remedy": 'write "{without_comma}"', "without_comma": "1000000 mm"},
+        ),
         ("1，5 m", "decimal-comma", {"remedy": 'write a point: "{right}"', "right": "1.5 m"}),
         ("25 mm ± 0.1 mm", "quantity", {"message": '"{plain}" holds a tolerance'}),
         ("5 ㎜", "unknown-unit", {"offer": "mm"}),
@@ -746,7 +750,7 @@ def test_a_parameter_without_its_unit_is_named_as_the_place_to_mend() -> None:
         [found],
         "wrong-dimension",
         "links.crank.length",
-        remedy='give the parameter "{name}" its unit where it stands under parameters',
+        remedy='give the parameter "{name}" its unit under parameters',
         name="r",
     )
 
@@ -793,7 +797,7 @@ def test_coordinates_for_the_name_of_a_point_are_one_finding() -> None:
 def test_a_frame_among_the_links_is_one_finding() -> None:
     frame = "frame: {points: {O1: [0 m, 0 m], O2: [4 m, 0 m]}}\n"
     (found,) = findings(MODEL.replace(frame, "").replace("links:\n", f"links:\n  {frame}"))
-    said([found], "name", "links.frame", message="the frame stands among the links")
+    said([found], "name", "links.frame", message="the frame is listed among the links")
     assert found.where == "m.yaml:4:3" and "frame: {" in found.remedy
     (twice,) = findings(MODEL.replace("links:\n", "links:\n  frame: {points: [O1]}\n"))
     assert twice.key == "links.frame"

@@ -172,7 +172,7 @@ def test_of_several_drivers_the_range_of_the_one_that_fails_is_told() -> None:
         "link": "rod2",
         "low": "500 mm",
         "high": "1500 mm",
-        "told": "with the other drivers at their start {told}",
+        "told": "with the other drivers at their start {reason}",
     }
     with refused("motion.refused_told", lw.PositionError, **ends):
         lw.solve_motion(lw.loads(TWO_CYLINDERS))
@@ -212,11 +212,11 @@ driver: {turn: crank, about: O1, speed: 60 rpm}
             "motion.text_for_number",
             {"text": "1 s", "right": "1"},
         ),
-        (lambda m: lw.solve_motion(m, failures="ignore"), "motion.no_failures", {"given": "ignore"}),
+        (lambda m: lw.solve_motion(m, failures="ignore"), "motion.no_failures", {"value": "ignore"}),
         (
             lambda m: m.with_dimensions({"coupler.length": "60 mm"}),
             "model.set_no_number",
-            {"address": "coupler.length", "given": "'60 mm'"},
+            {"address": "coupler.length", "text": "'60 mm'"},
         ),
     ],
 )

@@ -115,7 +115,7 @@ OF_YAML = [
         "8:3",
         "links.length",
         "misplaced",
-        {"message": '"{key_}" stands beside "{name}", not in it', "name": "crank"},
+        {"message": '"{key_}" is at the level of "{name}", not in it', "name": "crank"},
     ),
     ("  rocker:", "  coupler:", "10:3", "links.coupler", "duplicate-key", {"line": 9}),
     (
@@ -217,7 +217,7 @@ OF_YAML = [
         "9:3",
         "",
         "syntax",
-        {"message": "an entry without a dash stands in a list", "line": 6},
+        {"message": "an entry of a list has no dash", "line": 6},
     ),
     (
         "length: 1 m",
@@ -241,7 +241,7 @@ OF_YAML = [
         "8:5",
         "",
         "syntax",
-        {"message": 'an equals sign stands after the key "{key_}"', "key_": "length", "rest": "1 m"},
+        {"message": 'an equals sign follows the key "{key_}"', "key_": "length", "rest": "1 m"},
     ),
     (
         "    length: 1 m",
@@ -309,7 +309,7 @@ def test_values_that_stand_beside_their_element_are_read_in_it() -> None:
         told,
         "misplaced",
         "loads.on",
-        message='"{key_}" stands beside "{name}", not in it',
+        message='"{key_}" is at the level of "{name}", not in it',
         name="braking",
         key_="on",
     )

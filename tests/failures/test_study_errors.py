@@ -227,8 +227,8 @@ def test_bounds_that_make_no_design_movable() -> None:
         links=("coupler", "rocker"),
         group=("coupler", "rocker"),
         reason=(
-            "the outer pins are {distance} apart, links of {first} and {second} need at least "
-            "{reach}: {missing} too close"
+            "the distance of the outer pins is {distance}, links of {first} and {second} need at least {reach}: "
+            "{missing} too close"
         ),
         count=5,
     ):

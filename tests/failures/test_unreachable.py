@@ -35,8 +35,8 @@ def test_missing_distance_is_said() -> None:
         "motion.refused_told",
         lw.PositionError,
         reason=(
-            "the outer pins are {distance} apart, links of {first} and {second} reach {reach}: "
-            "{missing} missing"
+            "the distance of the outer pins is {distance}, links of {first} and {second} reach {reach}: {missing} "
+            "missing"
         ),
         **LACKING,
     ) as caught:
@@ -71,7 +71,7 @@ def test_gap_between_two_positions_bars_the_way(excess: float, steps: int) -> No
     with refused("motion.not_passed", links=("coupler", "rocker"), where="driver = 180°"):
         lw.solve_motion(mechanism, steps=steps)
     motion = lw.solve_motion(mechanism, steps=steps, failures="mark")
-    assert motion.ok.all() and not motion.whole
+    assert motion.ok.all() and not motion.complete
     a, b, q = (motion.point(name).position for name in ("A", "B", "O2"))
     side = (b - a)[:, 0] * (q - a)[:, 1] - (b - a)[:, 1] * (q - a)[:, 0]
     assert (np.sign(side) == np.sign(side[0])).all()

@@ -36,7 +36,7 @@ NAMES = {"en": "Sheet press", "zh": "薄板压力机"}
 def test_each_language_has_its_texts() -> None:
     press = lw.loads(TEXT)
     assert (press.name, press.purpose, press.source) == ("Sheet press", "冲压薄板", "Own sketch")
-    chinese = press.said_in("zh")
+    chinese = press.translate("zh")
     assert (chinese.name, chinese.purpose, chinese.source) == ("薄板压力机", "冲压薄板", "Own sketch")
 
 
@@ -59,9 +59,9 @@ def test_the_gallery_is_told_in_every_language() -> None:
     [copy.deepcopy, lambda press: pickle.loads(pickle.dumps(press)), lambda press: lw.loads(lw.dump(press))],
 )
 def test_no_language_is_lost(kept: Callable[[lw.Mechanism], lw.Mechanism]) -> None:
-    for press in (lw.loads(TEXT), lw.loads(TEXT).said_in("zh")):
+    for press in (lw.loads(TEXT), lw.loads(TEXT).translate("zh")):
         again = kept(press)
-        assert {language: again.said_in(language).name for language in NAMES} == NAMES
+        assert {language: again.translate(language).name for language in NAMES} == NAMES
 
 
 def test_a_machine_built_in_code_has_names_too() -> None:
@@ -69,7 +69,7 @@ def test_a_machine_built_in_code_has_names_too() -> None:
     model.frame(O=(0, 0))
     model.link("crank", ["O", "A"], length=0.1)
     model.drive("crank", about="O", speed=1)
-    assert model.build().said_in("zh").name == NAMES["zh"]
+    assert model.build().translate("zh").name == NAMES["zh"]
 
 
 @pytest.mark.parametrize("language", list(NAMES))

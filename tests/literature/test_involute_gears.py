@@ -31,7 +31,7 @@ def test_seventeen_teeth_are_the_fewest_without_undercut() -> None:
     """The well-known limit 2 / sin² 20° = 17.097; with 17 teeth a shift of 0.006 is wanted (Litvin, chapter 6)."""
     assert lw.Gear(18, 1e-3).undercut is False and lw.Gear(17, 1e-3).undercut is True
     limit = 1 - 17 / 2 * math.sin(math.radians(20)) ** 2
-    assert lw.Gear(17, 1e-3).least_profile_shift == pytest.approx(limit, abs=5e-5)
+    assert lw.Gear(17, 1e-3).minimum_profile_shift == pytest.approx(limit, abs=5e-5)
     assert lw.Gear(10, 1e-3, 0.42).undercut is False
 
 

@@ -60,8 +60,8 @@ def of_case(checks: tuple[Checked, ...], model: str, what: str, at: str | None =
     return next(
         each
         for each in checks
-        if (each.case.given.get("model"), each.reference.what) == (model, what)
-        and at in (None, each.case.given.get("at", each.case.given.get("input")))
+        if (each.case.inputs.get("model"), each.reference.what) == (model, what)
+        and at in (None, each.case.inputs.get("at", each.case.inputs.get("input")))
     )
 
 

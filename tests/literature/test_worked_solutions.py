@@ -52,7 +52,7 @@ def numbers(model: str, degrees: float) -> dict[str, str]:
     """Published numbers of a model at an input, with their units."""
     found = dict(FIRST_ROWS.get(model, {}))
     for case in from_gallery(model):
-        if case.given.get("at", case.given.get("input")) == f"{degrees:g} deg":
+        if case.inputs.get("at", case.inputs.get("input")) == f"{degrees:g} deg":
             found |= {each.what: each.right or each.text for each in case.numbers}
     return found
 

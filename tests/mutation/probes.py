@@ -132,7 +132,7 @@ def forget() -> None:
         for key, value in list(vars(module).items()):
             if hasattr(value, "cache_clear") and getattr(value, "__module__", name) == name:
                 value.cache_clear()
-            kept = getattr(value, "_kept", value if key == "_kept" else None)
+            kept = getattr(value, "_entries", value if key == "_entries" else None)
             if isinstance(kept, OrderedDict):
                 kept.clear()
 

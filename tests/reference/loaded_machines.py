@@ -76,7 +76,7 @@ def _bare(rng: np.random.Generator, number: int) -> str:
 
 
 def _passes(text: str) -> bool:
-    return bool(lw.solve_motion(lw.loads(text), steps=360, failures="mark").whole)
+    return bool(lw.solve_motion(lw.loads(text), steps=360, failures="mark").complete)
 
 
 class _Draft:

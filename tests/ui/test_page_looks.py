@@ -78,7 +78,7 @@ def test_title_and_purpose_follow_the_language(opened: Opened, tmp_path: Path) -
     opened.open(lw.living_page(document, steps=36, language="zh").save(tmp_path / "page.html"))
     shown = [opened.tab.locator(each) for each in ("h1", ".purpose", ".source")]
     chinese = [each.inner_text() for each in shown]
-    assert chinese[0] == lw.load("gallery:crank_rocker").said_in("zh").name
+    assert chinese[0] == lw.load("gallery:crank_rocker").translate("zh").name
     assert chinese == opened.run("s => [s.data.name.zh, s.data.purpose.zh, s.data.source.zh]")
     opened.turn_over()
     assert shown[0].inner_text() == lw.load("gallery:crank_rocker").name

@@ -42,7 +42,7 @@ _FINDERS: dict[type[Summary], Finder] = {}
 
 
 def finds(kind: type[Summary]) -> Callable[[Finder], Finder]:
-    """Decorator of the function that finds summaries of a type that are not of one output over the whole cycle."""
+    """Decorator of the function that finds summaries of a type that are not of one output over the full cycle."""
 
     def filed(finder: Finder) -> Finder:
         _FINDERS[kind] = finder
@@ -56,13 +56,13 @@ class Analysis:
 
     Of a cycle in few positions it is the motion in more of them.
 
-    ``kept``: what one number found and another needs too, by its kind and subject.
+    ``names``: what one number found and another needs too, by its kind and subject.
     """
 
     def __init__(self, motion: Motion, forces: Forces | None = None) -> None:
         self.motion, self.forces = motion, forces
         self.resolver = Resolver(motion, forces)
-        self.kept: dict[tuple[str, str], Any] = {}
+        self.cached: dict[tuple[str, str], Any] = {}
         self._limits: dict[Output, tuple[Limit, ...]] = {}
         self._outermost: dict[Output, list[Limit]] = {}
         self._words: dict[str, None] = {}
@@ -124,12 +124,12 @@ class Analysis:
     @property
     def partial(self) -> bool:
         """Whether the positions are those of the drivers' laws, of which not all are reached."""
-        return self.resolver.possible and not self.resolver.whole
+        return self.resolver.possible and not self.resolver.complete
 
     @property
-    def whole(self) -> bool:
+    def complete(self) -> bool:
         """Whether the positions are one closed cycle and all are reached."""
-        return self.closed and self.motion.whole
+        return self.closed and self.motion.complete
 
     def limits(self, output: Output) -> tuple[Limit, ...]:
         """Limit positions of an output, by increasing time; none where the positions follow no law in time."""
@@ -157,7 +157,7 @@ class Analysis:
 
     def signal(self, output: str) -> Callable[[Motion | Forces], Floats]:
         """An output in words (see ``kinetostatics.named``) as a function of motion or forces, (n,)."""
-        kept = self._words
+        names = self._words
         meant = self.meant(output)
         if meant.of_course:
             return partial(self._of_course, output=meant)
@@ -166,13 +166,13 @@ class Analysis:
 
         def read(solved: Motion | Forces) -> Floats:
             name, rows, evaluate = words_name(output), solved.rows, partial(self._read, solved=solved)
-            kept.setdefault(name)
+            names.setdefault(name)
             together = isinstance(solved, Forces) or self.forces is None
             if name not in rows.index and name not in rows.extra:
                 try:
-                    rows.fetch(tuple(kept) if together else (name,), evaluate)
+                    rows.fetch(tuple(names) if together else (name,), evaluate)
                 except LinkwrightError:
-                    del kept[name]
+                    del names[name]
                     raise
             return rows.row(name, evaluate)
 
@@ -240,7 +240,7 @@ class Analysis:
     @cached_property
     def _machine(self) -> Machine | None:
         """The formulas of the cycle; None where it is not passed by one of each position."""
-        if not self.resolver.possible or not self.resolver.whole or len(self.resolver.changes):
+        if not self.resolver.possible or not self.resolver.complete or len(self.resolver.changes):
             return None
         try:
             static = self.forces is not None and self.forces.static
@@ -249,8 +249,8 @@ class Analysis:
             return None
 
     def _rounding(self, time: float) -> float:
-        """Size, N, below which a joint force is but rounding; of a machine that is partly reached beside the forces
-        at that time, s, as they may grow without bound at others."""
+        """Size, N, below which a joint force is a rounding error; of a machine that is partly reached compared with
+        the forces at that time, s, as they may grow without bound at others."""
         if self.forces is None:
             return 0.0
         if isnan(time) or not self.partial:
@@ -286,7 +286,11 @@ class Analysis:
             driven = self.meant(part.by)
             reversals = driven, self.limits(driven)
         elif (
-            output and part.kind in OF_LIMITS and self.resolver.closes and self.whole and self.limits(output)
+            output
+            and part.kind in OF_LIMITS
+            and self.resolver.closes
+            and self.complete
+            and self.limits(output)
         ):
             return self._of_limits(output, part.kind)
         return self.find(part, self.signal(part.output), self._of, reversals)
@@ -306,7 +310,7 @@ class Analysis:
                 return SummaryValue(nan, nan, nan, False)
         values = np.asarray(signal(self._known(of)), dtype=float)
         sample = of_positions(self.motion, values, part.kind)
-        if ways is None or not np.isfinite(values).any() or (part.kind == "excess" and not ways.whole):
+        if ways is None or not np.isfinite(values).any() or (part.kind == "excess" and not ways.complete):
             return sample
         found = SolvedSummary(ways, part, signal, of, reversals)
         if found.passed.all():
@@ -330,7 +334,7 @@ class Analysis:
 
     @cached_property
     def ways(self) -> Ways | None:
-        """The whole cycle, or stretches of it that are reached; None where nothing lies between the positions."""
+        """The full cycle, or its reachable intervals; None where nothing lies between the positions."""
         resolver = self.resolver
         if not resolver.possible or self.motion.steps < 2:
             return None
@@ -353,8 +357,8 @@ class Analysis:
 
     @property
     def cycle(self) -> Ways | None:
-        """The whole cycle on pieces; None where not all of it is reached, or nothing lies between its positions."""
-        return self.ways if self.ways is not None and self.ways.whole else None
+        """The full cycle on pieces; None where not all of it is reached, or nothing lies between its positions."""
+        return self.ways if self.ways is not None and self.ways.complete else None
 
     def mean_of(self, signal: Callable[..., Floats]) -> float:
         """Mean over the time of the cycle of what the forces (without them, the motion) give, (n,).

@@ -49,7 +49,7 @@ class MetricValue:
     """One value of a design number.
 
     ``subject``: the link, joint, point, group or loop; ``value``: SI; ``at``: the first driver's coordinate there
-    (rad or m), None where the value belongs to the whole cycle; ``place``: a point in frame axes, m, where there is
+    (rad or m), None where the value belongs to the full cycle; ``place``: a point in frame axes, m, where there is
     one; ``exact``: False where the value is the largest or smallest of the solved positions, not refined between;
     ``limit``: the recommended one of this value, SI.
     """
@@ -172,9 +172,9 @@ class Metric(ABC):
     ``dimension``: name of its dimension (values may have their own, where a link gives an angle and a slider a
     length); ``better``: the direction in which designs improve, if there is one; ``limit``: the recommended value,
     SI; ``source``: where definition and limit are from; ``needs_forces``: whether joint forces must be solved;
-    ``rank``: what matters first stands first in tables (output 1, transmission 2, torque 3, reactions 4, shaking 5);
+    ``rank``: what matters first comes first in tables (output 1, transmission 2, torque 3, reactions 4, shaking 5);
     ``on_request``: only where it is asked for by name; ``own_values``: one machine's ``values`` are found in a way of
-    their own, beside the ``numbers`` of many designs; ``judged_last``: ``suits`` reads what is found of the machine,
+    their own, besides the ``numbers`` of many designs; ``judged_last``: ``suits`` reads what is found of the machine,
     which all others have asked for by then; ``input_ranges``: it is the extent of the input's ranges in
     which the mechanism can be assembled; ``labels``: its names by dimensions that have one of their own (of
     a driver that slides, a force).
@@ -249,18 +249,18 @@ class Metric(ABC):
         """These formulas, found once per analysis, whose outputs are evaluated together with all that are asked for
         before the first value is read."""
         key = ("numbers", self.name)
-        if key not in analysis.kept:
-            analysis.kept[key] = numbers = tuple(self.numbers(analysis))
+        if key not in analysis.cached:
+            analysis.cached[key] = numbers = tuple(self.numbers(analysis))
             analysis.ask(each for number in numbers for each in number.summaries)
-        found: tuple[Number, ...] = analysis.kept[key]
+        found: tuple[Number, ...] = analysis.cached[key]
         return found
 
     def remarks(self, value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
-        """What is to be said about a value of a formula."""
+        """Remarks about a value of a formula."""
         return ()
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
-        """The values, from what several numbers share; none where no position is reached, nor of the whole cycle
+        """The values, from what several numbers share; none where no position is reached, nor of the full cycle
         where not all of it is."""
         if not analysis.motion.ok.any():
             return
@@ -297,7 +297,7 @@ class Metric(ABC):
 
 
 def _unbounded(value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
-    """What is to be said of an infinite value: nothing of one that belongs to no place."""
+    """Remarks about an infinite value: none about one that belongs to no place."""
     if not isinf(value) or isnan(at):
         return ()
     return (

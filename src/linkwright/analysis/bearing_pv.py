@@ -50,17 +50,17 @@ class BearingPv(Metric):
             heat = analysis.signal(f"heat {joint.name} on {link}")
             mean = analysis.mean_of(lambda forces, heat=heat: np.abs(heat(forces)))
             radius = shown(joint.pin_radius or 0.0, "length")
-            said = _(
+            sentence = _(
                 "with a pin radius of {radius}; mean over the cycle {mean}",
                 radius=radius,
                 mean=shown(mean, "power"),
             )
-            known = () if isnan(mean) else (Remark("bearing_pv.mean", said),)
+            known = () if isnan(mean) else (Remark("bearing_pv.mean", sentence),)
             yield replace(found, remarks=(*known, *found.remarks))
 
 
 def _bearings(analysis: Analysis) -> Iterator[tuple[TurningJoint, str]]:
-    """Every pin with a radius, with each link that it holds beside its first one."""
+    """Every pin with a radius, with each link that it holds besides its first one."""
     for joint in analysis.motion.mechanism.pins.values():
         if joint.pin_radius:
             yield from ((joint, link) for link in joint.links[1:])

@@ -29,7 +29,7 @@ NO_OUTPUTS = _('no outputs are asked for; name some, such as "driver.effort rms"
 
 
 NO_TEXT = _(
-    'an output is asked for by a text such as "driver.effort rms", not by {given}',
+    'invalid output {value}; write a text such as "driver.effort rms"',
     code="study.no_output_name",
 )
 
@@ -72,7 +72,7 @@ def _read(each: str | tuple[str, str]) -> list[Summary]:
                 return [Summary(each, "min"), Summary(each, "max")]
         return [Summary(output, kind)]
     if not isinstance(each, tuple | list) or len(each) != 2:
-        raise RequestError(NO_TEXT.format(given=repr(each)[:60]))
+        raise RequestError(NO_TEXT.format(value=repr(each)[:60]))
     output, kind = each
     if kind not in KINDS:
         hint = offered(kind, KINDS, _("one of: {names}"))

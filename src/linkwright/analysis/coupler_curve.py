@@ -29,7 +29,7 @@ STANDING = 1e-6
 #: A speed below this share of the largest is zero.
 AT_REST = 1e-12
 #: A crossing meets within this share of the curve's length; two nearer than APART are one.
-SAME, APART = 1e-9, 1e-6
+SAME, DISTINCT = 1e-9, 1e-6
 #: Times closer than this many steps belong to a cusp or a fold, not to a crossing.
 NEIGHBOURS = 1e-3
 NEWTON = 8
@@ -40,8 +40,8 @@ ROUNDS = 120
 LOOKS = np.array([0.031, 0.117, 0.213, 0.289, 0.377, 0.441, 0.537, 0.618, 0.703, 0.789, 0.871, 0.953])
 #: Sine of the angle between two branches below which they run along each other, as on a way to and fro.
 ALONG = 1e-6
-#: A crossing this share of the curve's length beside a cusp is none.
-BESIDE_CUSPS = 1e-4
+#: A crossing within this share of the curve's length from a cusp is none.
+NEAR_CUSPS = 1e-4
 Spot = tuple[float, float]
 
 
@@ -66,17 +66,17 @@ def coupler_curve(result: Motion | Forces | Analysis, point: str) -> CouplerCurv
     Raises LinkwrightError where the cycle does not close or not all of its positions are reached.
     """
     analysis = Analysis.of(result)
-    if ("curve", point) not in analysis.kept:
-        analysis.kept["curve", point] = _curve(analysis, point)
-    found: CouplerCurve = analysis.kept["curve", point]
+    if ("curve", point) not in analysis.cached:
+        analysis.cached["curve", point] = _curve(analysis, point)
+    found: CouplerCurve = analysis.cached["curve", point]
     return found
 
 
 def _curve(analysis: Analysis, point: str) -> CouplerCurve:
-    if not analysis.whole:
+    if not analysis.complete:
         raise LinkwrightError(
             _(
-                "the path of {point} is not closed: solve a whole cycle of {name!r}",
+                "the path of {point} is not closed: solve a full cycle of {name!r}",
                 code="metrics.path_open",
                 point=point,
                 name=analysis.motion.mechanism.name,
@@ -88,7 +88,7 @@ def _curve(analysis: Analysis, point: str) -> CouplerCurve:
     length, area = (each(point, lap).measured(analysis)[0] for each in (_length, _area))
     cusps = tuple(_cusps(analysis, point, motion, length)) if analysis.resolver.possible else ()
     doubles = tuple(_doubles(analysis, point, path, length, lap)) if length > 0 else ()
-    doubles = tuple(each for each in doubles if not _among(each[0], cusps, BESIDE_CUSPS * length))
+    doubles = tuple(each for each in doubles if not _among(each[0], cusps, NEAR_CUSPS * length))
     known, rounds = analysis.motion.point(point).position[analysis.once], _rounds(analysis, point)
     drawn = path if len(known) % rounds else known[: len(known) // rounds]
     return CouplerCurve(point, length, area, doubles, cusps, drawn)
@@ -99,12 +99,12 @@ def _once(analysis: Analysis, lap: float) -> Motion:
     motion = analysis.motion
     if not analysis.resolver.possible:
         return motion
-    if ("lap", str(lap)) not in analysis.kept:
+    if ("lap", str(lap)) not in analysis.cached:
         turns = abs(lap) * float(np.abs(analysis.input_rate).max()) / (2.0 * np.pi)
         count = POSITIONS * int(np.clip(np.ceil(turns - SAME), 1, MOST_TURNS))
         times = motion.time[0] + lap * np.arange(count) / count
-        analysis.kept["lap", str(lap)] = analysis.resolver.motion(times)
-    found: Motion = analysis.kept["lap", str(lap)]
+        analysis.cached["lap", str(lap)] = analysis.resolver.motion(times)
+    found: Motion = analysis.cached["lap", str(lap)]
     return found
 
 
@@ -132,9 +132,9 @@ def _lap(analysis: Analysis, point: str) -> float:
 
 def _rounds(analysis: Analysis, point: str) -> int:
     """How many times a cycle runs the same curve."""
-    if ("rounds", point) not in analysis.kept:
-        analysis.kept["rounds", point] = _repeated(analysis, point) if analysis.resolver.possible else 1
-    found: int = analysis.kept["rounds", point]
+    if ("rounds", point) not in analysis.cached:
+        analysis.cached["rounds", point] = _repeated(analysis, point) if analysis.resolver.possible else 1
+    found: int = analysis.cached["rounds", point]
     return found
 
 
@@ -144,7 +144,7 @@ def _repeated(analysis: Analysis, point: str) -> int:
     sense = float(np.sign(analysis.motion.time[-1] - start))
 
     def gaps(share: Floats, shift: Floats) -> Floats:
-        """How far the point is apart at shares of the cycle, and shifts later."""
+        """The distance of the point's places at shares of the cycle, and shifts later."""
         both = start + sense * period * (np.array([share, share + shift]) % 1.0)
         place = analysis.resolver.motion(both.ravel()).point(point).position.reshape(2, -1, 2)
         return np.asarray(np.abs(place[1] - place[0]).max(axis=1))
@@ -177,12 +177,14 @@ def _doubles(
     position, velocity = _pairs(analysis, point, times)
     speeds = np.hypot(*np.moveaxis(velocity, -1, 0)).prod(axis=1)
     across = np.abs(cross(velocity[:, 0], velocity[:, 1])) > ALONG * speeds
-    apart = np.abs(times[:, 1] - times[:, 0]) % period
+    interval = np.abs(times[:, 1] - times[:, 0]) % period
     met = np.hypot(*(position[:, 1] - position[:, 0]).T) <= SAME * length
     found: list[Spot] = []
-    for i in np.flatnonzero(met & across & (np.minimum(apart, period - apart) > NEIGHBOURS * abs(step))):
+    for i in np.flatnonzero(
+        met & across & (np.minimum(interval, period - interval) > NEIGHBOURS * abs(step))
+    ):
         x, y = (float(c) for c in position[i, 0])
-        if all(np.hypot(x - a, y - b) > APART * length for a, b in found):
+        if all(np.hypot(x - a, y - b) > DISTINCT * length for a, b in found):
             found.append((x, y))
             first, second = (analysis.resolver.input_at(float(t)) for t in times[i])
             yield (x, y), (first, second)
@@ -197,23 +199,23 @@ def _pairs(analysis: Analysis, point: str, times: Floats) -> tuple[Floats, Float
 def _cusps(analysis: Analysis, point: str, motion: Motion, length: float) -> Iterator[tuple[Spot, float]]:
     """Local minima of the speed where it vanishes; those at the same place are one."""
     time, speed = _speeds(analysis, point, motion)
-    mean, apart, found = float(np.mean(speed)), float(np.ptp(time)) / POSITIONS, list[Spot]()
+    mean, interval, found = float(np.mean(speed)), float(np.ptp(time)) / POSITIONS, list[Spot]()
     low = speed <= np.roll(speed, 1)
     for i in np.flatnonzero(low & (speed < np.roll(speed, -1)) & (speed < 0.3 * mean)).tolist():
         before, after = (time[i] - time[i - 1], time[(i + 1) % len(time)] - time[i])
-        ends = [float(time[i] + way * min(abs(gap), apart)) for way, gap in ((-1.0, before), (1.0, after))]
+        ends = [float(time[i] + way * min(abs(gap), interval)) for way, gap in ((-1.0, before), (1.0, after))]
         low, high = np.array(ends)[:, None]
-        (at,), (least,) = lowest(lambda place: _speed(analysis, point, place), low, high)
-        if least > STANDING * mean:
+        (at,), (slowest,) = lowest(lambda place: _speed(analysis, point, place), low, high)
+        if slowest > STANDING * mean:
             continue
         x, y = analysis.resolver.motion(np.array([at])).point(point).position[0].tolist()
-        if not any(np.hypot(x - a, y - b) <= APART * length for a, b in found):
+        if not any(np.hypot(x - a, y - b) <= DISTINCT * length for a, b in found):
             found.append((x, y))
             yield (x, y), analysis.resolver.input_at(float(at))
 
 
 def _speeds(analysis: Analysis, point: str, motion: Motion) -> tuple[Floats, Floats]:
-    """Times of a motion and of the pieces of the cycle beside them, which are short where the speed changes sharply,
+    """Times of a motion and of the pieces of the cycle next to them, which are short where the speed changes sharply,
     in order, with a point's speeds there."""
     time = motion.time
     if analysis.cycle is not None:
@@ -237,7 +239,9 @@ class CurveMetric(Metric):
     source = "Dijksman, Motion Geometry of Mechanisms; Wunderlich, Ebene Kinematik"
 
     def suits(self, analysis: Analysis) -> bool:
-        return super().suits(analysis) and analysis.whole and bool(coupler_points(analysis.motion.mechanism))
+        return (
+            super().suits(analysis) and analysis.complete and bool(coupler_points(analysis.motion.mechanism))
+        )
 
     def curves(self, analysis: Analysis) -> Iterator[CouplerCurve]:
         """The curves of all coupler points."""
@@ -294,10 +298,10 @@ class DoublePoint(CurveMetric):
 
 @METRICS.register("cusp")
 class Cusp(CurveMetric):
-    """Number of cusps of the path of a coupler point: places where it stands still and turns back."""
+    """Number of cusps of the path of a coupler point: places where it stops and turns back."""
 
     label = _("cusps of the path")
-    meaning = _("Places where the path of a coupler point stands still and turns back.")
+    meaning = _("Places where the path of a coupler point stops and turns back.")
 
     dimension = "count"
 
@@ -310,5 +314,5 @@ class Cusp(CurveMetric):
             yield self.value(analysis, curve.point, len(curve.cusps), remarks=remarks, place=place, at=at)
 
 
-def _remark(key: str, said: Message, spot: Spot) -> Remark:
-    return Remark(key, said.format(x=shown(spot[0], "length"), y=shown(spot[1], "length")))
+def _remark(key: str, message: Message, spot: Spot) -> Remark:
+    return Remark(key, message.format(x=shown(spot[0], "length"), y=shown(spot[1], "length")))

@@ -14,8 +14,8 @@ from linkwright.core.arguments import one_or_more, require
 from linkwright.core.arrays import Flags
 from linkwright.core.quantity import NOTHING
 from linkwright.errors import RequestError
+from linkwright.kinematics.full_turns import MOST
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.whole_turns import MOST
 from linkwright.kinetostatics.forces import ROUNDING, Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, _
@@ -34,7 +34,7 @@ def metrics(result: Result, names: Iterable[str] | str | None = None) -> Metrics
 
     Raises:
         UnknownName: there is no such number (the nearest one is offered).
-        LinkwrightError: a number that was asked for by name does not apply, or the cycle is given more than 1000
+        LinkwrightError: a number that was asked for by name does not apply, or the cycle has more than 1000
             turns.
     """
     if not isinstance(result, Analysis):
@@ -71,9 +71,9 @@ def inapplicable(analysis: Analysis, names: Iterable[str]) -> dict[str, str]:
 
 
 def _countable(motion: Motion) -> None:
-    """Refuses cycles that are given so many turns that their integrals and extremes would be made up, not found."""
-    given = motion.positions.cycle and motion.mechanism.cycle is not None
-    if given and motion.positions.turns > MOST * (1.0 + NEAR):
+    """Refuses cycles of so many turns that their integrals and extremes could not be resolved."""
+    turns_set = motion.positions.cycle and motion.mechanism.cycle is not None
+    if turns_set and motion.positions.turns > MOST * (1.0 + NEAR):
         turns = f"{motion.positions.turns:.6g}"
         raise RequestError(
             _(
@@ -89,7 +89,7 @@ def _countable(motion: Motion) -> None:
 
 
 def _notes(analysis: Analysis, ok: Flags) -> tuple[Message, ...]:
-    """What is to be said where not all positions are reached; ``ok``: which of those that were asked for are."""
+    """Notes where not all positions are reached; ``ok``: which of those that were asked for are."""
     name = analysis.motion.mechanism.name
     if not ok.any():
         return (
@@ -100,9 +100,9 @@ def _notes(analysis: Analysis, ok: Flags) -> tuple[Message, ...]:
         )
     if not analysis.partial:
         return ()
-    said = (
+    message = (
         _(
-            "{name!r} reaches {reached} of {count} positions; numbers of the whole cycle, such "
+            "{name!r} reaches {reached} of {count} positions; numbers of the full cycle, such "
             "as means, are left out",
             code="metrics.part_reached",
         )
@@ -113,11 +113,12 @@ def _notes(analysis: Analysis, ok: Flags) -> tuple[Message, ...]:
             code="metrics.part_of_way_reached",
         )
     )
-    return (said.format(name=name, reached=int(ok.sum()), count=len(ok)),)
+    return (message.format(name=name, reached=int(ok.sum()), count=len(ok)),)
 
 
 def _roundings(analysis: Analysis) -> dict[str, float]:
-    """Sizes, SI, of torques, powers and works that are nothing beside the joint forces of a machine, by dimension."""
+    """Sizes, SI, of torques, powers and works that are negligible compared with the joint forces of a machine, by
+    dimension."""
     if analysis.forces is None or analysis.partial:
         return {}
     positions, size = analysis.motion.positions, analysis.motion.mechanism.size
@@ -126,9 +127,9 @@ def _roundings(analysis: Analysis) -> dict[str, float]:
     return {"torque": force * size, "energy": force * size, "power": force * max(paces, default=0.0)}
 
 
-def _without_rounding(rows: Sequence[MetricValue], least: Mapping[str, float]) -> list[MetricValue]:
-    """The values, zero and without a place where one is nothing beside the largest of its dimension, or smaller than
-    the ``least``.
+def _without_rounding(rows: Sequence[MetricValue], negligible: Mapping[str, float]) -> list[MetricValue]:
+    """The values, zero and without a place where one is negligible compared with the largest of its dimension, or
+    smaller than ``negligible``.
 
     Angles and lengths, which may be places, stay, and are shown as zero below ``quantities.NOTHING``; so do ratios,
     of which a zero has its place.
@@ -139,7 +140,8 @@ def _without_rounding(rows: Sequence[MetricValue], least: Mapping[str, float]) -
             largest[row.dimension] = max(largest.get(row.dimension, 0.0), abs(row.value))
     return [
         replace(row, value=0.0, at=None)
-        if abs(row.value) <= max(ROUNDING * largest.get(row.dimension, -1.0), least.get(row.dimension, -1.0))
+        if abs(row.value)
+        <= max(ROUNDING * largest.get(row.dimension, -1.0), negligible.get(row.dimension, -1.0))
         else row
         for row in rows
     ]

@@ -43,9 +43,9 @@ class EnergyFluctuation(Metric):
     judged_last = True
 
     def suits(self, analysis: Analysis) -> bool:
-        """For one driver that turns at constant speed through whole turns, and does work."""
+        """For one driver that turns at constant speed through full turns, and does work."""
         if not (
-            super().suits(analysis) and analysis.whole and analysis.loaded and analysis.forces is not None
+            super().suits(analysis) and analysis.complete and analysis.loaded and analysis.forces is not None
         ):
             return False
         rate, period = analysis.input_rate, analysis.motion.positions.period or 0.0

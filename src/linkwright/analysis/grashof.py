@@ -122,7 +122,7 @@ def _length(mechanism: Mechanism, link: str, a: str, b: str) -> float:
 
 def _loops(analysis: Analysis) -> tuple[FourBar, ...]:
     mechanism = analysis.motion.mechanism
-    return analysis.motion.kept("four-bars", lambda: four_bars(mechanism))
+    return analysis.motion.cached("four-bars", lambda: four_bars(mechanism))
 
 
 @METRICS.register("grashof")
@@ -150,13 +150,13 @@ class Grashof(Metric):
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for loop in _loops(analysis):
             s, p, q, longest = (shown(v, "length") for v in sorted(loop.lengths.values()))
-            said = TYPES[loop.type].format(s=s, l=longest, p=p, q=q, shortest=loop.shortest)
-            remark = Remark(f"grashof.{loop.type}", said, warning=loop.type == "change_point")
+            sentence = TYPES[loop.type].format(s=s, l=longest, p=p, q=q, shortest=loop.shortest)
+            remark = Remark(f"grashof.{loop.type}", sentence, warning=loop.type == "change_point")
             yield self.value(analysis, loop.name, loop.margin, remarks=(remark,))
 
 
 def _ground_place(mechanism: Mechanism, link: str, point: str) -> complex:
-    """Where a point of the frame, or of a link that is welded to it, stands in frame axes: x + iy, m."""
+    """Position of a point of the frame, or of a link that is welded to it, in frame axes: x + iy, m."""
     turn, shift = _ground_poses(mechanism)[link]
     return shift + turn * complex(*mechanism.link(link).points[point])
 

@@ -23,7 +23,7 @@ from linkwright.formula.threads import cores, spread_over
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 
-#: Designs whose curves are kept at the same time.
+#: Designs whose curves are held at the same time.
 BLOCK = 256
 
 

@@ -58,7 +58,7 @@ def _at_origin(motion: Motion, link: str) -> tuple[Floats, Floats]:
 
 @METRICS.register("instant_centre")
 class InstantCentre(Metric):
-    """Distance of every instant centre P_ij from the frame's origin at the first position, m; its place beside it."""
+    """Distance of every instant centre P_ij from the frame's origin at the first position, m; with its place."""
 
     label = _("instant centre, distance from the origin")
     meaning = _("Point at which two links have the same velocity, at the first position.")

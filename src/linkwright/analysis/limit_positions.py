@@ -60,7 +60,7 @@ def outermost_limits(analysis: Analysis) -> Iterator[tuple[Output, str, tuple[Ou
     """Outputs with limits in a closed cycle and the kinds of these, ``max`` first, which is the same in all designs;
     with them the outputs before that reverse nowhere."""
     never: list[Output] = []
-    for output in analysis.outputs if analysis.whole else ():
+    for output in analysis.outputs if analysis.complete else ():
         kinds = {limit.kind for limit in analysis.limits(output)}
         if not kinds:
             never.append(output)

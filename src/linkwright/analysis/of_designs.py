@@ -58,8 +58,8 @@ class MetricsOfDesigns(ABC):
     def evaluate(
         self, columns: Mapping[str, Floats], *, threads: int | None = None, backend: Backend = "auto"
     ) -> tuple[dict[str, Floats], Flags]:
-        """The metrics of the designs with the given columns, (designs,) each, and which designs are certain to have
-        no others: they pass the whole cycle."""
+        """The metrics of the designs with these columns, (designs,) each, and which designs are certain to have
+        no others: they pass the full cycle."""
 
     @abstractmethod
     def gradients(
@@ -88,31 +88,31 @@ def numbers_of_designs(
 
     ``steps``: of the motion by which it is judged what applies; ``asked``: see ``by_name.number_named``. None where
     the cycle is no formula of one position (see ``cycle.machine.Machine``), or the dimensions move its times. What is
-    found for a machine is kept.
+    found for a machine is cached.
     """
-    given, addresses = tuple(names), tuple(varied)
-    key = (addresses, given, steps, asked)
-    return _kept.get(mechanism, key, lambda: _numbers(mechanism, addresses, given, steps, asked))
+    requested, addresses = tuple(names), tuple(varied)
+    key = (addresses, requested, steps, asked)
+    return _cache.get(mechanism, key, lambda: _numbers(mechanism, addresses, requested, steps, asked))
 
 
-_kept: Recent[Mechanism, NumbersOfDesigns | None] = Recent(16)
+_cache: Recent[Mechanism, NumbersOfDesigns | None] = Recent(16)
 
 
 def _numbers(
     mechanism: Mechanism,
     addresses: tuple[str, ...],
-    given: tuple[str, ...],
+    requested: tuple[str, ...],
     steps: int,
     asked: Asked | None,
 ) -> NumbersOfDesigns | None:
     nominal = solve_motion(mechanism, steps=steps, failures="mark")
-    forces = any(needs_forces(name, mechanism, asked) for name in given)
+    forces = any(needs_forces(name, mechanism, asked) for name in requested)
     try:
         machine = Machine(mechanism, nominal, addresses, unloaded=not forces)
         if any(moves(mechanism, address, steps) for address in addresses):
             return None
         analysis = Analysis.of(solve_forces(nominal) if forces else nominal)
-        found = {name: number_named(name, analysis, asked) for name in given}
+        found = {name: number_named(name, analysis, asked) for name in requested}
         numbers = {name: each for name, each in found.items() if each is not None and _fits(each, machine)}
         return NumbersOfDesigns(machine, numbers, analysis)
     except NotTogether:
@@ -131,7 +131,7 @@ class NumbersOfDesigns(MetricsOfDesigns):
         self.machine, self.numbers, self.analysis = machine, numbers, analysis
         summaries = [each for number in numbers.values() for each in number.summaries]
         self.running = {each.name: each for each in summaries if isinstance(each, TrueSpeedSummary)}
-        limited = [output for output in analysis.outputs if analysis.whole and analysis.limits(output)]
+        limited = [output for output in analysis.outputs if analysis.complete and analysis.limits(output)]
         never = (output for number in numbers.values() for output in number.passed_over)
         even = (EFFORT, INERTIA) if self.running else ()
         self.cycle = Cycle(machine, (each for each in summaries if each.of_cycle), limited, never, even)
@@ -268,8 +268,8 @@ class NumbersOfDesigns(MetricsOfDesigns):
 
 def _of(program: Program, parts: Mapping[str, Floats]) -> dict[str, Floats]:
     """Outputs of a program over the designs."""
-    given = {name: parts[name] for name in program.positions}
-    found = numpy_program(program).run((), given, length=len(next(iter(parts.values()))))
+    requested = {name: parts[name] for name in program.positions}
+    found = numpy_program(program).run((), requested, length=len(next(iter(parts.values()))))
     return dict(zip(program.output_names, found, strict=True))
 
 
@@ -286,7 +286,7 @@ def refuse_obstacles(numbers: NumbersOfDesigns) -> None:
         raise RequestError(
             _(
                 "the true speed of {name!r}, or the torque that it follows from, changes too "
-                "suddenly for a gradient, as where it almost stands still; find its numbers without "
+                "suddenly for a gradient, as where it almost stops; find its numbers without "
                 "one, by sweep or study",
                 code="study.objective_speed",
                 name=machine.mechanism.name,

@@ -36,9 +36,9 @@ def weights(away: Floats, x: Floats) -> Floats:
     """Weights (m, k) of values at distances (k,) in their polynomial's values at x (m,)."""
     others = away[:, None] - away
     np.fill_diagonal(others, 1.0)
-    apart = np.repeat((x[:, None] - away)[:, None, :], len(away), axis=1)
-    apart[:, np.arange(len(away)), np.arange(len(away))] = 1.0
-    return np.asarray(apart.prod(axis=2) / others.prod(axis=1))
+    differences = np.repeat((x[:, None] - away)[:, None, :], len(away), axis=1)
+    differences[:, np.arange(len(away)), np.arange(len(away))] = 1.0
+    return np.asarray(differences.prod(axis=2) / others.prod(axis=1))
 
 
 _MIDDLE = np.zeros(1)

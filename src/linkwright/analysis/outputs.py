@@ -47,8 +47,8 @@ def output_link(mechanism: Mechanism, output: Output) -> str:
 
 
 def turns_fully(motion: Motion, output: Output) -> bool:
-    """Whether an angle gains whole turns over a closed cycle, so that it never swings back to its start."""
-    if output.kind != "angle" or motion.steps < 3 or not motion.whole:
+    """Whether an angle gains full turns over a closed cycle, so that it never swings back to its start."""
+    if output.kind != "angle" or motion.steps < 3 or not motion.complete:
         return False
     angle, period = motion.read(output), motion.positions.period
     step = angle[-1] - angle[-2] if period else 0.0

@@ -44,9 +44,9 @@ class PressureAngle(Metric):
     def remarks(self, value: float, at: float, analysis: Analysis) -> tuple[Remark, ...]:
         if not value > self.limit:
             return ()
-        said = _(
+        sentence = _(
             "the pressure angle rises to {value}, above the recommended {limit}",
             value=shown(value, "angle"),
             limit=shown(self.limit, "angle"),
         )
-        return (Remark("pressure_angle.high", said, warning=True),)
+        return (Remark("pressure_angle.high", sentence, warning=True),)

@@ -30,7 +30,7 @@ class QuickReturnRatio(Metric):
     angle: ClassVar[bool] = False
 
     def suits(self, analysis: Analysis) -> bool:
-        steady = analysis.whole and bool(np.ptp(analysis.input_rate) <= 1e-9 * abs(analysis.input_rate[0]))
+        steady = analysis.complete and bool(np.ptp(analysis.input_rate) <= 1e-9 * abs(analysis.input_rate[0]))
         return super().suits(analysis) and steady and bool(_returning(analysis))
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:

@@ -23,7 +23,7 @@ from linkwright.words import _
 
 #: Transmission angle, rad, below which a position counts as a dead point.
 DEAD = 1e-6
-#: Share of its largest rate below which a driver stands still.
+#: Share of its largest rate below which a driver is at rest.
 STILL = 1e-9
 #: Places of a time, and of every formula of a driver's law in it, between which it turns back once at most.
 LOOKS, WITHIN = 721, 14
@@ -31,8 +31,8 @@ LOOKS, WITHIN = 721, 14
 
 def between(first: float, last: float, dimension: str) -> Remark:
     """The ends of a stretch of the input as a remark."""
-    said = _("from {start} to {end}", start=shown(first, dimension), end=shown(last, dimension))
-    return Remark("range_of_motion.from_to", said)
+    sentence = _("from {start} to {end}", start=shown(first, dimension), end=shown(last, dimension))
+    return Remark("range_of_motion.from_to", sentence)
 
 
 def reached_inputs(analysis: Analysis, start: float, end: float) -> tuple[float, float]:
@@ -42,8 +42,8 @@ def reached_inputs(analysis: Analysis, start: float, end: float) -> tuple[float,
     if law.constant_speed is not None:
         return law.at(start), law.at(end)
     values = [value for _, value in turns(law, start, end)]
-    least, most = min(values), max(values)
-    return (most, least) if values[0] == most and values[-1] == least else (least, most)
+    lowest, highest = min(values), max(values)
+    return (highest, lowest) if values[0] == highest and values[-1] == lowest else (lowest, highest)
 
 
 def turns(law: Law, start: float, end: float) -> list[tuple[float, float]]:

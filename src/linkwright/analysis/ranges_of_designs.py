@@ -59,7 +59,7 @@ def ranged(name: str) -> bool:
 def ranges_of_designs(
     mechanism: Mechanism, varied: Iterable[str], names: Iterable[str]
 ) -> RangesOfDesigns | None:
-    """Ranges of motion; None where the machine passes its whole cycle, dimensions move the inputs, or not one driver
+    """Ranges of motion; None where the machine passes its full cycle, dimensions move the inputs, or not one driver
     turns at constant speed and all groups have closed forms."""
     asked, addresses, drivers = tuple(names), tuple(varied), list(mechanism.drivers.values())
     if len(drivers) != 1 or drivers[0].law.constant_speed is None or not drivers[0].law.rotary:

@@ -16,14 +16,14 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.reached_stretches import Reach
+from linkwright.kinematics.reachable_intervals import Reach
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.signals import MotionSignals
 
 #: Shares of the cycle at which the forces of an extreme are looked at: at a jump they are those of one side.
-BESIDE = np.array([0.0, -1e-9, 1e-9])
+NEARBY = np.array([0.0, -1e-9, 1e-9])
 #: Steps of a cycle from which its numbers are read.
 FEWEST = 24
 
@@ -71,11 +71,11 @@ class Resolver(Reach):
 
     @property
     def closes(self) -> bool:
-        """Whether the last position is followed by the first, in the same assembly."""
+        """Whether the first position comes after the last one, in the same assembly."""
         return self._between is not None and self._between.closes
 
     def at(self, time: Floats, of: str = "motion", asked: tuple[str, ...] = ()) -> Any:
-        """Motion, or Forces with ``of="forces"``, at some times, s; ``asked``: outputs beside the stored ones."""
+        """Motion, or Forces with ``of="forces"``, at some times, s; ``asked``: outputs besides the stored ones."""
         if of != "forces":
             return self.motion(time)
         return self.forces(self.motion(time), asked)
@@ -87,17 +87,17 @@ class Resolver(Reach):
 
         ``wanted``: signals of the forces, each with a time, s, and its value there.
         """
-        times = np.array([time for _, time, _ in wanted])[:, None] + self._motion.time.max() * BESIDE
+        times = np.array([time for _, time, _ in wanted])[:, None] + self._motion.time.max() * NEARBY
         forces = self.at(times.ravel(), "forces")
         off = [np.abs(signal(forces) - value).reshape(times.shape) for signal, _, value in wanted]
-        return forces, [k * BESIDE.size + int(each[k].argmin()) for k, each in enumerate(off)]
+        return forces, [k * NEARBY.size + int(each[k].argmin()) for k, each in enumerate(off)]
 
     def motion(self, time: Floats) -> Motion:
         """Motion at some times; positions out of reach are NaN, also those that could be assembled behind a gap."""
-        return self.solved(time, None if self.whole else self.reached(time))
+        return self.solved(time, None if self.complete else self.reached(time))
 
     def forces(self, motion: Motion, asked: tuple[str, ...] = ()) -> Forces:
-        """Forces of such a motion; ``asked``: outputs beside the stored ones."""
+        """Forces of such a motion; ``asked``: outputs besides the stored ones."""
         from linkwright.kinetostatics.run import run_forces
 
         known = self._forces

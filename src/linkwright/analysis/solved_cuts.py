@@ -1,4 +1,5 @@
-"""Times at which the signals of a whole cycle jump or bend, from the motion and the forces that are solved again."""
+"""Times at which the signals of a full cycle jump or have kinks, from the motion and the forces that are solved
+again."""
 
 from __future__ import annotations
 
@@ -24,7 +25,7 @@ from linkwright.kinetostatics.programs import signed_name
 from linkwright.kinetostatics.signals import MotionSignals
 
 #: Share of the cycle over which slopes of signals are taken.
-BESIDE = 1e-9
+NEARBY = 1e-9
 #: Stretches in which it is looked when a load acts whose phase is not known beforehand.
 LOOKS = 24
 
@@ -69,7 +70,7 @@ class SolvedCuts:
 
     def _changes(self, values: Callable[[Floats], Floats], count: int, *more: Floats) -> Floats:
         """Times at which signals change their signs, cut at those that are known, and at ``more``."""
-        signals = OfTimes(values, count, BESIDE * self.course.duration)
+        signals = OfTimes(values, count, NEARBY * self.course.duration)
         found = events(signals, NO_NUMBERS, ONE, self._between(self.stretches.begin, *more))
         return np.concatenate([each.time for each in found])
 

@@ -42,7 +42,9 @@ class SolvedSummary(Summaries):
             return np.atleast_2d(values * values if squared else values)
 
         more = np.array([each.time for each in self._reversals])
-        self._signals = SignalsOnWays.told(ways, read, of, self.asked.wanted(), more, paced=self.asked.even)
+        self._signals = SignalsOnWays.resolved(
+            ways, read, of, self.asked.wanted(), more, paced=self.asked.even
+        )
         self.span = self._signals.stretches.span
 
     @property
@@ -77,31 +79,31 @@ class SolvedSummary(Summaries):
 
     @cached_property
     def means(self) -> dict[int, Floats]:
-        """Infinite, or undefined where a signal grows to both sides, beside what it cannot pass."""
+        """Infinite, or undefined where a signal grows to both signs, next to what it cannot pass."""
         found = super().means
         for way in range(self.span.count):
             steep = [
                 each.limit for each in self._signals.ends if each.way == way and not np.isfinite(each.limit)
             ]
-            if any(map(np.isinf, steep)) or (steep and not self._ways.whole):
+            if any(map(np.isinf, steep)) or (steep and not self._ways.complete):
                 for mean in found.values():
                     mean[way] = np.sum(steep)
         return found
 
     @cached_property
     def extremes(self) -> Extremes:
-        """Infinite, or NaN where nothing tells them, beside what the signal cannot pass."""
+        """Infinite, or NaN where they are undetermined, next to what the signal cannot pass."""
         found = super().extremes
         for n, (_, sign, _) in enumerate(self.asked.sides):
             for way in range(self.span.count):
                 ends = [each for each in self._signals.ends if each.way == way]
                 steep = [each for each in ends if each.limit == sign * np.inf]
                 most, piece = sign * found.value[n, way], found.piece[n, way]
-                beside = [each.beside for each in ends if np.isnan(each.limit)]
+                around = [each.nearby_values for each in ends if np.isnan(each.limit)]
                 if steep:
                     found.value[n, way], found.time[n, way] = steep[0].limit, steep[0].time
-                elif not self._ways.whole and beside:
-                    if self.pieces.columns[SIDE][piece] or (sign * np.concatenate(beside) > most).any():
+                elif not self._ways.complete and around:
+                    if self.pieces.columns[SIDE][piece] or (sign * np.concatenate(around) > most).any():
                         found.value[n, way] = np.nan
                 elif len(self._ways.resolver.changes) and abs(most) <= PASSED * self.pieces.size[0, way]:
                     found.value[n, way] = 0.0
@@ -111,16 +113,16 @@ class SolvedSummary(Summaries):
         """That of all ways."""
         kind, value = self.asked.parts[""].kind, self.values[""]
         if kind in EVEN:
-            return SummaryValue(self._mean(kind, value), np.nan, np.nan, self._ways.whole)
+            return SummaryValue(self._mean(kind, value), np.nan, np.nan, self._ways.complete)
         sides, time = self.extremes.value[[*self.asked.sides_of[""]]], self.time_of("")
         sizes = value if len(sides) > 1 else sides[0] * self.asked.sides[0][1]
         best = int(np.nanargmax(sizes)) if not np.isnan(sizes).all() else 0
-        told = bool(np.isinf(sizes[best]) or not np.isnan(sizes).any())
+        exact = bool(np.isinf(sizes[best]) or not np.isnan(sizes).any())
         place = self.input_at(time[[best]])[0] if np.isfinite(time[best]) else np.nan
-        return SummaryValue(float(value[best]) if told else np.nan, float(time[best]), float(place), told)
+        return SummaryValue(float(value[best]) if exact else np.nan, float(time[best]), float(place), exact)
 
     def _mean(self, kind: str, value: Floats) -> float:
-        if self._ways.whole:
+        if self._ways.complete:
             return float(value[0])
         power, share = 2 if kind == "rms" else 1, self._ways.durations / self._ways.durations.sum()
         found = float((value**power @ share) ** (1.0 / power))
@@ -151,7 +153,7 @@ def _mean(motion: Motion, values: Floats, power: int) -> float:
     if motion.positions.closed or good.sum() < 2:
         found = float(np.nanmean(values[: motion.steps - motion.positions.repeated]))
     else:
-        time, kept = np.abs(time[good] - time[0]), values[good]
+        time, values_there = np.abs(time[good] - time[0]), values[good]
         span = time[-1] - time[0]
-        found = float(np.trapezoid(kept, time) / span) if span else float(np.mean(kept))
+        found = float(np.trapezoid(values_there, time) / span) if span else float(np.mean(values_there))
     return float(found ** (1.0 / power))

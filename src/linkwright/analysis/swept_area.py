@@ -47,7 +47,7 @@ class HullArea(Metric):
         found, keys = _curves(analysis), points(motion.mechanism)
         for subject, own in self.swept(motion.mechanism).items():
             chosen = [keys.index(key) for key in own]
-            exact = found is not None and not found[1].untold.reshape(-1, 2)[chosen].any()
+            exact = found is not None and not found[1].unresolved.reshape(-1, 2)[chosen].any()
             far = found[1].unbounded.reshape(-1, 2)[chosen].any(axis=0) if found else np.zeros(2, dtype=bool)
             if found is None or far.any():
                 places = np.concatenate([motion.vector("position", key)[motion.ok] for key in own])
@@ -130,8 +130,8 @@ def _curves(analysis: Analysis) -> tuple[Curves, SolvedCurves] | None:
     found = analysis.ways.curve(lambda motion: _rows(motion, keys), "motion", 2 * len(keys), HULL_PIECES)
     edges, values = found.edges, np.moveaxis(found.values, 1, 2).reshape(len(keys), 2, -1, POINTS)
     begins = edges[:-1] == edges[0]
-    whole = np.tile([0, len(begins) * POINTS], (len(keys), 1))
-    return Curves(values, begins, np.roll(begins, -1), whole), found
+    complete = np.tile([0, len(begins) * POINTS], (len(keys), 1))
+    return Curves(values, begins, np.roll(begins, -1), complete), found
 
 
 def turned(mechanism: Mechanism, edges: Floats, closed: bool) -> tuple[Flags, Flags]:
@@ -139,8 +139,8 @@ def turned(mechanism: Mechanism, edges: Floats, closed: bool) -> tuple[Flags, Fl
     the piece goes on: at the ends of an open cycle, and where the law of a driver goes over to another formula."""
     laws = [driver.law for driver in mechanism.drivers.values()]
     bends = np.concatenate([law.breaks(edges[0], edges[-1]) for law in laws])
-    apart = np.abs(edges[:, None] - bends).min(axis=1, initial=np.inf)
-    bent = apart <= 1e-9 * (edges[-1] - edges[0])
+    distance = np.abs(edges[:, None] - bends).min(axis=1, initial=np.inf)
+    bent = distance <= 1e-9 * (edges[-1] - edges[0])
     bent[[0, -1]] = bent[[0, -1]].any() or not closed
     return bent[:-1], bent[1:]
 
@@ -149,8 +149,8 @@ def _spans(analysis: Analysis, cycle: Ways, edges: Floats, values: Floats) -> In
     """The nodes of every curve from one end of its way to the other, where it is run to and fro: of all points by the
     one driver, or by a link that turns or slides on the frame; one of a point at rest."""
     mechanism, times = analysis.motion.mechanism, nodes(edges).T.ravel()
-    whole = (0, len(times)) if len(analysis.resolver.changes) else of_driver(mechanism, edges)
-    keys, found = points(mechanism), np.tile(whole, (len(values), 1))
+    complete = (0, len(times)) if len(analysis.resolver.changes) else of_driver(mechanism, edges)
+    keys, found = points(mechanism), np.tile(complete, (len(values), 1))
     for output in analysis.outputs:
         way = cycle.at(times, "motion").read(output)
         if output.kind != "angle" or np.ptp(way) < 2.0 * np.pi:
@@ -178,7 +178,7 @@ def _between(times: Floats, ends: tuple[float, float]) -> tuple[int, int]:
 
 
 def _once(reached: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    """Times between which what turns back at some times, with these values, goes through its whole way, once if that
+    """Times between which what turns back at some times, with these values, goes through its full path, once if that
     can be."""
     values = [value for _, value in reached]
     slack = SAME * (max(values) - min(values))

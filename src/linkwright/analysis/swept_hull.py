@@ -19,7 +19,7 @@ from linkwright.curves.polynomials import PLACES, POINTS, TO_SLOPE, weights_at
 
 #: Newton steps towards the places of contact at most, and the last one's size where they end before.
 STEPS, CLOSE = 6, 1e-7
-#: How far beyond a piece, and from a node, a curve is followed, in halves of the piece's width.
+#: How far beyond a piece, and from a node, a curve is evaluated, in halves of the piece's width.
 BEYOND, NEAR = 0.02, 0.6
 #: Indices of contact nearer than this share of a side are one: a side of an arc, not one between two.
 SAME = 0.1
@@ -28,7 +28,7 @@ SHORT = 1e-9
 #: How much smaller than its hull the polygon of many places of curves may be, and larger by rounding.
 CHORDS, ROUNDED = 1e-6, 1e-12
 #: Nodes of a piece that are enough within an arc.
-_KEPT = np.isin(np.arange(POINTS), (0, 5, 10, POINTS - 1))
+_ALWAYS_USED = np.isin(np.arange(POINTS), (0, 5, 10, POINTS - 1))
 #: Along the boundary where it is farthest to the left, the right, down and up.
 _ALONG = np.array([[0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0]])
 #: Places of a piece at which what has no lines that touch is looked at.
@@ -75,9 +75,9 @@ class SweptHull:
         self.area = self._area()
         if not self._found or self.area < area(self._nodes.view(np.complex128)[self._corners, 0]):
             sampled = self._sampled()
-            least = area(np.ascontiguousarray(sampled.point).view(np.complex128)[:, 0])
-            if not least * (1.0 - ROUNDED) <= self.area <= least * (1.0 + CHORDS):
-                self.area, self._polygon = least, sampled
+            smallest = area(np.ascontiguousarray(sampled.point).view(np.complex128)[:, 0])
+            if not smallest * (1.0 - ROUNDED) <= self.area <= smallest * (1.0 + CHORDS):
+                self.area, self._polygon = smallest, sampled
 
     def _thinned(self, corners: Indices) -> Indices:
         """Corners at places of their own, without those between others of the same curve that are no farther than its
@@ -85,9 +85,9 @@ class SweptHull:
         sides = _squares(self._nodes[corners] - self._nodes[np.roll(corners, 1)])
         corners = corners[sides >= SHORT * SHORT * sides.max()]
         curve, place = corners // POINTS // self._pieces, self._nodes[corners]
-        beside = (self._nodes.take(corners + k, axis=0, mode="clip") - place for k in (-1, 1))
-        near = 2.0 * np.maximum(*map(_squares, beside))
-        arc, number = ~_KEPT[corners % POINTS], np.arange(len(corners))
+        neighbours = (self._nodes.take(corners + k, axis=0, mode="clip") - place for k in (-1, 1))
+        near = 2.0 * np.maximum(*map(_squares, neighbours))
+        arc, number = ~_ALWAYS_USED[corners % POINTS], np.arange(len(corners))
         for other in (number - 1, number + 1 - len(corners)):
             arc &= (curve[other] == curve) & (_squares(place[other] - place) <= near)
         return np.asarray(corners[~arc])
@@ -117,7 +117,7 @@ class SweptHull:
         return [Contacts(number[way], place[way], point[way]) for way in ways]
 
     def _touching(self, begin: Indices, end: Indices, along: Floats, near: Floats) -> tuple[Floats, Floats]:
-        """Places near some nodes where lines touch the curves, by Newton's steps: ``along`` what is given, or along
+        """Places near some nodes where lines touch the curves, by Newton's method: ``along`` a direction, or along
         the side between both places of contact where its square is larger than ``near``."""
         number, half = np.concatenate([begin, end]), len(begin)
         place, piece = PLACES[number % POINTS], number // POINTS % self._pieces
@@ -167,8 +167,8 @@ class SweptHull:
         that turns back on itself."""
         numbers = np.unique(self._corners // POINTS)
         curves, pieces = np.divmod(numbers, self._pieces)
-        beside = [(pieces + k) % self._pieces for k in (-1, 0, 1)]
-        numbers = np.unique(np.concatenate([curves * self._pieces + each for each in beside]))
+        neighbours = [(pieces + k) % self._pieces for k in (-1, 0, 1)]
+        numbers = np.unique(np.concatenate([curves * self._pieces + each for each in neighbours]))
         curves, pieces = np.divmod(numbers, self._pieces)
         point = np.einsum("kjp,np->knj", self._values[curves, :, pieces], _weights(_DENSE)).reshape(-1, 2)
         point = np.concatenate([point, self._nodes[self._corners]])
@@ -188,8 +188,8 @@ class SweptHull:
         curves, _, pieces, _ = self._values.shape
         found = np.zeros((curves * pieces, 2, POINTS))
         if (polygon := self._polygon) is not None:
-            beside = np.roll(polygon.point, 1, axis=0) - np.roll(polygon.point, -1, axis=0)
-            _add(found, polygon.number, _weights(polygon.place), 0.5 * _turned(beside))
+            neighbours = np.roll(polygon.point, 1, axis=0) - np.roll(polygon.point, -1, axis=0)
+            _add(found, polygon.number, _weights(polygon.place), 0.5 * _turned(neighbours))
             return found.reshape(curves, pieces, 2, POINTS).transpose(0, 2, 1, 3)
         for contacts, other, sign in ((self._first, self._last, -0.5), (self._last, self._first, 0.5)):
             _add(found, contacts.number, _weights(contacts.place), sign * _turned(other.point))

@@ -22,7 +22,9 @@ REPEATED = 6
 COLUMNS = ("metric", "subject", "value", "unit", "at", "at_unit", "limit", "exact", "warning", "remark")
 
 
-def told(rows: Sequence[MetricValue], language: str) -> Iterator[tuple[tuple[Cell, ...], MetricValue | None]]:
+def cells_of_values(
+    rows: Sequence[MetricValue], language: str
+) -> Iterator[tuple[tuple[Cell, ...], MetricValue | None]]:
     """What tables write of values, each with its value; of a number that comes many times over the cycle the first,
     then how many more there are, between which values and inputs."""
     found: dict[tuple[str, str], list[MetricValue]] = {}
@@ -53,9 +55,9 @@ def _remarks(row: MetricValue | None, language: str) -> str:
     """Remarks of a row, if it is that of a value; its warnings stand beneath the table, and are marked here."""
     if row is None:
         return ""
-    said = [remark.text(language) for remark in row.remarks if not remark.warning]
+    texts = [remark.text(language) for remark in row.remarks if not remark.warning]
     mark = "!" if row.warnings else ""
-    return f"{mark} {_('; ').translate(language).join(said)}".strip()
+    return f"{mark} {_('; ').translate(language).join(texts)}".strip()
 
 
 class MetricsTable(Plotted, Tabular, Sequence[MetricValue]):
@@ -64,7 +66,7 @@ class MetricsTable(Plotted, Tabular, Sequence[MetricValue]):
     ``table["stroke"]``: all values of one number; ``table["stroke", "guide"]``: the one of a subject;
     ``table.value("stroke")``: the governing value (the worst of its subjects where a direction is better, else the
     only or first one). ``skipped``: names that were not asked for by name and do not apply; ``notes``: sentences
-    about the whole result.
+    about the complete result.
     """
 
     def __init__(
@@ -86,19 +88,21 @@ class MetricsTable(Plotted, Tabular, Sequence[MetricValue]):
         return self.warnings_in("en")
 
     def warnings_in(self, language: str) -> tuple[str, ...]:
-        """The same in a language, closeness to a singular position first; subjects of which the same is said stand
+        """The same in a language, closeness to a singular position first; subjects with the same remark are
         together."""
         notes = (in_language(note, language) for note in self.notes)
-        said: dict[str, list[str]] = {}
+        subjects_by_text: dict[str, list[str]] = {}
         for row in sorted(self.rows, key=lambda row: row.metric != "singularity"):
             for remark in row.warnings:
-                said.setdefault(remark.text(language), []).append(in_words(row.subject, language))
-        about = {cause: together(tuple(dict.fromkeys(subjects))) for cause, subjects in said.items()}
-        told = (
+                subjects_by_text.setdefault(remark.text(language), []).append(in_words(row.subject, language))
+        about = {
+            cause: together(tuple(dict.fromkeys(subjects))) for cause, subjects in subjects_by_text.items()
+        }
+        cells_of_values = (
             _("{name}: {cause}", name=in_language(names, language), cause=cause).translate(language)
             for cause, names in about.items()
         )
-        return (*notes, *told)
+        return (*notes, *cells_of_values)
 
     def __getitem__(self, key: Any) -> Any:
         if isinstance(key, str):
@@ -163,12 +167,12 @@ class MetricsTable(Plotted, Tabular, Sequence[MetricValue]):
                 ),
             )
         head = (*CELLS, REMARK)
-        rows = [[*texts, _remarks(row, language)] for texts, row in told(self.rows, language)]
-        kept = [i for i in range(len(head)) if i < 5 or any(row[i] for row in rows)]
+        rows = [[*texts, _remarks(row, language)] for texts, row in cells_of_values(self.rows, language)]
+        shown_columns = [i for i in range(len(head)) if i < 5 or any(row[i] for row in rows)]
         notes = [f"! {warning}" for warning in self.warnings_in(language)]
-        align = "".join("<<><>><"[i] for i in kept)
-        cells = [[row[i] for i in kept] for row in rows]
-        return (Table([head[i] for i in kept], cells, align, self.title, notes),)
+        align = "".join("<<><>><"[i] for i in shown_columns)
+        cells = [[row[i] for i in shown_columns] for row in rows]
+        return (Table([head[i] for i in shown_columns], cells, align, self.title, notes),)
 
     def data(self, language: str = "en") -> dict[str, Any]:
         """Plain data, SI, one mapping per row; remarks and warnings in a language."""

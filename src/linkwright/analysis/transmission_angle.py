@@ -25,12 +25,12 @@ def low(value: float) -> tuple[Remark, ...]:
     """A warning where a transmission angle is below the recommended one."""
     if not value < LIMIT:
         return ()
-    said = _(
+    sentence = _(
         "the transmission angle falls to {value}, below the recommended {limit}",
         value=shown(value, "angle"),
         limit=shown(LIMIT, "angle"),
     )
-    return (Remark("transmission_angle.low", said, warning=True),)
+    return (Remark("transmission_angle.low", sentence, warning=True),)
 
 
 def smallest(group: Group) -> Summary:
@@ -75,7 +75,7 @@ class TransmissionAngleOfStroke(TransmissionAngle):
     )
 
     def suits(self, analysis: Analysis) -> bool:
-        return super().suits(analysis) and analysis.whole and bool(_driven_dyads(analysis))
+        return super().suits(analysis) and analysis.complete and bool(_driven_dyads(analysis))
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for group, output in _driven_dyads(analysis):

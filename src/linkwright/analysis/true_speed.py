@@ -50,9 +50,9 @@ def of_machine(part: TrueSpeedSummary, analysis: Analysis) -> SummaryValue:
 
 def steady_cycle(forces: Forces) -> tuple[Equivalent, SteadyCycle]:
     """The machine reduced to its input, and its cycles of steady running, found once; raises as ``equivalent``."""
-    kept = Analysis.of(forces).kept
-    if ("running", "") not in kept:
+    cached = Analysis.of(forces).cached
+    if ("running", "") not in cached:
         reduced = equivalent(forces)
-        kept["running", ""] = reduced, SteadyCycle(reduced.work, reduced.inertia_at, reduced.speed)
-    found: tuple[Equivalent, SteadyCycle] = kept["running", ""]
+        cached["running", ""] = reduced, SteadyCycle(reduced.work, reduced.inertia_at, reduced.speed)
+    found: tuple[Equivalent, SteadyCycle] = cached["running", ""]
     return found

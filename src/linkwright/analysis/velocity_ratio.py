@@ -20,21 +20,21 @@ from linkwright.words import _
 _BUT_ROUNDING = 1.0 - 1e-12
 
 
-#: An output stands still where its ratio, as that of the machine's sizes, is nowhere larger.
+#: An output is at rest where its ratio, as that of the machine's sizes, is nowhere larger.
 _STANDING = 1e-12
 
 
-def _largest(least: float, high: Scalar, low: Scalar) -> Scalar:
+def _largest(negligible: float, high: Scalar, low: Scalar) -> Scalar:
     found = select(absolute(high) >= _BUT_ROUNDING * absolute(low), high, low)
-    return select(absolute(found) > least, found, np.float64(0.0))
+    return select(absolute(found) > negligible, found, np.float64(0.0))
 
 
-def _advantage(least: float, high: Scalar, low: Scalar) -> Scalar:
-    return 1.0 / absolute(_largest(least, high, low))
+def _advantage(negligible: float, high: Scalar, low: Scalar) -> Scalar:
+    return 1.0 / absolute(_largest(negligible, high, low))
 
 
-def _place(least: float, high: SummaryValue, low: SummaryValue) -> float:
-    if max(abs(high.value), abs(low.value)) <= least:
+def _place(negligible: float, high: SummaryValue, low: SummaryValue) -> float:
+    if max(abs(high.value), abs(low.value)) <= negligible:
         return nan
     return high.input if abs(high.value) >= _BUT_ROUNDING * abs(low.value) else low.input
 
@@ -61,8 +61,8 @@ class VelocityRatio(Metric):
             parts = tuple(Summary(f"velocity_ratio {output.owner}", kind) for kind in ("max", "min"))
             kinds = output.dimension, analysis.input_dimension
             sizes = [analysis.motion.mechanism.size if kind == "length" else 1.0 for kind in kinds]
-            least = _STANDING * sizes[0] / sizes[1]
-            formula, place = partial(self.formula, least), partial(_place, least)
+            negligible = _STANDING * sizes[0] / sizes[1]
+            formula, place = partial(self.formula, negligible), partial(_place, negligible)
             yield Number(str(output), parts, formula, self.ratio(*kinds), place)
 
     def ratio(self, output: str, input_: str) -> str:

@@ -1,8 +1,9 @@
-"""What a motion reaches, on pieces on which signals are solved again: the whole of its cycle, or stretches of it.
+"""What a motion reaches, on pieces on which signals are solved again: the full cycle, or reachable intervals of it.
 
-Places on a whole cycle are times. A stretch that ends where the mechanism gets out of reach runs by the cosine of the
-place in it, as points come to the ends of their range with infinite rates; stretches are then for pieces what designs
-are elsewhere. Beside a change point, or an end of range, pieces are polynomials through places a little away from it.
+Places on a full cycle are times. An interval that ends where the mechanism gets out of reach runs by the cosine of
+the place in it, as points come to the ends of their range with infinite rates; stretches are then for pieces what
+designs are elsewhere. Next to a change point, or an end of range, pieces are polynomials through places a little away
+from it.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from linkwright.cycle.solved import PIECES
 from linkwright.events.course import Course
 from linkwright.events.stretches import Span, Stretches
 
-#: A piece beside a change point reaches this share of the cycle. Nearer to it than the first of its places no
+#: A piece next to a change point reaches this share of the cycle. Nearer to it than the first of its places no
 #: position is asked for: places are exact to the machine's digits over the distance, second derivatives to these over
 #: its cube.
 AROUND = 1.0 / 36.0
@@ -31,8 +32,8 @@ AROUND = 1.0 / 36.0
 SIDE, WAY = "side of an end", "way"
 #: Cuts nearer to an end than this share of the way are there.
 SAME = 1e-11
-#: Results at so many sets of times are kept.
-KEPT = 8
+#: Results at so many sets of times are cached.
+CACHED_RESULTS = 8
 _NONE: Floats = np.empty(0)
 _HALF_TURN = Course((), np.pi, np.pi, False, 0)
 Signal = Callable[[Any], Floats]
@@ -41,45 +42,51 @@ Read = Callable[[Any], Floats]
 
 
 class Ways:
-    """A ``course`` of places with ``cuts``, and change points, or ends, beside which pieces go so far, (k,) each.
+    """A ``course`` of places with ``cuts``, and change points, or ends, next to which pieces go so far, (k,) each.
 
     ``reached`` (ways, 2): begins and ends of stretches, s, of what is reached in part.
     """
 
     def __init__(
-        self, resolver: Resolver, course: Course, cuts: Floats, ends: Floats, beside: Floats, reached: Floats
+        self,
+        resolver: Resolver,
+        course: Course,
+        cuts: Floats,
+        ends: Floats,
+        reach_of_ends: Floats,
+        reached: Floats,
     ) -> None:
         self.resolver, self.course, self._cuts = resolver, course, cuts
-        self.ends, self._beside, self._reached = ends, beside, reached
+        self.ends, self._reach_of_ends, self._reached = ends, reach_of_ends, reached
         self._solved: dict[tuple[str, bytes], Any] = {}
 
     @classmethod
     def of_cycle(cls, resolver: Resolver, course: Course, cuts: Floats) -> Ways:
-        """The whole cycle, or way."""
+        """The full cycle, or path."""
         length, changes = course.duration, np.sort(resolver.changes)
         around = changes
         if course.closed:
             changes = increasing(course.begin + (changes - course.begin) % length)
             around = np.concatenate([changes - length, changes, changes + length])
-        apart = np.abs(changes[:, None] - around)
-        nearest = np.where(apart > 0.0, apart, np.inf).min(axis=1, initial=np.inf)
+        distances = np.abs(changes[:, None] - around)
+        nearest = np.where(distances > 0.0, distances, np.inf).min(axis=1, initial=np.inf)
         return cls(resolver, course, cuts, changes, np.minimum(AROUND * length, 0.5 * nearest), _NONE)
 
     @classmethod
     def in_part(cls, resolver: Resolver, reached: Sequence[tuple[float, float]]) -> Ways:
         """All stretches of time, s, that are reached."""
-        ends, beside = np.array([np.pi, 2.0 * np.pi]), np.full(2, SLOWED[0])
-        return cls(resolver, _HALF_TURN, _NONE, ends, beside, np.array(reached))
+        ends, reach_of_ends = np.array([np.pi, 2.0 * np.pi]), np.full(2, SLOWED[0])
+        return cls(resolver, _HALF_TURN, _NONE, ends, reach_of_ends, np.array(reached))
 
     @property
-    def whole(self) -> bool:
-        """Whether it is the whole cycle, or way."""
+    def complete(self) -> bool:
+        """Whether it is the full cycle, or path."""
         return not len(self._reached)
 
     @property
     def durations(self) -> Floats:
         """How long the ways take, (ways,) s."""
-        return np.array([self.course.duration]) if self.whole else np.diff(self._reached).ravel()
+        return np.array([self.course.duration]) if self.complete else np.diff(self._reached).ravel()
 
     @property
     def looks(self) -> Floats:
@@ -89,19 +96,19 @@ class Ways:
 
     def time(self, place: Floats, way: Indices | np.intp) -> Floats:
         """When it comes to places of some ways, s."""
-        if self.whole:
+        if self.complete:
             return place
         begin, end = self._reached[way].T
         return np.asarray(0.5 * (begin + end) + 0.5 * (end - begin) * np.cos(place))
 
     def pace(self, place: Floats) -> Floats | float:
         """Share of the way's time by share of its places."""
-        return 1.0 if self.whole else -0.5 * np.pi * np.sin(place)
+        return 1.0 if self.complete else -0.5 * np.pi * np.sin(place)
 
     def stretches(self, more: Floats, nearer: float) -> Stretches:
-        """What lies between the cuts, ``more`` of them, and ends of the pieces beside change points, ``nearer`` to
+        """What lies between the cuts, ``more`` of them, and ends of the pieces next to change points, ``nearer`` to
         these by a factor."""
-        around = self.ends[:, None] + nearer * self._beside[:, None] * np.array([-1.0, 0.0, 1.0])
+        around = self.ends[:, None] + nearer * self._reach_of_ends[:, None] * np.array([-1.0, 0.0, 1.0])
         cuts, course = np.concatenate([self._cuts, around.ravel(), more]), self.course
         if not course.closed:
             near, gone = SAME * course.duration, cuts - course.begin
@@ -113,7 +120,7 @@ class Ways:
         """The motion or the forces at some times, s."""
         key = of, time.tobytes()
         if key not in self._solved:
-            if len(self._solved) >= KEPT:
+            if len(self._solved) >= CACHED_RESULTS:
                 del self._solved[next(iter(self._solved))]
             self._solved[key] = self.resolver.at(time, of)
         return self._solved[key]
@@ -132,12 +139,12 @@ class Ways:
 
     def curve(self, read: Read, of: str, count: int, pieces: int = PIECES) -> SolvedCurves:
         """``count`` signals on pieces, so many of a lap to begin with, that meet them everywhere."""
-        signals = SignalsOnWays.told(self, read, of, Wanted(even=tuple(range(count))), first=pieces)
+        signals = SignalsOnWays.resolved(self, read, of, Wanted(even=tuple(range(count))), first=pieces)
         found, limits = signals.pieces, np.array([end.limits for end in signals.ends]).reshape(-1, count)
         values = np.stack([found.values(k) for k in range(count)])
         edges = np.append(found.columns[LOW], found.columns[HIGH][-1])
-        untold = np.isnan(limits).any(axis=0) & (not self.whole)
-        return SolvedCurves(edges, values, np.isinf(limits).any(axis=0), untold)
+        unresolved = np.isnan(limits).any(axis=0) & (not self.complete)
+        return SolvedCurves(edges, values, np.isinf(limits).any(axis=0), unresolved)
 
 
 class SolvedCurves(NamedTuple):
@@ -147,18 +154,18 @@ class SolvedCurves(NamedTuple):
     edges: Floats
     values: Floats
     unbounded: Flags
-    untold: Flags
+    unresolved: Flags
 
 
 @dataclass(frozen=True)
 class End:
     """A change point, or an end, of a ``way``, at a ``time``, s: the ``limits`` of the signals there, and the values
-    of the first ``beside`` it, nearest first."""
+    nearby, ``nearby_values``, nearest first."""
 
     way: int
     time: float
     limits: Floats
-    beside: Floats
+    nearby_values: Floats
 
     @property
     def limit(self) -> float:
@@ -197,7 +204,7 @@ class SignalsOnWays:
         self.pieces = Pieces(self._values, layout, stretch[own], low[own], high[own], wanted)
 
     @classmethod
-    def told(
+    def resolved(
         cls,
         ways: Ways,
         read: Read,
@@ -207,9 +214,9 @@ class SignalsOnWays:
         first: int = PIECES,
         paced: tuple[int, ...] = (),
     ) -> SignalsOnWays:
-        """With pieces beside ends short enough that limits there are told, if they can be."""
+        """With pieces next to ends short enough to determine limits there, if possible."""
         found = cls(ways, read, of, wanted, more, 1.0, first, paced)
-        if ways.whole or not any(np.isnan(each.limits).any() for each in found.ends):
+        if ways.complete or not any(np.isnan(each.limits).any() for each in found.ends):
             return found
         return cls(ways, read, of, wanted, more, SLOWED[1] / SLOWED[0], first, paced)
 
@@ -240,10 +247,10 @@ class SignalsOnWays:
         times = ways.time(ends, way[near])
         for k, time in zip(near, times, strict=True):
             values = found[:count, :, k]
-            limits = np.array([limit(row, 2 if ways.whole else STEEPEST) for row in values.T])
+            limits = np.array([limit(row, 2 if ways.complete else STEEPEST) for row in values.T])
             self.ends.append(End(int(way[k]), float(time), limits, values[:, 0].copy()))
             between = weights(AWAY, nodes if side[k] > 0.0 else 1.0 - nodes) @ values
-            steep = np.isinf(limits) | (np.isnan(limits) & (not ways.whole))
+            steep = np.isinf(limits) | (np.isnan(limits) & (not ways.complete))
             found[:, :, k] = np.where(steep, values[-1], between)
         found[:, self._paced] *= np.broadcast_to(ways.pace(own), own.shape)[:, None]
         return found

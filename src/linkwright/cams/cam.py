@@ -202,7 +202,7 @@ class Cam(CamShape):
         return 1.0 / max(float(bend.max()), 1e-12)
 
     def _contact_lost(self) -> list[Finding]:
-        """Where a given spring does not hold the contact."""
+        """Where a set spring does not maintain the contact."""
         loading = self.loaded
         unloaded = not loading.mass and not loading.load and loading.spring.preload is None
         if self.closure != "force" or self.barrel_radius is not None or unloaded:

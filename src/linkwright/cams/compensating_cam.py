@@ -24,14 +24,14 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.words import _
 
-#: Positions of the cycle; corrections of the lift; least change of the output per lift that counts as one.
+#: Positions of the cycle; corrections of the lift; minimum change of the output per lift that counts.
 _STEPS, _CORRECTIONS, _NO_EFFECT = 1440, 6, 1e-6
 #: A trial lift: share of the machine's size of a follower that slides; rad of one that swings.
 _TRIAL = 1e-3
 
 
 _NOT_ONE_TURN = _(
-    "the cam has to turn once in a closed cycle that is passed as a whole with its follower at rest",
+    "the cam has to turn once in a closed cycle that is passed completely with its follower at rest",
     code="cams.compensation_cycle",
 )
 
@@ -62,7 +62,7 @@ class CompensatingCam(Tabular):
         return "angle" if joint.side else "length"
 
     def tables(self, language: str = "en") -> tuple[Table, ...]:
-        """What is kept constant where, and how well."""
+        """What is held constant where, and how well."""
         output, kind = str(self.output), self.output.dimension
         first, last = (shown(each, self.mechanism.across) for each in self.zone)
         title = _(
@@ -75,7 +75,7 @@ class CompensatingCam(Tabular):
         rows = (
             (_("{output} varies in it, follower at rest, by", output=output), Amount(self.before, kind)),
             (_("with the cam by"), Amount(self.after, kind)),
-            (_("whole lift"), Amount(float(np.ptp(self.lifts)), self.lift_dimension)),
+            (_("total lift"), Amount(float(np.ptp(self.lifts)), self.lift_dimension)),
         )
         return (Table(rows=rows, title=title),)
 
@@ -129,7 +129,7 @@ def compensating_cam(
     if meant.kind not in (*PLACES, *NAMED) or meant.is_point:
         raise RequestError(
             _(
-                '"{name}" cannot be kept constant; give an output that the model names, a point\'s '
+                '"{name}" cannot be held constant; give an output that the model names, a point\'s '
                 "coordinate, an angle or a displacement",
                 code="cams.compensated_output",
                 name=output,

@@ -18,8 +18,8 @@ BEYOND, _PLACES = math.radians(8.0), 180
 
 
 BEYOND_ANGLES = _(
-    "the zone with what lies beyond it on both sides is not within the angles given, or "
-    "nearly a whole turn; give a smaller zone",
+    "the zone with what lies beyond it on both sides is not within the angles, or "
+    "nearly a full turn; give a smaller zone",
     code="cams.compensation_zone",
 )
 

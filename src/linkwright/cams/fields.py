@@ -56,7 +56,7 @@ def _settled(each: Field, lift: str) -> Field:
 
 _LIFT = ("length", "angle")
 _FIND: Mapping[str, Field] = {
-    "minimize": Word(tuple(ORDERS), required=True, doc="whose peak is made least"),
+    "minimize": Word(tuple(ORDERS), required=True, doc="whose peak is minimized"),
     "points": Listed(
         Table({
             "at": Quantity("angle", required=True, doc="angle of the cam"),
@@ -76,7 +76,7 @@ _FIND: Mapping[str, Field] = {
     ),
     "velocity": LiftQuantity(RATES["length", "angle"][0], RATES["angle", "angle"][0], minimum=0.0, doc="limit"),
     "acceleration": LiftQuantity(RATES["length", "angle"][1], RATES["angle", "angle"][1], minimum=0.0, doc="limit"),
-    "pieces": Integer(12, doc="pieces of the spline, 90 unless given"),
+    "pieces": Integer(12, doc="pieces of the spline; default 90"),
 }  # fmt: skip
 
 
@@ -84,7 +84,7 @@ _FIND: Mapping[str, Field] = {
 class CamLimits:
     """What a cam must keep: pressure angles (rad) while rising and falling, the profile's smallest radius (m).
 
-    Hertz's pressure (Pa), and the least effort (N or N·m along the follower's coordinate) that a spring must leave.
+    Hertz's pressure (Pa), and the minimum effort (N or N·m along the follower's coordinate) that a spring must leave.
     """
 
     pressure_angle: float | None = file_key(
@@ -100,7 +100,7 @@ class CamLimits:
         Quantity("pressure", above=0.0, doc="largest Hertzian pressure"), None
     )
     contact_force: float = file_key(
-        LiftQuantity("force", "torque", minimum=0.0, doc="least effort that the spring leaves"), 0.0
+        LiftQuantity("force", "torque", minimum=0.0, doc="minimum effort that the spring leaves"), 0.0
     )
 
     @property
@@ -143,9 +143,9 @@ CAM_FIELDS: Mapping[str, Field] = {
     "follower": Table.of(Follower, required=True, doc="what rides on the cam"),
     "program": ProgramField(lift_of, "angle", doc="segments over one turn, one after the other"),
     "find": WithLift(_FIND, doc="a program to be found: the smoothest that meets points and windows"),
-    "base_radius": Quantity("length", above=0.0, doc="radius of the base circle; chosen unless given"),
-    "turn": Word(("counterclockwise", "clockwise"), doc="counterclockwise unless given"),
-    "closure": Word(("force", "groove", "conjugate"), doc="what keeps the contact; force unless given"),
+    "base_radius": Quantity("length", above=0.0, doc="radius of the base circle; chosen by default"),
+    "turn": Word(("counterclockwise", "clockwise"), doc="default counterclockwise"),
+    "closure": Word(("force", "groove", "conjugate"), doc="what maintains the contact; default force"),
     "barrel_radius": Quantity("length", above=0.0, doc="radius of the cylinder of a barrel cam"),
     "conjugate": Table.of(CamConjugate, doc="the second cam of a pair"),
     "speed": Quantity("angular_velocity", minimum=0.0, doc="speed of the cam"),
@@ -154,7 +154,7 @@ CAM_FIELDS: Mapping[str, Field] = {
     "load": LiftQuantity("force", "torque", doc="constant load that presses the follower on the cam"),
     "spring": WithLift.of(CamSpring, doc="the follower's spring; {} chooses it"),
     "width": Quantity("length", above=0.0, doc="width of the contact"),
-    "material": Table.of(CamMaterial, doc="materials, steel on steel unless given"),
+    "material": Table.of(CamMaterial, doc="materials; default steel on steel"),
     "elasticity": WithLift.of(CamElasticity, doc="the follower as a mass on a spring, for its vibration"),
     "limits": WithLift.of(CamLimits, doc="what the cam must keep"),
     "choose": Table.of(CamChoice, doc="what may be chosen with the base circle"),
@@ -196,7 +196,7 @@ def program_of(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _program(values: Mapping[str, Any]) -> Any:
-    """The program that is given or found; raises ModelError where there is not exactly one."""
+    """The program that is set or found; raises ModelError where there is not exactly one."""
     program, find = values.get("program"), values.get("find")
     if (program is None) == (find is None):
         raise ModelError(
@@ -220,5 +220,5 @@ def _program(values: Mapping[str, Any]) -> Any:
 def _bounds(window: Mapping[str, Any]) -> tuple[float, float]:
     if window.get("dwell") is not None:
         return window["dwell"], window["dwell"]
-    least, most = window.get("least"), window.get("most")
-    return -math.inf if least is None else least, math.inf if most is None else most
+    low, high = window.get("least"), window.get("most")
+    return -math.inf if low is None else low, math.inf if high is None else high

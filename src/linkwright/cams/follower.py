@@ -29,7 +29,7 @@ class Follower:
     """
 
     kind: str = file_key(Word(KINDS, required=True, doc=_("what touches the cam")), "roller")
-    motion: str = file_key(Word(MOTIONS, doc="translating unless given"), "translating")
+    motion: str = file_key(Word(MOTIONS, doc="default translating"), "translating")
     roller_radius: float = file_key(Quantity("length", above=0.0, doc=_("radius of the roller")), 0.0)
     offset: float = file_key(
         Quantity("length", doc="distance of a translating follower's line to the right of the centre, 0"), 0.0
@@ -83,9 +83,9 @@ class Follower:
         return math.sqrt(prime**2 - self.offset**2) if prime > abs(self.offset) else None
 
 
-def lift_of(given: Mapping[str, Any]) -> str:
+def lift_of(values: Mapping[str, Any]) -> str:
     """Dimension of the lift, by the follower that was read before."""
-    follower = given.get("follower")
+    follower = values.get("follower")
     return follower.lift_dimension if isinstance(follower, Follower) else "length"
 
 

@@ -62,7 +62,7 @@ def cam_of(mechanism: Mechanism, name: str, *, speed: float = 0.0) -> Cam:
 
 
 def _follower(joint: CamJoint, mechanism: Mechanism) -> Follower:
-    """A follower that swings: seen from its pivot the left side is below the line to the cam."""
+    """A follower that swings: looking from its pivot the left side is below the line to the cam."""
     carrier, own = mechanism.link(joint.carrier).points, mechanism.link(joint.follower).points
     line = np.subtract(carrier[joint.centre], carrier[joint.holder])
     arm = np.subtract(own[joint.at], own[joint.holder])

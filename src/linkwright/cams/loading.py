@@ -20,10 +20,10 @@ class CamSpring:
     """Presses the follower on the cam: ``stiffness`` (N/m or N·m/rad), ``preload`` (N or N·m) at zero lift."""
 
     stiffness: float | None = file_key(
-        LiftQuantity("stiffness", "torsional_stiffness", minimum=0.0, doc="chosen unless given"), None
+        LiftQuantity("stiffness", "torsional_stiffness", minimum=0.0, doc="chosen by default"), None
     )
     preload: float | None = file_key(
-        LiftQuantity("force", "torque", minimum=0.0, doc="at zero lift; chosen unless given"), None
+        LiftQuantity("force", "torque", minimum=0.0, doc="at zero lift; chosen by default"), None
     )
 
 
@@ -69,12 +69,12 @@ class CamLoading:
         pressed = (self.spring.preload or 0.0) + (self.spring.stiffness or 0.0) * s
         return np.asarray(pressed - self.demand(program, phi))
 
-    def with_spring(self, program: Program, phi: Floats, least: float) -> CamLoading:
-        """The loading with a spring that keeps an effort of ``least``: what is not given is chosen.
+    def with_spring(self, program: Program, phi: Floats, minimum: float) -> CamLoading:
+        """The loading with a spring that leaves an effort of ``minimum``: what is not set is chosen.
 
-        Without stiffness and preload those with the least mean force, a linear program of two unknowns.
+        Without stiffness and preload those with the minimum mean force, a linear program of two unknowns.
         """
-        need = self.demand(program, phi) + least
+        need = self.demand(program, phi) + minimum
         s = program.curves(phi)[0]
         k, preload = self.spring.stiffness, self.spring.preload
         if k is None and preload is None:
@@ -85,14 +85,14 @@ class CamLoading:
         if k is None:
             lifted = s > 1e-9 * max(float(np.ptp(s)), 1e-12)
             k = max(0.0, float(((need[lifted] - preload) / s[lifted]).max(initial=0.0)))
-        return replace(self, spring=CamSpring(k, preload))._between_places(self.spring, program, least)
+        return replace(self, spring=CamSpring(k, preload))._between_places(self.spring, program, minimum)
 
-    def _between_places(self, asked: CamSpring, program: Program, least: float) -> CamLoading:
+    def _between_places(self, asked: CamSpring, program: Program, minimum: float) -> CamLoading:
         """The loading with what was chosen of its spring made larger by what misses between the places of a look."""
         found, half = self, 0.5 * program.lifts[1]
         for _ in range(8):
-            lowest, spring = found.least_effort(program), found.spring
-            missing = least - lowest.value
+            lowest, spring = found.minimum_effort(program), found.spring
+            missing = minimum - lowest.value
             height = float(program.curves(np.array([lowest.place]))[0][0])
             high = height > (half if asked.preload is None else 0.0)
             if missing <= 0.0:
@@ -106,7 +106,7 @@ class CamLoading:
             found = replace(found, spring=spring)
         return found
 
-    def least_effort(self, program: Program) -> Extreme:
+    def minimum_effort(self, program: Program) -> Extreme:
         """The smallest effort over the turn, N or N·m, with its place, found between all places."""
         inner = program.breaks[(program.breaks > 0) & (program.breaks < program.period)]
         effort = Curve.of(lambda phi: self.effort(program, phi), 0.0, program.period, pieces=24, knots=inner)
@@ -114,7 +114,7 @@ class CamLoading:
 
 
 def _best_stiffness(s: Floats, need: Floats) -> float:
-    """The stiffness with which the mean of F₀ + k s is least, while F₀ + k s >= need everywhere."""
+    """The stiffness that minimizes the mean of F₀ + k s, while F₀ + k s >= need everywhere."""
     from scipy.optimize import linprog
 
     height = float(s.max())

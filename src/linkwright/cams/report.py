@@ -100,9 +100,9 @@ def _remarks(design: CamDesign, say: Say) -> list[Message]:
         return [_("What keeps it from being smoother: {names}.", names=named)]
     if not isinstance(program, MotionProgram):
         return []
-    told = (_("The acceleration jumps at {places}."), _("The jerk jumps at {places}."))
+    remarks = (_("The acceleration jumps at {places}."), _("The jerk jumps at {places}."))
     found = []
-    for order, jumps in zip((2, 3), told, strict=True):
+    for order, jumps in zip((2, 3), remarks, strict=True):
         places = [shown(each, "angle") for each in program.places_of_jumps(order)]
         if places:
             found.append(
@@ -198,11 +198,11 @@ def _forces(design: CamDesign, say: Say) -> Block | None:
 
 
 def _weak_spring(design: CamDesign) -> list[Message]:
-    """Where a given spring leaves less than the least effort that is asked for."""
+    """Where a set spring leaves less than the minimum effort that is asked for."""
     limit = design.cam.limits.contact_force
     if not limit or design.cam.closure != "force":
         return []
-    lowest = design.loading.least_effort(design.cam.program)
+    lowest = design.loading.minimum_effort(design.cam.program)
     if lowest.value >= limit * (1 - 1e-6):
         return []
     kind = "torque" if design.cam.follower.oscillating else "force"

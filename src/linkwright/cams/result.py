@@ -165,7 +165,7 @@ class CamDesign(Result):
         return Extreme(found.place, -1.0 / found.value) if found.value < -1e-9 * abs(self.size) else None
 
     @property
-    def least_growth(self) -> float:
+    def minimum_growth(self) -> float:
         """The smallest growth of the walls along the way, below zero where a profile folds back."""
         return min(
             self._extreme(lambda phi, w=wall: w.contact(phi).growth, "min").value for wall in self.cam.walls
@@ -304,11 +304,11 @@ class CamDesign(Result):
         if not _FEWEST <= points <= _MOST:
             raise RequestError(
                 _(
-                    "{points} points; give {least} to {most}",
+                    "{points} points; give {minimum} to {maximum}",
                     code="cams.points",
                     points=points,
-                    least=_FEWEST,
-                    most=_MOST,
+                    minimum=_FEWEST,
+                    maximum=_MOST,
                 )
             )
         end = self.cam.barrel_radius is not None

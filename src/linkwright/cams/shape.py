@@ -1,4 +1,4 @@
-"""A cam as it is given: its program, follower, sizes and loads; its walls, and what its spring holds."""
+"""A cam's input data: its program, follower, sizes and loads; its walls, and what its spring holds."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Mirrored(Program):
 
 @dataclass(frozen=True)
 class CamShape(Problem):
-    """What is given of a cam: see ``Cam``."""
+    """Input data of a cam: see ``Cam``."""
 
     kind: ClassVar[str] = "cam"
     fields = FileKeys(CAM_FIELDS)
@@ -158,7 +158,7 @@ class CamShape(Problem):
 
     @cached_property
     def loaded(self) -> CamLoading:
-        """The loading with its spring, chosen where it is wanted and not given."""
+        """The loading with its spring, chosen where it is wanted and not set."""
         if not self.spring_wanted or self.closure != "force":
             return self.loading
         return self.loading.with_spring(self.program, self.tried, self.limits.contact_force)

@@ -67,14 +67,14 @@ def _best_offset(cam: CamShape, program: Sampled) -> float:
     """The offset with the smallest base circle, from equal ones between the bounds, then between the best ones."""
     assert cam.choose.offset is not None
     low, high = cam.choose.offset
-    whole = high - low
+    span = high - low
     while True:
         offsets = np.linspace(low, high, _OFFSETS)
         cams = [_with(cam, cam.follower.roller_radius, e) for e in offsets.tolist()]
         radii = [_smallest(_rule(each, program), _scale(cam)) for each in cams]
         known = np.array([np.inf if each is None else each for each in radii])
         k = int(known.argmin())
-        if high - low <= _OFFSET * whole:
+        if high - low <= _OFFSET * span:
             return float(offsets[k])
         low, high = float(offsets[max(k - 1, 0)]), float(offsets[min(k + 1, _OFFSETS - 1)])
 
@@ -86,7 +86,7 @@ def _rule(cam: CamShape, program: Sampled) -> Callable[[float], bool]:
 
 
 def _exactly(cam: CamShape, radius: float | None) -> float | None:
-    """The base radius near the one of a first look with which the limits are kept between its places as well."""
+    """The base radius near the one of a first look with which the limits hold between its places as well."""
     if radius is None:
         return None
     low, high = (1 - 2 * _ROUGH) * radius, radius
@@ -112,7 +112,7 @@ def _keeps_exactly(cam: CamShape, radius: float) -> bool:
     if smallest is not None and smallest.value < (cam.limits.curvature_radius or 0.0):
         return False
     flat = abs(design.pressure_angle_rise.value) <= rise and abs(design.pressure_angle_fall.value) <= fall
-    if not (flat and design.least_growth > 0):
+    if not (flat and design.minimum_growth > 0):
         return False
     most = cam.limits.contact_pressure
     return most is None or (largest := design.largest_pressure) is None or largest.value <= most
@@ -168,7 +168,7 @@ def _smallest(holds: Callable[[float], bool], scale: float) -> float | None:
 
 
 def keeps(cam: CamShape, radius: float, phi: Floats) -> bool:
-    """Whether with a base circle of ``radius`` (m) the follower fits and every limit is kept at angles ``phi``."""
+    """Whether with a base circle of ``radius`` (m) the follower fits and every limit holds at angles ``phi``."""
     there = replace(cam, base_radius=radius)
     if there.misfit() is not None:
         return False
@@ -180,7 +180,7 @@ def keeps(cam: CamShape, radius: float, phi: Floats) -> bool:
                 return False
         elif contact.growth.min() <= 0 or (limit and contact.bend.max() > 1.0 / limit):
             return False
-        if not _angles_kept(there, phi, contact.pressure_angle):
+        if not _angles_within(there, phi, contact.pressure_angle):
             return False
         if cam.limits.contact_pressure is not None and cam.width:
             force = there.loading.effort(cam.program, phi) / leverage(cam.follower, contact)
@@ -190,7 +190,7 @@ def keeps(cam: CamShape, radius: float, phi: Floats) -> bool:
     return True
 
 
-def _angles_kept(cam: CamShape, phi: Floats, angle: Floats) -> bool:
+def _angles_within(cam: CamShape, phi: Floats, angle: Floats) -> bool:
     rise, fall = cam.limits.angles
     rate = cam.program.curves(phi)[1]
     moving = 1e-9 * float(np.abs(rate).max())

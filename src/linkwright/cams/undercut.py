@@ -112,10 +112,10 @@ class _Search:
         return np.where(folded, np.maximum(found, 2 * self.slack), found)
 
     def _deepest(self, points: Complexes) -> Floats:
-        """Largest reach over the whole way, refined from the three best places that are peaks."""
-        seen = self.curve.reach_table(points, self.psi)
-        peaks = (seen >= np.roll(seen, 1, axis=1)) & (seen >= np.roll(seen, -1, axis=1))
-        ranked = np.where(peaks, seen, -np.inf)
+        """Largest reach over the full path, refined from the three best places that are peaks."""
+        reach = self.curve.reach_table(points, self.psi)
+        peaks = (reach >= np.roll(reach, 1, axis=1)) & (reach >= np.roll(reach, -1, axis=1))
+        ranked = np.where(peaks, reach, -np.inf)
         best = np.argsort(-ranked, axis=1)[:, :3]
         most = np.zeros(len(points))
         width = 2 * self.period / len(self.phi)
@@ -155,7 +155,7 @@ def folds(growth: Curve) -> list[tuple[float, float]]:
 
 
 def cusps(program: Program, curve: CamCurve) -> tuple[float, ...]:
-    """Angles (rad) at which the profile, followed as it is, has a cusp: its growth passes zero."""
+    """Angles (rad) at which the profile has a cusp: its growth passes zero."""
     inner = program.breaks[(program.breaks > 0) & (program.breaks < program.period)]
     growth = Curve.of(lambda x: curve.contact(x).growth, 0.0, program.period, pieces=24, knots=inner)
     return tuple(place for pair in folds(growth) for place in pair if 0.0 < place < program.period)

@@ -1,4 +1,4 @@
-"""The follower as one mass on a spring that the cam moves: what it does beside what it should."""
+"""The follower as one mass on a spring that the cam moves: its deviation from the lift."""
 
 from __future__ import annotations
 

@@ -221,7 +221,7 @@ def data(solved: Solved, options: Options) -> dict[str, object]:
     motion, forces = solved.motion, solved.forces
     failed = [int(row) for row in solved.rows if not motion.ok[row]]
     found: dict[str, object] = {
-        "ok": motion.whole and solved.trouble is None,
+        "ok": motion.complete and solved.trouble is None,
         "name": motion.mechanism.name,
         "mobility": motion.structure.mobility,
         "turned": motion.structure.data()["turned"],

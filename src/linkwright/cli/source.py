@@ -17,4 +17,4 @@ def read_model(source: str, session: Session) -> tuple[Mechanism, list[Finding]]
     mechanism, findings = read_text(*read_source(source))
     if mechanism is None:
         raise ModelError(findings)
-    return mechanism if session.json else mechanism.said_in(session.language), findings
+    return mechanism if session.json else mechanism.translate(session.language), findings

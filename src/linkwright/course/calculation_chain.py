@@ -91,7 +91,7 @@ class Calculation:
             if line.given:
                 value = leaf(line.result)
             elif functions is not None or formula is not line.formula or not moved.isdisjoint(line.symbols):
-                value = formula.reckon(leaf, apply)
+                value = formula.evaluate(leaf, apply)
             known[line.result.plain] = value
             (moved.discard if value == right[number] else moved.add)(line.result.plain)
             found.append(value)

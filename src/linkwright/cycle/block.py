@@ -76,7 +76,7 @@ class Block:
         sines, cosines = formulas
         found = events(sines, self.known, self.designs, Stretches(self.span, []))
         return [
-            each.kept(cosines.run(self.known, each.columns(), AT)[0, k] > 0.0) if len(each.time) else each
+            each.selected(cosines.run(self.known, each.columns(), AT)[0, k] > 0.0) if len(each.time) else each
             for k, each in enumerate(found)
         ]
 

@@ -29,7 +29,7 @@ class Cycle(Asked):
     """What is wanted of a machine: ``parts``, its summaries.
 
     ``limited``: outputs whose places and extremes are those of their limit positions; ``never``: outputs by whose
-    reversals designs are told apart; ``even``: signals that pieces meet everywhere; ``bent``: one may
+    reversals designs are distinguished; ``even``: signals that pieces meet everywhere; ``bent``: one may
     bend where it is zero, between two nodes of neighbours.
     """
 
@@ -81,7 +81,7 @@ class Cycle(Asked):
         return {**found, VALID: traces.valid()}
 
     def _follow(self) -> None:
-        """What goes to and fro: ``whole``, where loads find limits over more than the course."""
+        """What oscillates: ``full``, where loads find limits over more than the course."""
         machine, loads = self.machine, self.machine.mechanism.loads.values()
         phases = [load.magnitude.phase for load in loads]
         swung = [each.output for each in phases if isinstance(each, SwingPhase)]
@@ -97,7 +97,7 @@ class Cycle(Asked):
         own = [*moving, *asked] if turned else [*swung, *moving, *asked]
         valued = self.limited.values() if turned else [*self.limited.values(), *swung]
         self.swings = Swings(machine, dict.fromkeys([*own, *turning]), valued)
-        self.whole = Swings(turned, dict.fromkeys([*swung, *moving]), swung) if turned else None
+        self.full = Swings(turned, dict.fromkeys([*swung, *moving]), swung) if turned else None
         self.bending = tuple(dict.fromkeys([*opposed, *driven, *moving, *turning]))
         self.signed = self._signed()
 

@@ -28,7 +28,7 @@ class Backward:
     def __init__(self, solved: Solved) -> None:
         self.solved, self.cycle, self.pieces = solved, solved.cycle, solved.pieces
         self.back = ByColumns(solved)
-        self.blocks = [solved] if solved.whole is None else [solved.whole, solved]
+        self.blocks = [solved] if solved.full is None else [solved.full, solved]
         for each in (*self.blocks, solved.loads):
             each.forget()
         for family in solved.stretches.families:
@@ -109,8 +109,8 @@ class Backward:
         every = self.pieces
         by_mean = every.each(bar / every.period)
         power = values * values if square else values
-        whole = WEIGHTS @ power
-        by_width = (whole - every.each(every.total(whole * every.width) / every.period)) * by_mean
+        weighted = WEIGHTS @ power
+        by_width = (weighted - every.each(every.total(weighted * every.width) / every.period)) * by_mean
         return WEIGHTS[:, None] * every.width * by_mean * (2.0 * values if square else 1.0), by_width
 
     def _of_excess(self, k: int, values: Floats, bar: Floats) -> tuple[Floats, Floats]:

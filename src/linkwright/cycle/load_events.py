@@ -37,12 +37,12 @@ def _unmoved(design: Indices, by_value: Floats) -> None:
 
 class LoadEvents:
     """When the loads of a machine act: ``acting``; ``families`` of the cuts that they make, ``knots`` (s) of those
-    that no design moves; ``whole``: the block over the whole cycle, in which they find limits, where the course is
+    that no design moves; ``full``: the block over the full cycle, in which they find limits, where the course is
     a part of it."""
 
-    def __init__(self, block: Block, whole: Block | None) -> None:
-        self.block, self.machine, self.limited = block, block.machine, whole or block
-        self.kept: list[tuple[Limits, Events]] = []
+    def __init__(self, block: Block, full: Block | None) -> None:
+        self.block, self.machine, self.limited = block, block.machine, full or block
+        self.selections: list[tuple[Limits, Events]] = []
         self.reached: list[tuple[Events, Reached]] = []
         self.inputs: list[AtInput] = []
         self.acting = [self._acting(name) for name in self.machine.phases]
@@ -52,9 +52,9 @@ class LoadEvents:
         self.knots = self._tables()
         ends: dict[int, Cuts] = {id(each): each for acting in self.acting for each in acting.events}
         self.repeated: list[Repeated] = []
-        if whole is not None:
-            limits = [ends.pop(id(each)) for _, each in self.kept if id(each) in ends]
-            self.repeated = [Repeated(each, whole.span.period, block.span) for each in limits]
+        if full is not None:
+            limits = [ends.pop(id(each)) for _, each in self.selections if id(each) in ends]
+            self.repeated = [Repeated(each, full.span.period, block.span) for each in limits]
         self.families = [*self.repeated, *ends.values(), *self.inputs, *(each for each, _ in self.reached)]
 
     def _acting(self, name: str) -> Acting:
@@ -68,9 +68,9 @@ class LoadEvents:
         limits = limited.limits.get(phase.output)
         if limits is None:
             return Never(load, self.block.span)
-        kept = limits.events.kept(limits.is_outermost) if phase.outermost else limits.events
-        self.kept.append((limits, kept))
-        strokes = of_limits(kept, (phase.start == "min", phase.end == "min"), limits.span)
+        selected = limits.events.selected(limits.is_outermost) if phase.outermost else limits.events
+        self.selections.append((limits, selected))
+        strokes = of_limits(selected, (phase.start == "min", phase.end == "min"), limits.span)
         if not phase.in_part:
             return OnStrokes(load, strokes, by_time=bool(self.machine.course.turns))
         assert isinstance(phase, SwingPhase)
@@ -193,9 +193,9 @@ class LoadEvents:
             back.add(*each.pull(self.machine.course.first.name))
         for repeated in self.repeated:
             repeated.push()
-        for limits, kept in self.kept:
-            if kept is not limits.events:
-                limits.events.bar[limits.is_outermost] += kept.bar
+        for limits, selected in self.selections:
+            if selected is not limits.events:
+                limits.events.bar[limits.is_outermost] += selected.bar
 
     def forget(self) -> None:
         """Sets all derivatives to zero."""

@@ -90,9 +90,9 @@ class _Block:
 
     def __init__(self, sought: LoadLimits, columns: Mapping[str, Floats]) -> None:
         self.sought = sought
-        given = {name: np.asarray(each, dtype=float) for name, each in columns.items()}
-        self.count = len(next(iter(given.values()))) if given else 1
-        self.block = Block(sought.swings, {**given, ROW: np.arange(float(self.count))}, self.count)
+        arrays = {name: np.asarray(each, dtype=float) for name, each in columns.items()}
+        self.count = len(next(iter(arrays.values()))) if arrays else 1
+        self.block = Block(sought.swings, {**arrays, ROW: np.arange(float(self.count))}, self.count)
         self.numbers = self._numbers()
         self.certain = np.ones(self.count, dtype=np.bool_)
         for phase in sought.phases:

@@ -109,7 +109,7 @@ class Traces:
         self.tracked: tuple[ChainCoordinate, ...] = ()
         if iterated(self.motion.structure):
             self.tracked = chain_coordinates(self.motion)
-        self._kept: dict[Hashable, Formula] = {}
+        self._formulas: dict[Hashable, Formula] = {}
         self._quantities: dict[str, Quantity] = {}
 
     @cached_property
@@ -170,10 +170,10 @@ class Traces:
         then: Callable[[Trace, dict[str, Scalar]], Mapping[str, Scalar]] | None = None,
     ) -> Formula:
         """Traced outputs as a formula over pieces, or what is made of them and of columns ``then``."""
-        if key not in self._kept:
+        if key not in self._formulas:
             with self.programs.motion.lock:
-                self._kept[key] = self._made(outputs(), then)
-        return self._kept[key]
+                self._formulas[key] = self._made(outputs(), then)
+        return self._formulas[key]
 
     def _made(
         self,
@@ -182,7 +182,7 @@ class Traces:
     ) -> Formula:
         t = Trace()
         node, low, high = t.parameter(NODE), t.position(LOW), t.position(HIGH)
-        given = self.course.inputs(t, low + (high - low) * node, self.varied)
+        inputs = self.course.inputs(t, low + (high - low) * node, self.varied)
         source = Program.of(self.motion.trace, outputs)
         more: dict[str, Scalar] = {
             name: t.position(name) for name in source.parameters if name in self.varied
@@ -192,22 +192,22 @@ class Traces:
             kind, _, load = name.partition(":")
             if name in self.motion.angles.carried and not self.tracked:
                 first, turns = (t.parameter(_line_name(name, which)) for which in ("first", "turns"))
-                more[name] = first + turns * given["input"]
+                more[name] = first + turns * inputs["input"]
             elif kind == ACTS:
                 more[name] = t.position(name)
             elif kind == "share":
-                more[name] = self._share(t, load, given, more)
-        found = inlined(source, t, {**given, **more})
-        return Formula(Program.of(t, found if then is None else then(t, {**found, "input": given["input"]})))
+                more[name] = self._share(t, load, inputs, more)
+        found = inlined(source, t, {**inputs, **more})
+        return Formula(Program.of(t, found if then is None else then(t, {**found, "input": inputs["input"]})))
 
-    def _share(self, t: Trace, load: str, given: Mapping[str, Scalar], more: Mapping[str, Scalar]) -> Scalar:
+    def _share(self, t: Trace, load: str, inputs: Mapping[str, Scalar], more: Mapping[str, Scalar]) -> Scalar:
         """The share of a load's phase that is passed, along the input, or the value of an output."""
         phase = self.motion.mechanism.loads[load].magnitude.phase
-        along = given["time" if self.course.turns else "input"]
+        along = inputs["time" if self.course.turns else "input"]
         if phase.in_part:
             source = Program.of(self.motion.trace, {"along": self.value(phase.outputs[0])})
             columns = {n: t.position(n) for n in source.parameters if n in self.varied}
-            along = inlined(source, t, {**given, **more, **columns})["along"]
+            along = inlined(source, t, {**inputs, **more, **columns})["along"]
         return (along - t.position(since_name(load))) / t.position(length_name(load))
 
 
@@ -243,7 +243,7 @@ class Machine:
     ) -> None:
         self.mechanism = replace(mechanism, loads={}) if unloaded else mechanism
         self.nominal, self.varied = nominal, tuple(varied)
-        if not nominal.whole or nominal.modes or nominal.steps < 3 or not mechanism.drivers:
+        if not nominal.complete or nominal.modes or nominal.steps < 3 or not mechanism.drivers:
             raise NotTogether
         self.loads = self._traced_loads()
         self.course = Course.of(mechanism, nominal.positions, seam=self._seamed())
@@ -297,7 +297,7 @@ class Machine:
 
     @cached_property
     def turned(self) -> Machine | None:
-        """The machine over the whole cycle in which its loads find the limits of outputs; None where that is its
+        """The machine over the full cycle in which its loads find the limits of outputs; None where that is its
         own."""
         motion = MotionSignals(self.nominal).turned
         found = Course.of(self.mechanism, motion.positions)
@@ -355,7 +355,7 @@ class Machine:
 
     @property
     def known(self) -> Known:
-        """The numbers that formulas take beside columns."""
+        """The numbers that formulas take besides columns."""
         return Known(self._numbers, self.loads.tables, self.compiled)
 
     @cached_property
@@ -430,7 +430,7 @@ def line_near(rotation: Floats, q: Floats) -> tuple[float, float] | None:
     """The line near which a rotation (n,) runs over the input (n,), rad where that is zero and turns in a turn of it;
     None where it is too far from any."""
     way = float(q[-1] - q[0])
-    whole = max(1.0, np.round(abs(way) / (2.0 * np.pi)))
-    turns = float(np.round(whole * (rotation[-1] - rotation[0]) / way) / whole) if way else 0.0
+    laps = max(1.0, np.round(abs(way) / (2.0 * np.pi)))
+    turns = float(np.round(laps * (rotation[-1] - rotation[0]) / way) / laps) if way else 0.0
     rest = rotation - turns * q
     return (0.5 * float(rest.max() + rest.min()), turns) if np.ptp(rest) < 2.0 * CLEAR else None

@@ -17,7 +17,7 @@ from linkwright.events.events import Events, events
 from linkwright.events.formula import ROW
 from linkwright.events.stretches import Cuts, Stretches
 
-#: Pieces of a lap of the input to begin with, and where the whole course of signals is asked for, as of curves whose
+#: Pieces of a lap of the input to begin with, and where the full course of signals is asked for, as of curves whose
 #: hull is sought among their nodes.
 PIECES, PIECES_OF_COURSES = 12, 24
 
@@ -27,11 +27,11 @@ class Solved(Block, Summaries):
 
     def __init__(self, cycle: Cycle, designs: Mapping[str, Floats]) -> None:
         count = len(next(iter(designs.values()))) if designs else 1
-        given = {name: np.asarray(each, dtype=float) for name, each in designs.items()}
-        super().__init__(cycle.swings, {**given, ROW: np.arange(float(count))}, count)
+        arrays = {name: np.asarray(each, dtype=float) for name, each in designs.items()}
+        super().__init__(cycle.swings, {**arrays, ROW: np.arange(float(count))}, count)
         self.cycle = self.asked = cycle
-        self.whole = None if cycle.whole is None else Block(cycle.whole, self.designs, count)
-        self.loads = LoadEvents(self, self.whole)
+        self.full = None if cycle.full is None else Block(cycle.full, self.designs, count)
+        self.loads = LoadEvents(self, self.full)
         bending = [self.reversals[each] for each in cycle.bending if each in self.reversals]
         found: list[Cuts] = [*self.bends, *self.loads.families, *bending]
         families = list({id(each): each for each in found}.values())
@@ -60,7 +60,7 @@ class Solved(Block, Summaries):
 
     @cached_property
     def passed(self) -> Flags:
-        """Designs that pass the whole cycle, with friction that is certain, and loads that have values,
+        """Designs that pass the full cycle, with friction that is certain, and loads that have values,
         (designs,)."""
         valid = self.pieces.most(-self.pieces.bottom[-1]) == -1.0
         tracked = self.known.paths is None or self.known.paths.passed

@@ -101,7 +101,7 @@ class Summaries(ABC):
     @property
     @abstractmethod
     def passed(self) -> Flags:
-        """Designs that pass the whole cycle, (designs,)."""
+        """Designs that pass the full cycle, (designs,)."""
 
     @property
     @abstractmethod

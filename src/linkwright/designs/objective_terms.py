@@ -48,7 +48,7 @@ def weighted(terms: Terms) -> dict[str | PathError, float]:
         raise RequestError(NO_OUTPUTS)
     for term in found:
         if not isinstance(term, str | PathError):
-            raise RequestError(NO_TEXT.format(given=repr(term)[:60]))
+            raise RequestError(NO_TEXT.format(value=repr(term)[:60]))
     return found
 
 

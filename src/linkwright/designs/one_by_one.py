@@ -101,6 +101,6 @@ def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:
         _(
             "it could not be followed from position to position together with the others; give more steps",
         )
-        if motion.whole
+        if motion.complete
         else motion.refusal().sentence
     )

@@ -214,7 +214,7 @@ def sensitivity(
     if not asked:
         raise RequestError(NO_OUTPUTS)
     traced = Traced(mechanism, dimensions, positions, turning=True)
-    if not traced.nominal.whole:
+    if not traced.nominal.complete:
         raise traced.nominal.refusal()
     if traced.nominal.modes:
         traced = Traced(mechanism, dimensions, positions, turning=True, flipping=True)

@@ -270,7 +270,7 @@ class SweepRun:
             for each in self.asked:
                 values = outputs[each.output][places]
                 found[each.name] = summary_of(each, values, motion.ok[places], self._input)
-            found[PASSED] = motion.whole
+            found[PASSED] = motion.complete
         except LinkwrightError as error:
             self.unloaded[number] = error.sentence
         return found

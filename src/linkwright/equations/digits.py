@@ -7,8 +7,8 @@ from functools import partial
 
 from linkwright.equations.terms import NOTHING, Term
 
-#: Significant digits of a result, and the least and most of a number put in.
-RESULT, LEAST, MOST = 6, 6, 15
+#: Significant digits of a result, and the fewest and most of a substituted number.
+RESULT, FEWEST, MOST = 6, 6, 15
 #: Relative error of the numbers put in that no result's last digit may fall below.
 FINEST = 1e-11
 
@@ -67,8 +67,8 @@ def error_of(term: Term) -> float:
         case "sum":
             return sum(errors)
         case "product":
-            whole = math.prod(values)
-            return sum(e * _share(whole, values, i) for i, e in enumerate(errors))
+            product = math.prod(values)
+            return sum(e * _share(product, values, i) for i, e in enumerate(errors))
         case "quotient":
             return (
                 (errors[0] + abs(values[0] / values[1]) * errors[1]) / abs(values[1])
@@ -95,17 +95,17 @@ def error_of(term: Term) -> float:
     return math.radians(errors[0])
 
 
-def _share(whole: float, values: list[float], index: int) -> float:
+def _share(product: float, values: list[float], index: int) -> float:
     if values[index]:
-        return abs(whole / values[index])
+        return abs(product / values[index])
     return abs(math.prod(v for i, v in enumerate(values) if i != index))
 
 
 def digits_needed(term: Term, goal: str, place: int) -> int:
     """The fewest digits of the numbers put in with which the term comes out as printed, within its last digit."""
     aim, step = float(goal), 10.0**place
-    for digits in range(LEAST, MOST + 1):
-        found = term.reckon(partial(_as_put_in, digits=digits))
+    for digits in range(FEWEST, MOST + 1):
+        found = term.evaluate(partial(_as_put_in, digits=digits))
         if abs(found - aim) <= 0.98 * step:
             return digits
     return MOST

@@ -23,7 +23,7 @@ _COMMANDS = {text: name for name, text in reversed(SYMBOLS.items())} | {"φ": "v
 _SPACES = {",": r"\,", ":": r"\:", ";": r"\;", " ": r"\ ", "quad": r"\quad ", "qquad": r"\qquad "}
 _STYLES = {"bold": "mathbf", "slanted bold": "bm", "script": "mathcal", "double": "mathbb"}
 #: Signs with room on both sides, behind something.
-_APART = "+−=<>±∓≤≥≈→∈"
+_SPACED = "+−=<>±∓≤≥≈→∈"
 
 
 def latex(node: Node) -> str:
@@ -38,11 +38,11 @@ def latex(node: Node) -> str:
         case Root(inside, degree):
             return rf"\sqrt{f'[{latex(degree)}]' if degree else ''}{{{latex(inside)}}}"
         case Script(base, below, above) | Limits(base, below, above):
-            whole = f"{{{latex(base)}}}" if isinstance(base, Row) else latex(base)
+            nucleus = f"{{{latex(base)}}}" if isinstance(base, Row) else latex(base)
             low, high = (
                 f"{mark}{{{latex(part)}}}" if part else "" for mark, part in (("_", below), ("^", above))
             )
-            return whole + low + high
+            return nucleus + low + high
         case Accent(mark, inside):
             return rf"\{mark}{{{latex(inside)}}}"
         case Bracket(inside, left, right):
@@ -56,8 +56,8 @@ def latex(node: Node) -> str:
 def _row(items: tuple[Node, ...]) -> str:
     found = ""
     for item in items:
-        apart = isinstance(item, Atom) and item.kind == "sign" and item.text in _APART
-        text = f" {latex(item)} " if apart and found and not found.endswith(" ") else latex(item)
+        spaced = isinstance(item, Atom) and item.kind == "sign" and item.text in _SPACED
+        text = f" {latex(item)} " if spaced and found and not found.endswith(" ") else latex(item)
         command = re.search(r"\\[A-Za-z]+$", found)
         found += (
             f" {text}" if command and (text[0].isalnum() or command[0][1:] in (*FUNCTIONS, "cdot")) else text

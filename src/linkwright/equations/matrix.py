@@ -28,12 +28,13 @@ class Entries:
 
     @classmethod
     def of(cls, matrix: Floats | Sequence[str]) -> Entries:
-        """Of numbers (m, n), or of names (a column); numbers that are rounding beside the largest are zero."""
+        """Of numbers (m, n), or of names (a column); rounding errors of the largest are zero."""
         if not isinstance(matrix, np.ndarray):
             return cls(tuple((str(each),) for each in matrix))
-        least = ROUNDING * (float(np.abs(matrix).max()) if matrix.size else 0.0)
+        negligible = ROUNDING * (float(np.abs(matrix).max()) if matrix.size else 0.0)
         texts = (
-            ("0" if abs(c) <= least else f"{c:.6g}" for c in row) for row in np.atleast_2d(matrix).tolist()
+            ("0" if abs(c) <= negligible else f"{c:.6g}" for c in row)
+            for row in np.atleast_2d(matrix).tolist()
         )
         return cls(tuple(map(tuple, texts)))
 
@@ -43,10 +44,10 @@ class Entries:
         inside = aligned(self.rows, ">" * len(self.rows[0]))
         if len(inside) == 1:
             return [f"[{inside[0]}]"]
-        marks = ["⎡⎤", *["⎢⎥"] * (len(inside) - 2), "⎣⎦"]
+        brackets = ["⎡⎤", *["⎢⎥"] * (len(inside) - 2), "⎣⎦"]
         width = max(map(cells, inside))
         return [
-            f"{mark[0]} {padded(line, width)} {mark[1]}" for mark, line in zip(marks, inside, strict=True)
+            f"{mark[0]} {padded(line, width)} {mark[1]}" for mark, line in zip(brackets, inside, strict=True)
         ]
 
     @property

@@ -42,7 +42,7 @@ class Root:
 
 @dataclass(frozen=True)
 class Script:
-    """A sign with what stands below and above it."""
+    """A sign with a subscript and a superscript."""
 
     base: Node
     below: Node | None = None
@@ -51,7 +51,7 @@ class Script:
 
 @dataclass(frozen=True)
 class Limits:
-    """A sign with what stands straight under and over it."""
+    """A sign with what is centred below and above it."""
 
     base: Node
     below: Node | None = None
@@ -68,7 +68,7 @@ class Accent:
 
 @dataclass(frozen=True)
 class Bracket:
-    """What stands in brackets; an empty side has none."""
+    """A group in brackets; an empty side has none."""
 
     inside: Row
     left: str = "("
@@ -184,8 +184,8 @@ def name(text: str) -> Node:
         greek = letters[0] == "π" or any("α" <= c <= "ω" for c in letters[1:])
         if greek or (len(letters) == 2 and letters[0] in "Δd") or (letters.isupper() and letters.isascii()):
             *before, last = map(letter, letters)
-            apart = [each for node in before for each in ((node, THIN) if greek else (node,))]
-            return row((*apart, _exponent(indexed(last, low), above)))
+            spaced = [each for node in before for each in ((node, THIN) if greek else (node,))]
+            return row((*spaced, _exponent(indexed(last, low), above)))
     if len(letters) > 1 and not low and (letters[0].isupper() or not letters[0].isascii()):
         letters, rest = letters[0], letters[1:] + rest
     letters = _GREEK.get(letters, letters)
@@ -211,7 +211,7 @@ def _exponent(base: Node, above: Iterable[Node]) -> Node:
 
 
 def indexed(base: Node, low: str) -> Node:
-    """A sign with an index by its text: parts apart by commas, arrows between numbers."""
+    """A sign with an index by its text: parts separated by commas, arrows between numbers."""
     parts = [each for part in re.split(r"([,→])", low) if part for each in _part(part)]
     return Script(base, group(parts)) if parts else base
 

@@ -1,7 +1,7 @@
 """Formulas as they are written on a line, ``√(Rx² + Ry²)``: read as they are printed, and filled with numbers.
 
 Names: a letter with its index behind it (``Rx``, ``ρw``, ``T1``, ``m_b``), words upright; ``·`` and ``×`` multiply,
-what stands before ``/`` since the last quotient is its numerator, one factor behind it the denominator.
+what precedes ``/`` since the last quotient is its numerator, one factor behind it the denominator.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ FUNCTIONS = ("cos", "sin", "tan", "arctan", "arccos", "arcsin", "atan2", "ln", "
 _RELATIONS = "=≤≥<>≈→∈"
 _SIGNS = "+−-±∓"
 _BRACKETS = {"(": ")", "[": "]", "|": "|"}
-#: What stands before what it applies to.
+#: Prefix operators.
 #: What a symbol with an index does not hold.
 _OPERATION = re.compile(r"[·/=()√]| [-+−] ")
 _PREFIX = {"Σ": "∑", "∑": "∑", "∫": "∫", "∇": "∇", "∂": "∂", "∠": "∠"}
@@ -77,8 +77,8 @@ def filled(text: str, values: Mapping[str, str]) -> str:
 def _factor(value: str, *, tight: bool) -> str:
     """A number as a factor: as one sign where it has a unit; in brackets where it is negative, or has a unit and is
     ``tight``: raised to a power, or what something is divided by."""
-    whole = f"{OPEN}{value}{CLOSE}" if " " in value else value
-    return f"({whole})" if value.startswith(("-", "−")) or (tight and whole != value) else whole
+    bracketed = f"{OPEN}{value}{CLOSE}" if " " in value else value
+    return f"({bracketed})" if value.startswith(("-", "−")) or (tight and bracketed != value) else bracketed
 
 
 def names(text: str) -> list[str]:
@@ -136,7 +136,7 @@ def read_name(text: str) -> Row:
 
 
 def normal(text: str) -> str:
-    """A text with accents apart from their letters, as formulas are read."""
+    """A text with accents separated from their letters, as formulas are read."""
     return unicodedata.normalize("NFD", text)
 
 
@@ -266,7 +266,7 @@ class _Reader:
 
 
 def _bare(nodes: Sequence[Node]) -> Sequence[Node]:
-    """A factor without the brackets around the whole of it."""
+    """A factor without the brackets around all of it."""
     return (
         nodes[0].inside.items
         if len(nodes) == 1 and isinstance(nodes[0], Bracket) and nodes[0].left == "("

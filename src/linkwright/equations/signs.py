@@ -24,7 +24,7 @@ RELATIONS = {
 LARGE = {
     "sum": "∑", "prod": "∏", "int": "∫", "iint": "∬", "iiint": "∭", "oint": "∮", "bigcup": "⋃", "bigcap": "⋂",
 }  # fmt: skip
-#: Integrals have their limits beside them.
+#: Integrals have their limits to the right.
 INTEGRALS = "∫∬∭∮"
 OTHERS = {
     "cdot": "⋅", "times": "×", "div": "÷", "pm": "±", "mp": "∓", "ast": "∗", "star": "⋆", "oplus": "⊕",
@@ -40,7 +40,7 @@ FUNCTIONS = (
 )  # fmt: skip
 #: Functions that have their index below them.
 BELOW = ("lim", "sup", "inf")
-#: Marks over letters, as Word takes them.
+#: Accents over letters, as Word takes them.
 ACCENTS = {
     "dot": "\u0307", "ddot": "\u0308", "dddot": "\u20db", "vec": "\u20d7", "overrightarrow": "\u20d7",
     "bar": "\u0305", "hat": "\u0302", "widehat": "\u0302", "tilde": "\u0303", "widetilde": "\u0303",

@@ -63,8 +63,8 @@ class Equation:
     """One result: symbol, formula, the formula with its numbers put in, and the result with its unit.
 
     ``value`` is the result to full precision, SI, angles in degrees; ``output``: which of the machine's outputs it
-    is, if it is one; ``formula`` is empty for what is given; ``filled``: the numbers, marked as formulas on a line
-    are; ``terms``: result and formula as they can be reckoned again, with so many ``digits`` of the numbers put in.
+    is, if it is one; ``formula`` is empty for given data; ``filled``: the numbers, marked as formulas on a line are;
+    ``terms``: result and formula as they can be evaluated again, with so many ``digits`` of the substituted numbers.
     """
 
     symbol: str
@@ -94,7 +94,7 @@ class Equation:
 
     @property
     def printed_formula(self) -> Row:
-        """The formula as it is printed; empty for what is given."""
+        """The formula as it is printed; empty for given data."""
         return self._printed(self.formula, None)
 
     @property
@@ -199,7 +199,7 @@ class Step:
         self.items.append(Note(text))
 
     def law(self, text: str, unit: str = "") -> None:
-        """Adds formulas as they are written on a line, several apart by ``;``; ``unit`` of numbers."""
+        """Adds formulas as they are written on a line, several separated by ``;``; ``unit`` of numbers."""
         for each in text.split("; "):
             *first, last = sides(each)
             last = Row((*last.items, Atom("space", "quad"), upright(unit))) if unit else last
@@ -225,12 +225,12 @@ class Step:
         self.known[normal(symbol)] = (value, dimension)
 
     def _put_in(self, used: Sequence[str], dimension: str, digits: int) -> dict[str, str]:
-        """What stands for the names of a formula."""
-        given = {key: each if isinstance(each := self.known[key], tuple) else (each, "") for key in used}
-        bare = all(kind == dimension for _, kind in given.values()) and dimension != "angle"
+        """The values of the names of a formula."""
+        values = {key: each if isinstance(each := self.known[key], tuple) else (each, "") for key in used}
+        bare = all(kind == dimension for _, kind in values.values()) and dimension != "angle"
         return {
             key: (number if bare else quantity_text)(each, kind, digits)
-            for key, (each, kind) in given.items()
+            for key, (each, kind) in values.items()
         }
 
     def relate(self, left: Term, right: Term) -> None:

@@ -1,4 +1,4 @@
-"""Formulas that know their symbols and their numbers, so that both can be printed and reckoned again."""
+"""Formulas that know their symbols and their numbers, so that both can be printed and evaluated again."""
 
 from __future__ import annotations
 
@@ -66,14 +66,14 @@ class Term:
     @property
     def value(self) -> float:
         """What the term amounts to."""
-        return self.reckon(lambda leaf: 0.0 if leaf.is_rounding else leaf.amount)
+        return self.evaluate(lambda leaf: 0.0 if leaf.is_rounding else leaf.amount)
 
     @property
     def is_rounding(self) -> bool:
         """Whether the amount of a symbol or a number is nothing but rounding; degrees are small units."""
         return abs(self.amount) < (100.0 * NOTHING if self.degrees else NOTHING)
 
-    def reckon(self, leaf: Leaf, apply: Mapping[str, Function] | None = None) -> float:
+    def evaluate(self, leaf: Leaf, apply: Mapping[str, Function] | None = None) -> float:
         """The term with ``leaf`` deciding what every symbol and number is worth; NaN where it has no value.
 
         ``apply``: what operations do with the values of their terms, in place of ``APPLY``.
@@ -81,7 +81,7 @@ class Term:
         if not self.args:
             return leaf(self)
         try:
-            return (apply or APPLY)[self.op](self, [each.reckon(leaf, apply) for each in self.args])
+            return (apply or APPLY)[self.op](self, [each.evaluate(leaf, apply) for each in self.args])
         except (ValueError, ZeroDivisionError, OverflowError):
             return math.nan
 

@@ -46,9 +46,9 @@ def _equation(item: Equation, margin: int) -> Iterator[str]:
     unit = f" {item.unit}" if item.unit and item.unit != "°" else item.unit
     result = f"{item.result}{unit}"
     parts = [part for part in (item.formula, item.numbers) if part]
-    whole = start + " = ".join([*parts, result])
-    if cells(whole) <= WIDTH:
-        yield whole
+    one_line = start + " = ".join([*parts, result])
+    if cells(one_line) <= WIDTH:
+        yield one_line
         return
     indent = " " * (4 + max(margin, cells(item.symbol)))
     yield from _long(start, parts[0] if parts else result, indent)

@@ -43,8 +43,8 @@ def _leaf(term: Term, digits: int | None) -> str:
 
 
 def _wrapped(text: str, own: int, level: int, first: bool) -> bool:
-    """Whether a part stands in brackets, by how tightly it and what surrounds it (``level``) bind; ``first``: nothing
-    stands before it there."""
+    """Whether a part is in brackets, by how tightly it and what surrounds it (``level``) bind; ``first``: nothing
+    precedes it there."""
     if own == 5:
         return text.startswith("-") and level != 0 and not (first and level == 1)
     return own < level or (own == level == 1 and not first)

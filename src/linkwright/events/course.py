@@ -21,8 +21,8 @@ from linkwright.mechanism.mechanism import Mechanism
 #: A closed cycle of a driver that turns steadily is looked at from here on, as share of it, lest places of symmetric
 #: machines fall on the ends of pieces.
 BEGIN = 0.0038710
-#: Share of the cycle by which it may fail to be a whole number of turns.
-WHOLE = 1e-9
+#: Share of the cycle by which it may differ from an integer number of turns.
+FULL_TURN = 1e-9
 #: Times among which the way of a law is measured.
 LOOKS = 361
 #: Share by which a dimension is changed to see whether times and inputs follow from it.
@@ -33,7 +33,7 @@ _NUDGE = 1e-3
 class Course:
     """From ``begin``, s, for a ``duration``, s; ``closed``: whether the first position follows the last.
 
-    ``turns``: whole turns of the only driver, at constant speed, that a closed cycle has; 0 for any other course,
+    ``turns``: full turns of the only driver, at constant speed, that a closed cycle has; 0 for any other course,
     whose times no dimension moves.
     """
 
@@ -53,7 +53,7 @@ class Course:
         law, turns = drivers[0].law, 0
         if positions.closed and len(drivers) == 1 and law.rotary and (speed := law.constant_speed):
             share = abs(speed) * (end - begin) / (2.0 * pi)
-            turns = round(share) if abs(share - round(share)) <= WHOLE * share else 0
+            turns = round(share) if abs(share - round(share)) <= FULL_TURN * share else 0
         return cls(drivers, begin, end - begin, positions.closed, turns, seam)
 
     @property

@@ -73,7 +73,7 @@ class Events:
         loads = self.loaded(design, time, self.within[chosen]) if self.loaded else {}
         return at_times(self.designs, design, time) | loads
 
-    def kept(self, chosen: Indices | Flags) -> Events:
+    def selected(self, chosen: Indices | Flags) -> Events:
         """Some of them, with bars of their own."""
         parts = (self.design[chosen], self.time[chosen], self.rising[chosen], self.edges[:, chosen])
         return Events(
@@ -184,8 +184,8 @@ class _Search:
         found = []
         for name, own in zip(self.formula.outputs, (order[a:b] for a, b in pairwise(ends)), strict=True):
             columns = design[own], time[own], brackets.rising[own], edges[:, own], middle[own]
-            given = self.formula, self.known, name, self.designs, self.stretches
-            found.append(Events(*given, *columns, self.loaded))
+            common = self.formula, self.known, name, self.designs, self.stretches
+            found.append(Events(*common, *columns, self.loaded))
         return found
 
     def _changes(self, near: Flags, signal: Indices, piece: Indices, looks: Floats) -> _Brackets:
@@ -252,8 +252,8 @@ class _Search:
         alone = (before == after) & ((lap == 0.0) | ((counts[design[before]] == 1) & (self.stretches.edge[before] < 0)
                                                      & bool(self.stretches.span.course.turns)))  # fmt: skip
         first = np.searchsorted(design, design[before])
-        following = first + (before + 1 - first) % counts[design[before]]
-        return np.where(alone, -1, np.stack([following, after]))
+        after_it = first + (before + 1 - first) % counts[design[before]]
+        return np.where(alone, -1, np.stack([after_it, after]))
 
     def _at_edges(self, edges: Indices) -> Floats:
         """Times of cuts, or of the middles between two of them, s."""

@@ -48,13 +48,13 @@ class ChainCoordinate:
         """Name of a coefficient of its path."""
         return f"path:{self.name}:{k}"
 
-    def given(self, value: Scalar) -> dict[str, Scalar]:
+    def as_inputs(self, value: Scalar) -> dict[str, Scalar]:
         """What programs take of it."""
         known = (cos(value), sin(value)) if len(self.states) > 1 else (value,)
         return dict(zip(self.states, known, strict=True))
 
     def value(self, states: Mapping[str, Floats]) -> Floats:
-        """Its value by given states."""
+        """Its value from states."""
         first, *rest = (states[name] for name in self.states)
         return np.asarray(np.arctan2(rest[0], first) if rest else first)
 
@@ -92,22 +92,22 @@ def chain_coordinates(motion: MotionTrace) -> tuple[ChainCoordinate, ...]:
 
 def path_states(coordinates: Iterable[ChainCoordinate], t: Trace) -> dict[str, Scalar]:
     """The states of a motion's programs from the fields of paths."""
-    return {name: x for each in coordinates for name, x in each.given(each.on_path(t)).items()}
+    return {name: x for each in coordinates for name, x in each.as_inputs(each.on_path(t)).items()}
 
 
 def stays_on_path(motion: MotionTrace, signs: Mapping[str, Scalar]) -> Mask:
     """Whether Newton's method ends near where it begins, and the determinants of groups have their ``signs``."""
     trace = motion.trace
-    kept: Mask = True
+    on_path: Mask = True
     for name, sign in signs.items():
         placed = motion.placed[name]
-        kept = trace.logic("and", kept, trace.compare("less", placed.residual, CONVERGED))
-        kept = trace.logic("and", kept, trace.compare("less", 0.0, placed.determinant * sign))
+        on_path = trace.logic("and", on_path, trace.compare("less", placed.residual, CONVERGED))
+        on_path = trace.logic("and", on_path, trace.compare("less", 0.0, placed.determinant * sign))
     for each in chain_coordinates(motion):
         for name in each.states:
             off = absolute(motion.next_states[name] - trace.field_input(name)) * (1.0 / each.scale)
-            kept = trace.logic("and", kept, trace.compare("less", off, NEAR))
-    return kept
+            on_path = trace.logic("and", on_path, trace.compare("less", off, NEAR))
+    return on_path
 
 
 @dataclass(frozen=True)

@@ -98,22 +98,22 @@ class Formula:
         """Outputs, (nodes, outputs, pieces), from ``columns`` (pieces,), ``nodes`` (n,) and ``fields`` (n,
         pieces)."""
         numbers = [known.numbers.get(name, np.nan) for name in self.program.parameters]
-        count, given = len(columns[LOW]), {name: columns[name] for name in self.columns}
+        count, inputs = len(columns[LOW]), {name: columns[name] for name in self.columns}
         if PLACE in self.fields and known.paths is not None:
             fields = {**known.paths.fields(columns, nodes), **(fields or {})}
         own = {name: fields[name] for name in self.fields} if fields else {}
         if known.compiled is None and 0 < count * len(nodes) <= FEW and not known.tables:
-            return self._one_by_one(numbers, nodes, given, own, count)
+            return self._one_by_one(numbers, nodes, inputs, own, count)
         table = np.tile(numbers, (len(nodes), 1))
         if self._node is not None:
             table[:, self._node] = nodes
         if known.compiles(count * len(nodes)) and (code := self._code) is not None:
-            return np.ascontiguousarray(code.store(table, given, own, length=count, tables=known.tables))
+            return np.ascontiguousarray(code.store(table, inputs, own, length=count, tables=known.tables))
         program = numpy_program(self.program)
-        return program.run_designs(table, given, own, length=count, tables=known.tables)
+        return program.run_designs(table, inputs, own, length=count, tables=known.tables)
 
     def _one_by_one(
-        self, numbers: list[float], nodes: Floats, given: Columns, own: Columns, count: int
+        self, numbers: list[float], nodes: Floats, inputs: Columns, own: Columns, count: int
     ) -> Floats:
         """The outputs at a few places, on plain numbers."""
         found = np.empty((len(nodes), len(self.outputs), count))
@@ -121,7 +121,7 @@ class Formula:
             if self._node is not None:
                 numbers[self._node] = node
             for piece in range(count):
-                at = [float(each[piece]) for each in given.values()]
+                at = [float(each[piece]) for each in inputs.values()]
                 there = [float(each[k, piece]) for each in own.values()]
                 found[k, :, piece] = self._scalar.step(numbers, at, there)
         return found

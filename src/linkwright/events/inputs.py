@@ -1,4 +1,4 @@
-"""Cuts at which an input that turns steadily has given values, in the cycles of many designs."""
+"""Cuts at which an input that turns steadily has set values, in the cycles of many designs."""
 
 from __future__ import annotations
 

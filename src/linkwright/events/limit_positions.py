@@ -32,7 +32,7 @@ from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import place_meant, program_names
-from linkwright.kinematics.reached_stretches import Reach
+from linkwright.kinematics.reachable_intervals import Reach
 from linkwright.words import _
 
 #: An output whose largest rate is below this share of the mechanism's does not move.
@@ -42,9 +42,9 @@ BLURRED = 1e-10
 #: A rate of this share of the largest one is not zero, but changes its sign through infinity.
 POLE = 1e-3
 #: Where a group cannot be computed at its change point, the mean at this share of the cycle on both sides is taken.
-BESIDE = 3e-7
+NEAR_SHARE = 3e-7
 #: A way back of less than this share of the travel is what the digits of a table leave open, not a reversal.
-LEAST_WAY = 1e-7
+MINIMUM_TRAVEL = 1e-7
 #: Share of a stretch that is reached by which its ends are left out.
 SHORTER = 1e-10
 #: Positions this near to a limit, as share of the cycle, are at it.
@@ -70,7 +70,7 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
 
     Exact to rounding in the input, independent of the steps. In a closed cycle the way from the last position to the
     first counts as well; the ends of an open one are no limits, nor is a rate that touches zero without changing its
-    sign. Of a rest between opposite motions the middle is given. A way there and back of less than a ten millionth of
+    sign. Of a rest between opposite motions it is the middle. A way there and back of less than a ten millionth of
     the output's travel (a rest from a table of numbers with few digits) counts as none.
 
     Args:
@@ -85,7 +85,7 @@ def limit_positions(motion: Motion, output: Output | str) -> tuple[LimitPosition
     found = output if isinstance(output, Output) else place_meant(motion.mechanism, str(output))
     if motion.steps < 3 or not motion.mechanism.drivers:
         return ()
-    return motion.kept(("limits", found), lambda: _limits(motion, found))
+    return motion.cached(("limits", found), lambda: _limits(motion, found))
 
 
 def _limits(motion: Motion, output: Output) -> tuple[LimitPosition, ...]:
@@ -151,7 +151,7 @@ class _Way:
     def __init__(self, motion: Motion) -> None:
         self.motion, self.between = motion, Between(motion)
         self.reach = Reach(motion, self.between)
-        self.whole = motion.whole or self.reach.whole
+        self.complete = motion.complete or self.reach.complete
         course = Course.of(motion.mechanism, motion.positions)
         if course.closed and not self.between.closes:
             last = float(motion.time[-1]) - course.begin
@@ -166,13 +166,13 @@ class _Way:
     @property
     def cut(self) -> list[tuple[Course, Floats]]:
         """The same as courses with the times, s, of their cuts."""
-        found: list[tuple[Course, Floats]] = self.motion.kept(
+        found: list[tuple[Course, Floats]] = self.motion.cached(
             "cuts", lambda: [(each, self._cuts(each)) for each in self._courses()]
         )
         return found
 
     def _courses(self) -> list[Course]:
-        if self.whole:
+        if self.complete:
             return [self.course]
         found = []
         for begin, end in self.reach.stretches:
@@ -240,7 +240,7 @@ class _Reversals:
     @property
     def found(self) -> _Found:
         """In no order."""
-        return self.motion.kept(("reversals", self.output), self._search)
+        return self.motion.cached(("reversals", self.output), self._search)
 
     def _search(self) -> _Found:
         rate = np.abs(self.motion.rows.fetch(self.rate_names[:1], self.motion.evaluate)[0])
@@ -248,7 +248,9 @@ class _Reversals:
         if largest <= CONSTANT * self._fastest():
             return _Found(np.empty(0), np.empty(0, dtype=np.bool_), np.empty((len(self.value_names), 0)))
         way = self.way
-        made = of_rate if way.whole else of_bounded_rate(float(np.nanmedian(rate[rate > CONSTANT * largest])))
+        made = (
+            of_rate if way.complete else of_bounded_rate(float(np.nanmedian(rate[rate > CONSTANT * largest])))
+        )
         rates = SolvedAgain(way.between, way.reach, self.rate_names, made)
         parts = [(each, events(rates, NO_NUMBERS, ONE, each)[0]) for each in way.parts]
         time = np.concatenate([np.empty(0), *(each.time for _unused, each in parts)])
@@ -257,11 +259,12 @@ class _Reversals:
         tied = np.concatenate([rising[:0], *(each.edges[0] >= 0 for _unused, each in parts)])
         time, moved = self._on_changes(time)
         rows = way.rows((*self.rate_names[:1], *self.value_names), time)
-        kept = inside & (tied | moved | (np.abs(rows[0]) <= POLE * largest))
-        return _Found(time[kept], rising[kept], rows[1:, kept])
+        accepted = inside & (tied | moved | (np.abs(rows[0]) <= POLE * largest))
+        return _Found(time[accepted], rising[accepted], rows[1:, accepted])
 
     def _on_changes(self, time: Floats) -> tuple[Floats, Flags]:
-        """Times, s, of reversals, of such as rounding hides beside change points those of these, and which are."""
+        """Times, s, of reversals (of those that rounding hides near change points the times of these), and which
+        are."""
         way, time = self.way, self.way.in_cycle(time)
         if not len(way.reach.changes) or not len(time):
             return time, np.zeros(len(time), dtype=np.bool_)
@@ -302,10 +305,10 @@ class _Reversals:
     def _values(self, rows: Floats, time: Floats, before: Indices) -> list[float]:
         """The output at some times, s, from both sides of such at which it cannot be computed."""
         found = self._output(rows, before)
-        way = BESIDE * self.way.course.duration
+        way = NEAR_SHARE * self.way.course.duration
         for k in np.flatnonzero(~np.isfinite(found)):
-            beside = self.way.rows(self.value_names, time[k] + np.array([-way, way]))
-            found[k] = self._output(beside, before[[k, k]]).mean()
+            around = self.way.rows(self.value_names, time[k] + np.array([-way, way]))
+            found[k] = self._output(around, before[[k, k]]).mean()
         return found.tolist()  # type: ignore[no-any-return]
 
     def _output(self, rows: Floats, before: Indices) -> Floats:
@@ -324,11 +327,11 @@ class _Reversals:
 
     def _without_ripple(self, found: list[LimitPosition]) -> tuple[LimitPosition, ...]:
         """Without the pairs of reversals between which the output goes next to nowhere."""
-        least = LEAST_WAY * float(np.ptp([each.value for each in found]))
+        minimum_travel = MINIMUM_TRAVEL * float(np.ptp([each.value for each in found]))
         while len(found) > 2:
             ring = [*found, found[0]] if self.way.course.closed else found
             ways = [abs(b.value - a.value) for a, b in pairwise(ring)]
-            if min(ways) >= least:
+            if min(ways) >= minimum_travel:
                 break
             k = ways.index(min(ways))
             del found[k], found[k % len(found)]

@@ -13,7 +13,7 @@ from linkwright.events.formula import Formula
 from linkwright.events.stretches import Span
 
 #: Limits nearer to the outermost ones than this share of the way are outermost, too.
-ALIKE = 1e-9
+EQUAL_VALUES = 1e-9
 
 
 class Limits:
@@ -71,12 +71,12 @@ class Limits:
 
     @cached_property
     def is_outermost(self) -> Flags:
-        """Which limits have the largest or the smallest value, (k,); such as are alike to a share of the way
+        """Which limits have the largest or the smallest value, (k,); such as are equal to a share of the way
         count."""
         value, design = np.append(self.value, np.nan), self.events.design
         high, low = (value[self.outermost[kind]][design] for kind in ("max", "min"))
         with np.errstate(invalid="ignore"):
-            slack = np.nan_to_num(ALIKE * (high - low))
+            slack = np.nan_to_num(EQUAL_VALUES * (high - low))
             outer = np.where(self.events.rising, self.value <= low + slack, self.value >= high - slack)
         return np.asarray(outer)
 

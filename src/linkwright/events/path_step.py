@@ -23,7 +23,7 @@ from linkwright.kinematics.groups import CONVERGED
 from linkwright.kinematics.step_rule import LARGEST, doubt, misfit
 from linkwright.kinematics.trace import MotionTrace
 
-#: Columns of a step: its length, s, and what a correction may be beside its share of it.
+#: Columns of a step: its length, s, and what a correction may be in addition to its share of it.
 STEP, ROOM = "step", "room"
 _NOW = np.zeros(1)
 
@@ -76,7 +76,7 @@ class TracedStep:
     @property
     def states(self) -> dict[str, Scalar]:
         """What the motion takes."""
-        return {name: value for each, x in self.near.items() for name, value in each.given(x).items()}
+        return {name: value for each, x in self.near.items() for name, value in each.as_inputs(x).items()}
 
     def values(self, found: Mapping[str, Scalar]) -> dict[str, Scalar]:
         """The coordinates at its end, by name, from outputs there."""
@@ -124,11 +124,11 @@ class PathStep:
         """Coordinates with two rates after a step, and what it is judged by."""
         step, motion = self._step, self._step.motion
         once = Program.of(motion.trace, motion.next_states)
-        whole = Program.of(motion.trace, step.outputs)
-        given = course.inputs(t, t.position(LOW), varied)
-        given |= {name: t.position(name) for name in whole.parameters if name in varied}
-        found = inlined(whole, t, given | inlined(once, t, given | step.states))
-        rest = {name: found[name] for name in whole.output_names if name not in motion.next_states}
+        step_program = Program.of(motion.trace, step.outputs)
+        inputs = course.inputs(t, t.position(LOW), varied)
+        inputs |= {name: t.position(name) for name in step_program.parameters if name in varied}
+        found = inlined(step_program, t, inputs | inlined(once, t, inputs | step.states))
+        rest = {name: found[name] for name in step_program.output_names if name not in motion.next_states}
         made = {**step.values(found), **rest}
         groups = dict.fromkeys(each.group for each in self.coordinates)
         return Formula(Program.of(t, {**made, "doubt": step.doubt(t, made, groups, t.position(ROOM))}))

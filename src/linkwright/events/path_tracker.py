@@ -50,7 +50,7 @@ class PathTracker:
         """Signs of the determinants of the groups, the same ones along all paths."""
         return dict(zip(self.step.groups, self.signs[:, 0].tolist(), strict=True))
 
-    def kept(self, there: Place) -> Flags:
+    def same_signs(self, there: Place) -> Flags:
         """Whether no determinant has another sign than in the machine as it is, (designs,)."""
         return np.asarray((there.signs == self.signs).all(axis=0))
 
@@ -73,7 +73,7 @@ class PathTracker:
             with np.errstate(invalid="ignore"):
                 change, off = ((np.abs(found - each) / self.scale).max(axis=0) for each in (here, near))
                 sure = (change <= SMALL_CHANGE) | ((done[lanes] > 0.0) & (off <= EXPECTED * change))
-                sure &= (there.residual < CONVERGED) & (change <= LARGEST_CHANGE) & self.kept(there)
+                sure &= (there.residual < CONVERGED) & (change <= LARGEST_CHANGE) & self.same_signs(there)
             went = lanes[sure]
             slope[:, went] = ((found - here) / gone)[:, sure]
             x[:, went], done[went] = found[:, sure], ahead[sure]
@@ -113,9 +113,9 @@ class PathTracker:
             offset[rough], count[rough] = behind + np.arange(len(rough)) * finer, finer
             behind, rough = behind + gaps.size, rough[(gaps > FIT).any(axis=1)]
         rows = np.concatenate(parts, axis=2) if len(parts) > 1 else parts[0]
-        apart, turning = march.now[0] - first[0], np.array([[each.turns] for each in self.step.coordinates])
-        gained = np.where(turning, 2.0 * np.pi * np.round(apart / (2.0 * np.pi)), 0.0)
-        returns = (np.abs(apart - gained) <= SAME * self.scale).all(axis=0) | (not self.course.closed)
+        change, turning = march.now[0] - first[0], np.array([[each.turns] for each in self.step.coordinates])
+        gained = np.where(turning, 2.0 * np.pi * np.round(change / (2.0 * np.pi)), 0.0)
+        returns = (np.abs(change - gained) <= SAME * self.scale).all(axis=0) | (not self.course.closed)
         quintics: dict[str, Floats] = {}
         laps: dict[str, Floats] = {}
         for k, each in enumerate(self.step.coordinates):
@@ -155,7 +155,7 @@ class _March:
             h, room = part * step[lanes], np.where(part > SMALL, ROUNDING, ROOM)
             time = begin[lanes] + (at[lanes] + done[lanes]) * step[lanes] + h
             there = tracker.step.place(known, of, time, before, h, room)
-            sure = np.asarray((there.doubt < 1.0) & tracker.kept(there))
+            sure = np.asarray((there.doubt < 1.0) & tracker.same_signs(there))
             if sure.all():
                 went, gone, values, rates, off = lanes, h, there.values, before[2], there.doubt
             else:

@@ -1,7 +1,7 @@
 """Positions that are asked for one by one: inputs or times, ranges of them, and limit positions of an output.
 
 As text ``0..-360 deg:15 deg, limits``, as a list ``[0 deg, 60 deg, rocker min]``, or as a start and a step of either
-sign, ``{from: 0 deg, step: -15 deg, to: -360 deg}``. The order that is given is kept.
+sign, ``{from: 0 deg, step: -15 deg, to: -360 deg}``. The order of the list is preserved.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
     from linkwright.events.limit_positions import LimitPosition
     from linkwright.kinematics.motion import Motion
 
-#: More positions than this are taken for a slip.
+#: More positions than this are taken for a mistake.
 MOST = 1_000_000
 #: Steps of the cycle in which limit positions are sought.
 LOOKS = 360
 #: Keys of a start with a step.
 STEPPED = ("from", "step", "to", "count")
-#: What stands behind an output: one of its limit positions, or both.
+#: Suffix of an output: one of its limit positions, or both.
 LIMITS = ("min", "max", "limits")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
 #: One number with a comma where its point should be; two values would each have a unit.
@@ -205,12 +205,12 @@ def of_text(text: str, dimensions: Sequence[str]) -> PositionList:
     return PositionList(tuple(found))
 
 
-def of_value(given: Any, dimensions: Sequence[str]) -> PositionList:
+def of_value(value: Any, dimensions: Sequence[str]) -> PositionList:
     """The positions of a value of a file: a text, a list of texts, or a start with a step; raises as
     :func:`of_text`."""
-    if isinstance(given, Mapping):
-        return PositionList(tuple(_stepped(given, dimensions)))
-    parts = given if isinstance(given, list | tuple) else [given]
+    if isinstance(value, Mapping):
+        return PositionList(tuple(_stepped(value, dimensions)))
+    parts = value if isinstance(value, list | tuple) else [value]
     if not parts:
         raise RequestError(
             _('"{text}" has an empty place between commas', code="solve.empty_value", text="[]")
@@ -251,9 +251,9 @@ def _word(part: str) -> AtLimit | None:
     return AtLimit(output.strip(), kind)
 
 
-def _stepped(given: Mapping[str, Any], dimensions: Sequence[str]) -> Iterable[Entry]:
+def _stepped(mapping: Mapping[str, Any], dimensions: Sequence[str]) -> Iterable[Entry]:
     """``{from, step, to}`` or ``{from, step, count}``, or ``{from, to, count}``."""
-    for key in given:
+    for key in mapping:
         if key not in STEPPED:
             raise RequestError(
                 _(
@@ -263,7 +263,7 @@ def _stepped(given: Mapping[str, Any], dimensions: Sequence[str]) -> Iterable[En
                     hint=offered(str(key), STEPPED),
                 )
             )
-    texts = {key: str(value).strip() for key, value in given.items()}
+    texts = {key: str(value).strip() for key, value in mapping.items()}
     if "from" not in texts or len(texts) != 3:
         raise RequestError(
             _(

@@ -15,17 +15,17 @@ from linkwright.curves.pieces import HIGH, LOW, Columns
 from linkwright.events.formula import FEW, Known
 from linkwright.joints.base import Bends
 from linkwright.kinematics.between_positions import Between
-from linkwright.kinematics.reached_stretches import Reach
+from linkwright.kinematics.reachable_intervals import Reach
 
 #: From rows of a program (names, m) values and slopes by the time of signals, (signals, m) each.
 Made = Callable[[Floats], tuple[Floats, Floats]]
 
 
 class OfTimes:
-    """Signals (count, m) that a function gives at times (m,), s; slopes from their values ``beside`` these, s."""
+    """Signals (count, m) that a function gives at times (m,), s; slopes from their values ``step`` these, s."""
 
-    def __init__(self, values: Callable[[Floats], Floats], count: int, beside: float) -> None:
-        self.values, self._beside = values, beside
+    def __init__(self, values: Callable[[Floats], Floats], count: int, step: float) -> None:
+        self.values, self._step = values, step
         self.outputs = _numbers(count)
 
     def run(self, known: Known, columns: Columns, nodes: Floats) -> Floats:
@@ -40,8 +40,8 @@ class OfTimes:
 
     def both(self, time: Floats) -> tuple[Floats, Floats]:
         """Values and slopes by the time, (signals, m) each."""
-        value, there = np.split(self.values(np.append(time, time + self._beside)), 2, axis=1)
-        return value, (there - value) / self._beside
+        value, there = np.split(self.values(np.append(time, time + self._step)), 2, axis=1)
+        return value, (there - value) / self._step
 
 
 class SolvedAgain(OfTimes):

@@ -36,12 +36,12 @@ class Span:
         return self.course.begin
 
     def order(self, design: Indices, time: Floats) -> Floats:
-        """Numbers that grow with the design, and in it with the time since the place from which its cycle is seen."""
+        """Numbers that grow with the design, and in it with the time since the start of its cycle."""
         share = (time - self.begin) / self.period[design] - self.course.origin
         return np.asarray(2.0 * design + (share - np.floor(share) if self.course.closed else share))
 
     def within(self, design: Indices, time: Floats) -> Floats:
-        """The same times in the cycle that is seen."""
+        """The same times in the cycle that starts there."""
         if not self.course.closed:
             return time
         share = (time - self.begin) / self.period[design] - self.course.origin
@@ -80,9 +80,9 @@ class Stretches:
         order = np.lexsort((number >= 0, at, owner))
         owner, at, number = owner[order], at[order], number[order]
         if len(owner) > span.count:
-            apart = np.ones(len(owner), dtype=np.bool_)
-            apart[1:] = (owner[1:] != owner[:-1]) | (at[1:] - at[:-1] > SAME * span.period[owner[1:]])
-            owner, at, number = owner[apart], at[apart], number[apart]
+            distinct = np.ones(len(owner), dtype=np.bool_)
+            distinct[1:] = (owner[1:] != owner[:-1]) | (at[1:] - at[:-1] > SAME * span.period[owner[1:]])
+            owner, at, number = owner[distinct], at[distinct], number[distinct]
         begin = begins(owner)
         last = np.append(begin[1:], len(owner)) - 1
         after = np.arange(1, len(owner) + 1)
@@ -91,10 +91,10 @@ class Stretches:
         self.design, self.begin, self.length = owner, at, at[after] + lap - at
         self.edge, self.after, self.lap = number, number[after], lap > 0.0
         if not course.closed:
-            kept = np.ones(len(owner), dtype=np.bool_)
-            kept[last] = False
+            inner = np.ones(len(owner), dtype=np.bool_)
+            inner[last] = False
             for name in ("design", "begin", "length", "edge", "after", "lap"):
-                setattr(self, name, getattr(self, name)[kept])
+                setattr(self, name, getattr(self, name)[inner])
 
     def first_pieces(self, each: float) -> tuple[Indices, Floats, Floats]:
         """Stretch and shares of pieces of equal length in their stretches, ``each`` of a lap of the input."""

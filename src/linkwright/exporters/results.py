@@ -62,7 +62,7 @@ class Results:
         """Design numbers; none where positions were not reached."""
         from linkwright.analysis import metrics
 
-        if not self.motion.whole:
+        if not self.motion.complete:
             return MetricsTable(self.mechanism.name, ())
         return metrics(self.motion if self.forces is None else self.forces)
 

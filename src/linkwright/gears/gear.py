@@ -113,7 +113,7 @@ class Gear:
 
     @property
     def tip_diameter(self) -> float:
-        """d_a = d + 2 m (h_a + x), of a ring d - 2 m (h_a - x), m; or the one that was given."""
+        """d_a = d + 2 m (h_a + x), of a ring d - 2 m (h_a - x), m; or the one that was set."""
         if self.tip is not None:
             return self.tip
         return self.pitch_diameter + 2 * self.module * (self.outward * self.addendum + self.profile_shift)
@@ -157,7 +157,7 @@ class Gear:
         return 2 * radius * (math.pi / self.teeth - half if self.internal else half)
 
     @property
-    def least_profile_shift(self) -> float:
+    def minimum_profile_shift(self) -> float:
         """The profile shift below which a rack tool undercuts: h_a0* - (z/2) sin² α.
 
         h_a0* is the depth of the tool's straight flank: 1 for the usual tip rounding of 0.38, which gives the known
@@ -170,7 +170,7 @@ class Gear:
     @property
     def undercut(self) -> bool:
         """Whether the tool cuts away part of the involute near the base circle; never for a ring."""
-        return not self.internal and self.profile_shift < self.least_profile_shift - 1e-12
+        return not self.internal and self.profile_shift < self.minimum_profile_shift - 1e-12
 
     @cached_property
     def space(self) -> ToothSpace:
@@ -207,21 +207,21 @@ class Gear:
 
 
 def require_ranges(teeth: Any, ranges: Mapping[str, tuple[float, float]]) -> None:
-    """Raises RequestError for a number of a gear or rack out of its range, and for teeth that are not whole."""
+    """Raises RequestError for a number of a gear or rack out of its range, and for teeth that are not an integer."""
     for name, (low, high) in ranges.items():
         value = real(name, getattr(teeth, name), finite=False)
         unit = {"pressure_angle": " rad", "module": " m"}.get(name, "")
         if not low <= value <= high:
-            said = {"value": f"{value:.6g}{unit}", "low": f"{low:.4g}", "high": f"{high:.4g}{unit}"}
+            limits = {"value": f"{value:.6g}{unit}", "low": f"{low:.4g}", "high": f"{high:.4g}{unit}"}
             raise RequestError(
                 _("{name} is {value}; give {low} to {high}", code="gears.out_of_range").format(
-                    name=name, **said
+                    name=name, **limits
                 )
             )
     if int(teeth.teeth) != teeth.teeth:
         raise RequestError(
             _(
-                "a gear cannot have {teeth} teeth; give a whole number",
+                "a gear cannot have {teeth} teeth; give an integer",
                 code="gears.whole_teeth",
                 teeth=teeth.teeth,
             )
@@ -299,10 +299,10 @@ class ToothSpace:
         radii = np.concatenate([np.full(len(one_side) - len(radii), radii[0]), radii])
         top = _arc(angles[-1], pitch, points)[1:]
         one_side, radii = np.append(one_side, top), np.append(radii, np.full(len(top), radii[-1]))
-        whole = np.concatenate([-one_side[:0:-1], one_side[:-1]])
+        tooth = np.concatenate([-one_side[:0:-1], one_side[:-1]])
         sizes = np.concatenate([radii[:0:-1], radii[:-1]])
         start = 0.0 if gear.internal else pitch
-        every = (start + 2 * pitch * np.arange(gear.teeth)[:, None] + whole[None, :]).ravel()
+        every = (start + 2 * pitch * np.arange(gear.teeth)[:, None] + tooth[None, :]).ravel()
         r = np.tile(sizes, gear.teeth)
         return np.stack([r * np.cos(every), r * np.sin(every)], axis=1)
 
@@ -363,7 +363,7 @@ def _crossing(gear: Gear, tip: ToolTip) -> float:
 def ring_space(gear: Gear) -> ToothSpace:
     """The space of a ring: its fillets are arcs that touch the flank and the root circle.
 
-    The curve beside an involute at a distance ρ is an involute of the same base circle, turned by ρ / r_b.
+    The parallel of an involute at a distance ρ is an involute of the same base circle, turned by ρ / r_b.
     """
     root, base = 0.5 * gear.root_diameter, 0.5 * gear.base_diameter
     half_root = float(gear.half_angle(np.array([root]))[0])

@@ -49,8 +49,8 @@ def gear_pair(
     pair = GearPair(pinion, wheel)
     if internal:
         return pair
-    apart = pair.centre_distance - 0.5 * module * sum(teeth)
-    shortened = 2 * (module * sum(profile_shift) - apart)
+    centre_distance = pair.centre_distance - 0.5 * module * sum(teeth)
+    shortened = 2 * (module * sum(profile_shift) - centre_distance)
     pinion, wheel = (replace(each, tip=each.tip_diameter - shortened) for each in (pinion, wheel))
     return GearPair(pinion, wheel)
 
@@ -98,9 +98,9 @@ class GearPair:
                     code="gears.no_mesh",
                 )
             )
-        least = 0.5 * self._bases
+        minimum = 0.5 * self._bases
         if self.distance is not None and (
-            self.distance <= least or self.backlash < -1e-9 * self.pinion.module
+            self.distance <= minimum or self.backlash < -1e-9 * self.pinion.module
         ):
             raise RequestError(
                 _(
@@ -222,11 +222,11 @@ class GearPair:
             if gear.undercut:
                 found.append(
                     _(
-                        "the gear of {teeth} teeth is undercut; a profile shift of {least:.4g} or more "
+                        "the gear of {teeth} teeth is undercut; a profile shift of {minimum:.4g} or more "
                         "avoids it",
                         code="gears.undercut",
                         teeth=gear.teeth,
-                        least=gear.least_profile_shift,
+                        minimum=gear.minimum_profile_shift,
                     )
                 )
         if self.contact_ratio == 0:
@@ -271,7 +271,7 @@ class GearPair:
         if self.wheel.internal and self.tip_overlap > 0:
             found.append(
                 _(
-                    "tips of pinion and ring overlap by {overlap:.4g}° beside the mesh; take a larger "
+                    "tips of pinion and ring overlap by {overlap:.4g}° next to the mesh; take a larger "
                     "difference of the teeth",
                     code="gears.tips_overlap",
                     overlap=math.degrees(self.tip_overlap),

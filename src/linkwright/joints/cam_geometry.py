@@ -69,7 +69,7 @@ class Geometry:
         start = math.asin(met) if flat else math.acos(met)
         minimum, maximum = (0.0, c) if flat else (abs(c - length), c + length)
         own, beyond = cmath.phase(arm), radius - joint.base_radius
-        limits = {"least": max(minimum - beyond, 0.0), "most": maximum - beyond}
+        limits = {"minimum": max(minimum - beyond, 0.0), "maximum": maximum - beyond}
         return cls(cmath.phase(line), own, start, c if flat else length, 1.0 - abs(share), **limits)
 
     @classmethod

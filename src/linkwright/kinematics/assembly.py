@@ -25,12 +25,12 @@ from linkwright.topology.analysis import Structure
 from linkwright.words import Message, _
 from linkwright.words.sentence import lines
 
-#: Where modes are looked for if the drawn inputs are out of reach: beside them, rad or shares of the size.
-BESIDE = (0.01, -0.01, 0.03, -0.03, 0.1, -0.1)
+#: Where modes are looked for if the drawn inputs are out of reach: near them, rad or shares of the size.
+NEARBY = (0.01, -0.01, 0.03, -0.03, 0.1, -0.1)
 
 
 class AssemblyError(LinkwrightError):
-    """An assembly mode that does not exist, or a group whose starting values are not given.
+    """An assembly mode that does not exist, or a group without starting values.
 
     ``parts``: keys of the model file with what is wrong there.
     """
@@ -195,7 +195,7 @@ def _from_drawing(mechanism: Mechanism, structure: Structure, assembly: Assembly
         return
     probe = _Probe(trace_motion(mechanism, structure, rates=False, iterations=8), open_groups, drawing)
     for group in open_groups:
-        for inputs in _beside(mechanism, assembly.inputs) if probe.goals[group.name] else ():
+        for inputs in _nearby(mechanism, assembly.inputs) if probe.goals[group.name] else ():
             distances = {
                 sign: probe.distance(group, {**modes, group.name: sign}, assembly.states, inputs)
                 for sign in (1.0, -1.0)
@@ -206,10 +206,10 @@ def _from_drawing(mechanism: Mechanism, structure: Structure, assembly: Assembly
                 break
 
 
-def _beside(mechanism: Mechanism, inputs: Mapping[str, float]) -> Iterator[Mapping[str, float]]:
-    """The drivers' coordinates in the drawing, then some beside them, where these are out of reach."""
+def _nearby(mechanism: Mechanism, inputs: Mapping[str, float]) -> Iterator[Mapping[str, float]]:
+    """The drivers' coordinates in the drawing, then some near them, where these are out of reach."""
     yield inputs
-    for share in BESIDE:
+    for share in NEARBY:
         for name, q in inputs.items():
             unit = 1.0 if mechanism.drivers[name].law.rotary else mechanism.size
             yield {**inputs, name: q + share * unit}

@@ -44,18 +44,18 @@ class Between:
         motion = self.motion
         if not motion.modes:
             return []
-        return [p for p in passages(motion.solver, motion.positions, motion.followed) if p.touches]
+        return [p for p in passages(motion.solver, motion.positions, motion.tracked) if p.touches]
 
     @cached_property
     def bars(self) -> list[Passage]:
-        """Where a group cannot be assembled, or followed, though it can be at the positions beside."""
+        """Where a group cannot be assembled, or tracked, though it can be at the adjacent positions."""
         motion = self.motion
-        found = passages(motion.solver, motion.positions, motion.followed)
+        found = passages(motion.solver, motion.positions, motion.tracked)
         return [p for p in found if p.barred or p.kind == "end"]
 
     @property
     def closes(self) -> bool:
-        """Whether the last position is followed by the first, in the same assembly."""
+        """Whether the first position comes after the last one, in the same assembly."""
         return self.motion.positions.closed and closes(self.passing)
 
     def evaluate(self, names: tuple[str, ...], before: Indices, time: Floats) -> Floats:
@@ -67,7 +67,7 @@ class Between:
     def assembly(
         self, before: Indices, positions: Positions
     ) -> tuple[dict[str, Floats], Mapping[str, Floats]]:
-        """States of what is followed, NaN out of reach, and signs of the groups that pass change points, of the
+        """States of the tracked groups, NaN out of reach, and signs of the groups that pass change points, of the
         drivers' positions a little after those ``before``."""
         return self._states(positions, before), self.motion.modes and self._modes(positions)
 
@@ -83,13 +83,13 @@ class Between:
             outside = (time < start) | (time > start + period)
             return at_times(mechanism, np.where(outside, start + (time - start) % period, time))
 
-    def assembled(self, before: Indices, time: Floats, beside: Indices) -> Flags:
-        """Which of some times, s, a little after the positions ``before`` are reached, to where a dyad is
-        stretched or folded; what is followed from the position ``beside``, or from both where that is negative."""
+    def assembled(self, before: Indices, time: Floats, reference: Indices) -> Flags:
+        """Which of some times, s, a little after the positions ``before`` are reached, to where a dyad is stretched
+        or folded; groups are tracked from the position ``reference``, or from both where that is negative."""
         motion, positions = self.motion, self.positions(time)
         states, modes = self.assembly(before, positions)
-        for k in np.flatnonzero(beside >= 0) if states else ():
-            for name, row in self._moved(int(beside[k]), positions.time[k : k + 1]).items():
+        for k in np.flatnonzero(reference >= 0) if states else ():
+            for name, row in self._moved(int(reference[k]), positions.time[k : k + 1]).items():
                 states[name][k] = row[0]
         squares = tuple(row_name("quality", group) for group in modal(motion.solver.motion))
         found = motion.solver.evaluate((*squares, "outcome"), positions, states, modes, motion.design)
@@ -134,7 +134,7 @@ class Between:
         return signs(self.passing, self.motion.solver.assembly.modes, self.place(positions.time))
 
     def quality(self, before: Indices, time: Floats) -> Floats:
-        """Least quality (square of the sine of the transmission angle) of the groups that pass change points."""
+        """Minimum quality (square of the sine of the transmission angle) of the groups that pass change points."""
         names = tuple(dict.fromkeys(row_name("quality", p.group) for p in self.passing))
         rows = self.evaluate(names, before, time) if names else np.ones((1, len(time)))
         return np.asarray(rows.min(axis=0))
@@ -148,14 +148,14 @@ class Between:
     def _states(self, positions: Positions, before: Indices) -> dict[str, Floats]:
         if not self.motion.states:
             return {}
-        followed = self.motion.followed
-        assert followed is not None
-        inputs = [positions.coordinates[name][0] for name in followed.follower.drivers]
-        found = followed.between(self._place(positions.time), np.stack(inputs, axis=1))
-        for beside in (before, (before + 1) % self.motion.steps):
+        tracked = self.motion.tracked
+        assert tracked is not None
+        inputs = [positions.coordinates[name][0] for name in tracked.tracker.drivers]
+        found = tracked.between(self._place(positions.time), np.stack(inputs, axis=1))
+        for reference in (before, (before + 1) % self.motion.steps):
             lost = np.flatnonzero(~np.isfinite(next(iter(found.values()))))
-            for index in np.unique(beside[lost]):
-                these = lost[beside[lost] == index]
+            for index in np.unique(reference[lost]):
+                these = lost[reference[lost] == index]
                 moved = self._moved(int(index), positions.time[these])
                 for name, row in found.items():
                     row[these] = moved[name]
@@ -167,12 +167,12 @@ class Between:
         return self.place(time if period is None else start + (time - start) % period)
 
     def _moved(self, index: int, time: Floats) -> dict[str, Floats]:
-        """States of groups without closed form at times (m,) near a position, followed from there."""
+        """States of groups without closed form at times (m,) near a position, tracked from there."""
         motion, start, period = self.motion, float(self.motion.time[index]), self.motion.positions.period
-        assert motion.followed is not None
+        assert motion.tracked is not None
         away = time - start
         if period is not None:
             away = away - period * np.round(away / period)
-        return motion.solver.follower(motion.design).moved(
-            motion.followed.coordinates[index], start, start + away
+        return motion.solver.tracker(motion.design).moved(
+            motion.tracked.coordinates[index], start, start + away
         )

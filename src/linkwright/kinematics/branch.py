@@ -1,4 +1,4 @@
-"""One assembly followed along a way of the drivers by the rule of steps (:mod:`linkwright.kinematics.step_rule`).
+"""One assembly tracked along a path of the drivers by the rule of steps (:mod:`linkwright.kinematics.step_rule`).
 
 A step leads from the drivers' coordinates at one place of the way to those at another in a straight line, since
 groups are where their drivers are, whatever the laws of time: corners of laws are passed like any other place. The
@@ -17,8 +17,8 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.drivers.base import Law
-from linkwright.kinematics.followed_formula import FollowedGroups, Root
 from linkwright.kinematics.step_rule import CORRECTION, LARGEST, ROUNDING, doubt, misfit, quintic
+from linkwright.kinematics.tracking_formula import Root, TrackedGroups
 
 #: Longest and shortest step of the drivers, rad or share of the mechanism's size.
 LONGEST, FLOOR = 0.5, 2e-8
@@ -26,10 +26,10 @@ LONGEST, FLOOR = 0.5, 2e-8
 SINGULAR = 1e-7
 #: A step aims at this doubt.
 WANTED = 0.3
-#: Tries after which a way is given up.
+#: Attempts after which a path is abandoned.
 PATIENCE = 50_000
 #: How far, beyond this share of a step, laws may leave its straight line: rad or share of the size.
-BESIDE = 0.02
+DEVIATION = 0.02
 #: Places of a law at which its largest rate is looked for.
 LOOKS = 720
 
@@ -101,7 +101,7 @@ class Node:
 
 @dataclass(frozen=True)
 class Branch:
-    """What was followed of a way: its steps, each with both ends as their rates are along it.
+    """The tracked part of a path: its steps, each with both ends and their rates along it.
 
     ``end``: how far it goes, None where it does not begin; ``complete``: whether that is the end of the way.
     """
@@ -160,13 +160,13 @@ class Branch:
         return near, np.abs(rise), known
 
 
-def follow(groups: FollowedGroups, way: Way, start: Sequence[float]) -> Branch:
+def follow(groups: TrackedGroups, way: Way, start: Sequence[float]) -> Branch:
     """Follows the assembly with the coordinates ``start`` (n,) at the beginning of a way."""
     return _Walk(groups, way, start).branch()
 
 
 class _Walk:
-    def __init__(self, groups: FollowedGroups, way: Way, start: Sequence[float]) -> None:
+    def __init__(self, groups: TrackedGroups, way: Way, start: Sequence[float]) -> None:
         self.groups, self.way = groups, way
         self.share = (1.0 / groups.scale).tolist()
         self.slides = [k for k, turns in enumerate(groups.turns) if not turns]
@@ -213,8 +213,8 @@ class _Walk:
         rows = self.way.drive(places)
         q = rows[-1]
         ahead = q - here.q
-        beside = self._beside(rows[:-1], here.q, ahead)
-        if beside > 1.0:
+        deviation = self._deviation(rows[:-1], here.q, ahead)
+        if deviation > 1.0:
             return math.inf
         here = self._towards(here, ahead)
         if here is None:
@@ -231,7 +231,7 @@ class _Walk:
             self.here = end
         return off
 
-    def _beside(self, rows: Floats, q: Floats, ahead: Floats) -> float:
+    def _deviation(self, rows: Floats, q: Floats, ahead: Floats) -> float:
         """How far the drivers leave the straight line of a step between its ends, as share of what they may."""
         unit = self.way.unit
         off, gone = (rows - q) / unit, ahead / unit
@@ -239,7 +239,7 @@ class _Walk:
         if square > 0.0:
             share = np.clip(off @ gone / square, 0.0, 1.0)
             off = off - share[:, None] * gone
-        return float(np.abs(off).max(initial=0.0)) / (BESIDE * math.sqrt(square) + FLOOR)
+        return float(np.abs(off).max(initial=0.0)) / (DEVIATION * math.sqrt(square) + FLOOR)
 
     def _towards(self, node: Node, ahead: Floats) -> Node | None:
         """The same node with its rates in another direction of the drivers."""

@@ -23,13 +23,13 @@ from linkwright.core.outputs import row_name
 from linkwright.core.search import edge, ends, lowest
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.trace import Scalar, minimum
-from linkwright.kinematics.followed_way import Followed
 from linkwright.kinematics.groups import upstream
 from linkwright.kinematics.passage import Kind, Passage
 from linkwright.kinematics.passing_proof import FINE, NEAR, measures, modal
 from linkwright.kinematics.positions import Positions, at_times, off_law
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace
+from linkwright.kinematics.tracked_branch import TrackedBranch
 from linkwright.topology import Structure
 
 #: A refined minimum of the quality within this distance of zero is a touch; of the squared distance of two pins,
@@ -50,16 +50,16 @@ MANY = 3
 Way = Callable[[Floats], Positions]
 
 
-def passages(solver: MotionSolver, positions: Positions, followed: Followed | None) -> list[Passage]:
+def passages(solver: MotionSolver, positions: Positions, tracked: TrackedBranch | None) -> list[Passage]:
     """All places between solved positions where a group's modes or pins meet, or where it cannot pass."""
     if not positions.is_way:
         return []
     count = parts(solver, positions)
     if count == 1:
-        return _Search(solver, positions, followed).found()
+        return _Search(solver, positions, tracked).found()
     divided = _divided(solver, positions, count)
-    followed = None if followed is None else solver.follow(divided)
-    return _Search(solver, divided, followed, count).found_between()
+    tracked = None if tracked is None else solver.track(divided)
+    return _Search(solver, divided, tracked, count).found_between()
 
 
 def signs_of_passages(solver: MotionSolver, positions: Positions) -> tuple[str, ...] | None:
@@ -80,8 +80,9 @@ def _all_measures(motion: MotionTrace) -> tuple[str, ...] | None:
 
 
 def nearness(solver: MotionSolver) -> Scalar:
-    """How near the dyads are to what :func:`passages` finds, traced: the least quality, or squared distance of outer
-    pins over the size. Above :data:`NEAR` and what it changes by in one step nothing lies between two positions."""
+    """How near the dyads are to what :func:`passages` finds, traced: the minimum quality, or squared distance of
+    outer pins over the size. Above :data:`NEAR` and what it changes by in one step nothing lies between two
+    positions."""
     size = solver.mechanism.size
     found: Scalar = 1.0
     for placed in solver.motion.placed.values():
@@ -122,7 +123,7 @@ def _divided(solver: MotionSolver, positions: Positions, parts: int) -> Position
 
 
 def way(solver: MotionSolver, positions: Positions) -> Way:
-    """Positions at given places (numbers of positions, counted on in between), by the drivers' laws if those hold."""
+    """Positions at places (fractional numbers of positions), by the drivers' laws if those hold."""
     mechanism, index = solver.mechanism, np.arange(positions.count + 1.0)
     time = np.append(positions.time, positions.time[0] + (positions.period or 0.0))
     if off_law(mechanism, positions) is None and (np.diff(positions.time) != 0.0).all():
@@ -147,14 +148,14 @@ class _Search:
     """Passages of all groups, in solving order, since the sign of one group decides on the next ones."""
 
     def __init__(
-        self, solver: MotionSolver, positions: Positions, followed: Followed | None, parts: int = 1
+        self, solver: MotionSolver, positions: Positions, tracked: TrackedBranch | None, parts: int = 1
     ) -> None:
         self.base = solver.with_flips(())
         self.solver = self.base
         self.positions = positions
-        self.followed = followed
+        self.tracked = tracked
         self.parts = parts
-        self.beneath = _beneath_followed(solver)
+        self.beneath = _beneath_tracked(solver)
         self.passing: list[Passage] = []
         self.flipping: dict[str, list[Passage]] = {}
         self.barred: Floats = np.empty(0)
@@ -221,7 +222,7 @@ class _Search:
         return replace(p, before=before, after=(before + 1) % n, share=place - before)
 
     def _stretches(self) -> list[Passage]:
-        """Where a dyad cannot be assembled though it can at both positions beside."""
+        """Where a dyad cannot be assembled though it can at both adjacent positions."""
         (codes,) = self._evaluate(("outcome",))
         asked = codes[:: self.parts] == 0.0
         groups = list(self.base.motion.placed.values())
@@ -255,13 +256,13 @@ class _Search:
             slides.items(), names, self._evaluate(names), strict=True
         ):
             for place in self._crossings(name, row):
-                beside = self._evaluate(displacements, np.array([place - 1e-6, place + 1e-6]))
-                if not (np.abs(np.diff(beside)) < size).all():
+                around = self._evaluate(displacements, np.array([place - 1e-6, place + 1e-6]))
+                if not (np.abs(np.diff(around)) < size).all():
                     found.append(self._passage(group, place, 0.0, "pole"))
         return found
 
     def _crossings(self, name: str, row: Floats) -> list[float]:
-        """Places where a sine changes its sign, between two positions or, going and coming back, beside one."""
+        """Places where a sine changes its sign, between two positions or, going and coming back, next to one."""
         sign = np.where(np.isfinite(row), np.where(row < 0.0, -1.0, 1.0), 0.0)
         ring = np.append(sign, sign[:1]) if self.positions.closed else sign
         change = np.flatnonzero(ring[:-1] * ring[1:] < 0.0)
@@ -272,8 +273,8 @@ class _Search:
             if not np.isin(np.arange(low, high) % len(row), change).any()
         ]
         signs = np.array([sign[int(low) % len(row)] for low, _ in within])
-        for (low, high), (place, least) in zip(within, self._lowest(name, within, signs), strict=True):
-            if least < 0.0:
+        for (low, high), (place, smallest) in zip(within, self._lowest(name, within, signs), strict=True):
+            if smallest < 0.0:
                 places += [self._crossing(name, low, place), self._crossing(name, place, high)]
         return sorted(places)
 
@@ -297,23 +298,23 @@ class _Search:
     def _of_group(self, group: str, rows: Mapping[str, Floats]) -> list[Passage]:
         found = []
         quality, *distance = measures(self.base.motion, group)
-        for place, least in self._lowest(quality, self._valleys(rows[quality], NEAR)):
-            if abs(least) <= TOUCH:
+        for place, smallest in self._lowest(quality, self._valleys(rows[quality], NEAR)):
+            if abs(smallest) <= TOUCH:
                 kind: Kind = "end" if group in self.beneath else "change"
-                found.append(self._passage(group, self._centred(quality, place), least, kind))
-            elif least < 0:
-                found.append(self._passage(group, place, least, "gap"))
+                found.append(self._passage(group, self._centred(quality, place), smallest, kind))
+            elif smallest < 0:
+                found.append(self._passage(group, place, smallest, "gap"))
         for name in distance:
             largest = float(np.nanmax(rows[name], initial=0.0))
             near = rows[name] < NEAR * largest
             valleys = self._valleys(rows[name], NEAR * largest) if near.any() else []
-            for place, least in self._lowest(name, valleys):
-                at, *beside = self._evaluate((quality,), place + np.array([0.0, -1e-3, 1e-3]))[0]
+            for place, smallest in self._lowest(name, valleys):
+                at, *around = self._evaluate((quality,), place + np.array([0.0, -1e-3, 1e-3]))[0]
                 if at < -TOUCH and self._alone(place, rows[quality], found):
                     found.append(self._passage(group, place, float(at), "gap"))
-                elif least <= MEETING * largest and min(beside) > TOUCH:
+                elif smallest <= MEETING * largest and min(around) > TOUCH:
                     kind = "end" if group in self.beneath else "meeting"
-                    found.append(self._passage(group, place, float(min(beside)), kind))
+                    found.append(self._passage(group, place, float(min(around)), kind))
         return sorted(found, key=lambda p: p.place)
 
     def _alone(self, place: float, quality: Floats, found: Sequence[Passage]) -> bool:
@@ -381,9 +382,9 @@ class _Search:
         turn = at % n if self.positions.closed else np.clip(at, *self.ends)
         positions = self.positions if places is None else self.way(turn)
         states: Mapping[str, Floats] = {}
-        if self.followed is not None:
+        if self.tracked is not None:
             q = np.stack([row[0] for row in positions.coordinates.values()], axis=1)
-            states = self.followed.states if places is None else self.followed.between(turn, q)
+            states = self.tracked.states if places is None else self.tracked.between(turn, q)
         modes = mode_inputs({group: self._signs(group, turn) for group in self.solver.manner.flipping})
         return self.solver.evaluate(names, positions, states, modes)
 
@@ -391,7 +392,7 @@ class _Search:
         return _sign(self.flipping.get(group, ()), group, self.base.assembly.modes[group], place)
 
 
-def _beneath_followed(solver: MotionSolver) -> frozenset[str]:
+def _beneath_tracked(solver: MotionSolver) -> frozenset[str]:
     """Names of the groups on which groups without closed form hang, and of these."""
     if not solver.motion.next_states:
         return frozenset()
@@ -423,7 +424,7 @@ def cut_off(codes: Floats, positions: Positions, breaks: Set[int] = frozenset())
     """1 for solved positions that cannot be reached from the first solved one, because a gap or positions out of
     reach lie in between, else 0; (n,). ``codes`` are the outcomes of the positions.
 
-    ``breaks``: positions after which there is no way to the next one. A closed cycle is followed backwards from its
+    ``breaks``: positions after which there is no way to the next one. A closed cycle is tracked backwards from its
     first position as well.
     """
     n, good = len(codes), codes == 0

@@ -47,7 +47,7 @@ class Row:
 class ConstraintEquations:
     """Equations of the joints of a mechanism over (x, y, θ) of every link, by their residuals.
 
-    A pin of several links holds each of them to the first one, in the ``order`` given or that of the file. The row of
+    A pin of several links holds each of them to the first one, in ``order`` or that of the file. The row of
     a higher pair keeps the value that it has where it is first evaluated.
     """
 
@@ -57,7 +57,7 @@ class ConstraintEquations:
         self.size = mechanism.size
         self._number = order or {}
         self._first = {name: 3 * i for i, name in enumerate(self.links)}
-        self._kept: dict[int, float] = {}
+        self._first_values: dict[int, float] = {}
 
     @property
     def freedoms(self) -> int:
@@ -102,7 +102,7 @@ class ConstraintEquations:
         for index, row in enumerate(self._traced):
             value = next(numbers)
             if row.holds == "rolling":
-                value -= self._kept.setdefault(index, value)
+                value -= self._first_values.setdefault(index, value)
             parts = {link: (next(numbers), next(numbers), next(numbers)) for link in row.links}
             found.append(Row(row.joint, row.holds, value, parts))
         return found
@@ -129,8 +129,8 @@ class ConstraintEquations:
     def _program(self, outputs: Sequence[Scalar]) -> Callable[[Sequence[float]], list[float]]:
         named = {f"{k}": each for k, each in enumerate(outputs)}
         program = Program.of(self._dimensions.trace, named)
-        given = self.mechanism.dimensions()
-        run = ScalarProgram(program).of_design([given[name] for name in program.parameters])
+        dimensions = self.mechanism.dimensions()
+        run = ScalarProgram(program).of_design([dimensions[name] for name in program.parameters])
         places = [int(name[1:]) + (self.freedoms if name[0] == "v" else 0) for name in program.positions]
         return lambda numbers: run([float(numbers[place]) for place in places])
 

@@ -1,4 +1,4 @@
-"""Groups without closed form, followed from the drawing through all positions."""
+"""Groups without closed form, tracked from the drawing through all positions."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from linkwright.kinematics.assembly import Assembly, AssemblyError
 from linkwright.kinematics.branch import Branch, Way, follow, lawful, near_enough, straight
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.drawn_assembly import DrawnAssembly
-from linkwright.kinematics.followed_formula import TURN, FollowedGroups, followed_formula
 from linkwright.kinematics.groups import state_name
 from linkwright.kinematics.positions import coordinate_text, rotary
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.rotation_sums import Key, RotationSums
+from linkwright.kinematics.tracking_formula import TURN, TrackedGroups, tracking_formula
 from linkwright.words import _
 
 #: What Newton's method may correct of a drawing (rad, or share of the size) that counts as exact, and how many steps
@@ -29,12 +29,12 @@ SINGULAR = 1e-9
 SAME = 1e-6
 
 
-class Follower:
-    """Follows the groups without closed form of one design of a mechanism."""
+class BranchTracker:
+    """Tracks the groups without closed form of one design of a mechanism."""
 
     def __init__(self, programs: MotionPrograms, assembly: Assembly, design: Design) -> None:
         self.assembly, self.structure = assembly, programs.structure
-        self.mechanism, self.groups = design.mechanism, FollowedGroups(followed_formula(programs), design)
+        self.mechanism, self.groups = design.mechanism, TrackedGroups(tracking_formula(programs), design)
         self.drivers = list(self.mechanism.drivers)
         self.rotary = np.array(self.groups.formula.rotary, dtype=bool)
 
@@ -71,14 +71,14 @@ class Follower:
         if found is None:
             turns = rotary(self.mechanism)
             known = zip(self.drivers, q.tolist(), strict=True)
-            said = tuple(coordinate_text(name, each, turns[name]) for name, each in known)
+            coordinates = tuple(coordinate_text(name, each, turns[name]) for name, each in known)
             raise AssemblyError(
                 _(
                     "{name!r} cannot be put together near its drawing (input {inputs}); check the "
                     "drawing's coordinates against the lengths",
                     code="motion.not_near_drawing",
                     name=self.mechanism.name,
-                    inputs=said,
+                    inputs=coordinates,
                 )
             )
         return found
@@ -157,11 +157,11 @@ class Follower:
         return own.last if own.complete else None
 
     def nearest_drive(self, way: Floats) -> Floats:
-        """Differences of driver coordinates (…, d) without whole turns."""
+        """Differences of driver coordinates (…, d) without full turns."""
         return np.asarray(way - np.where(self.rotary, _turns(way), 0.0))
 
     def nearest_way(self, way: Floats) -> Floats:
-        """Differences of coordinates (…, n) without whole turns."""
+        """Differences of coordinates (…, n) without full turns."""
         return np.asarray(way - np.where(self.groups.turns, _turns(way), 0.0))
 
     def lawful(self, begin: float, end: float, shift: float = 0.0) -> Way:
@@ -170,7 +170,7 @@ class Follower:
         return lawful(laws, self.groups.unit, begin, end, shift)
 
     def gains(self, lap: Floats | float) -> Floats:
-        """Whole turns (n,), rad, that rotations gain by higher pairs while the drivers turn by ``lap`` (d,)."""
+        """Full turns (n,), rad, that rotations gain by higher pairs while the drivers turn by ``lap`` (d,)."""
         sums = RotationSums(self.mechanism, self.structure)
         ahead = dict(zip(self.drivers, np.broadcast_to(lap, len(self.drivers)).tolist(), strict=True))
         found = np.zeros(len(self.groups.scale))
@@ -187,7 +187,7 @@ class Follower:
         return dict(zip(keys, coordinates.T, strict=True))
 
     def moved(self, coordinates: Floats, start: float, time: Floats) -> dict[str, Floats]:
-        """States at some times (m,), s, followed by the drivers' laws from the coordinates (n,) at the time
+        """States at some times (m,), s, tracked along the drivers' laws from the coordinates (n,) at the time
         ``start``; NaN where the way is barred."""
         found = np.full((len(time), len(coordinates)), math.nan)
         for sense in (1.0, -1.0):
@@ -204,10 +204,10 @@ class Follower:
         """The group whose own equations are nearest to singular at the end of a branch."""
         if branch.end is None:
             return self.groups.formula.groups[-1].name
-        least = self.groups.regularity(branch.end.root.z, branch.end.q.tolist())
-        return min(least, key=least.__getitem__)
+        regularity = self.groups.regularity(branch.end.root.z, branch.end.q.tolist())
+        return min(regularity, key=regularity.__getitem__)
 
 
 def _turns(way: Floats) -> Floats:
-    """Whole turns in angles, rad."""
+    """Full turns in angles, rad."""
     return np.asarray(TURN * np.round(way / TURN))

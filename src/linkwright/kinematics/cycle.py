@@ -12,8 +12,8 @@ import numpy as np
 from linkwright.core.arguments import integer
 from linkwright.drivers.base import Driver, Law
 from linkwright.formula.recently_made import Recent
+from linkwright.kinematics.full_turns import MOST, full_turns
 from linkwright.kinematics.positions import CycleError, Positions, at_times, rotary
-from linkwright.kinematics.whole_turns import MOST, whole_turns
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 
@@ -26,7 +26,7 @@ FEW = 12
 def over_cycle(mechanism: Mechanism, steps: int, endpoint: bool = False) -> Positions:
     """``steps`` equal steps over the cycle of the mechanism.
 
-    A closed cycle (whole turns of a driver, or a law that repeats) gives ``steps`` positions, or one more with
+    A closed cycle (full turns of a driver, or a law that repeats) gives ``steps`` positions, or one more with
     ``endpoint``; an open one always ``steps`` + 1 positions, both ends among them.
     """
     steps = integer("steps", steps, 1, MOST_POSITIONS)
@@ -74,8 +74,8 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
         )
         raise CycleError(problem.format(name=mechanism.name, driver=first.name))
     if cycle is None:
-        whole = _whole(mechanism) if together(mechanism) <= FEW else None
-        return 0.0, whole or max(known), whole is not None
+        full_span = _full_span(mechanism) if together(mechanism) <= FEW else None
+        return 0.0, full_span or max(known), full_span is not None
     if cycle.duration is not None:
         return 0.0, cycle.duration, _closes(mechanism, cycle.duration)
     speed = first.law.constant_speed
@@ -104,7 +104,7 @@ def cycle_turns(mechanism: Mechanism, period: float) -> tuple[int, str]:
 
 def not_back(mechanism: Mechanism) -> bool:
     """Whether the drivers come back together, but never all wheels and racks with them."""
-    return math.isfinite(together(mechanism)) and _whole(mechanism) is None
+    return math.isfinite(together(mechanism)) and _full_span(mechanism) is None
 
 
 def together(mechanism: Mechanism) -> float:
@@ -119,25 +119,25 @@ def together(mechanism: Mechanism) -> float:
         from fractions import Fraction
 
         count = math.lcm(count, Fraction(longest / duration).limit_denominator(MOST).denominator)
-    whole = count * longest
-    if count > MOST or not all(_multiple(whole, duration) for duration in known):
+    common = count * longest
+    if count > MOST or not all(_multiple(common, duration) for duration in known):
         return math.inf if all(law.span()[1] == math.inf for law in laws) else math.nan
-    return count if all(_back(law, whole) for law in laws) else math.nan
+    return count if all(_back(law, common) for law in laws) else math.nan
 
 
-def _whole(mechanism: Mechanism) -> float | None:
+def _full_span(mechanism: Mechanism) -> float | None:
     """Time in s after which drivers, wheels and racks are all back; None: never, or not within 1000 turns."""
     count = together(mechanism)
     if not math.isfinite(count):
         return None
     span = count * max(_naturals(mechanism))
-    turns = whole_turns(mechanism, span)
+    turns = full_turns(mechanism, span)
     return None if turns is None else turns * span
 
 
 def _closes(mechanism: Mechanism, duration: float) -> bool:
-    whole = _whole(mechanism)
-    return whole is not None and _multiple(duration, whole)
+    full_span = _full_span(mechanism)
+    return full_span is not None and _multiple(duration, full_span)
 
 
 def _naturals(mechanism: Mechanism) -> list[float]:
@@ -157,5 +157,5 @@ def _back(law: Law, duration: float) -> bool:
     return bool(gap <= 1e-9 * (1 + abs(ends[0][0])))
 
 
-def _multiple(whole: float, part: float) -> bool:
-    return abs(whole / part - round(whole / part)) < 1e-9
+def _multiple(total: float, part: float) -> bool:
+    return abs(total / part - round(total / part)) < 1e-9

@@ -47,7 +47,7 @@ class CycleAngles:
         return angle if self.cycle is self.motion else self.anchored(angle, self.cycle.link(link).angle)
 
     def anchored(self, angle: Floats, on_cycle: Floats) -> Floats:
-        """The same angle, moved by whole turns next to what it is at that time of the cycle, of which a part may not
+        """The same angle, moved by full turns next to what it is at that time of the cycle, of which a part may not
         be reached."""
         positions = self.cycle.positions
         time, values, laps, gain = positions.time, on_cycle, np.zeros(len(angle)), 0.0

@@ -60,11 +60,11 @@ class Dimensions:
                 ):
                     needed.add(name)
                     waiting.append(name)
-        following = filter(needed.__contains__, self.mechanism.parameters if needed else ())
+        parameters = filter(needed.__contains__, self.mechanism.parameters if needed else ())
         found: Scalar = 0.0
-        for name in (*following, address):
-            given = expressions[name]
-            found = given.over({each: self._parameter(each) for each in given.names})
+        for name in (*parameters, address):
+            expression = expressions[name]
+            found = expression.over({each: self._parameter(each) for each in expression.names})
             if name in needed:
                 self._parameters[name] = found
         return found

@@ -12,9 +12,9 @@ from linkwright.formula.program import Program
 from linkwright.formula.scalar_backend import ScalarProgram
 from linkwright.formula.tangent import Slopes
 from linkwright.formula.trace import Scalar, Value
-from linkwright.kinematics.followed_formula import FollowedGroups, state_places
 from linkwright.kinematics.groups import counted
 from linkwright.kinematics.trace import MotionTrace, trace_motion
+from linkwright.kinematics.tracking_formula import TrackedGroups, state_places
 
 #: Largest change of a coordinate in one step, and the change at which it is found: rad, or share of the size.
 LARGEST, FOUND = 0.3, 1e-6
@@ -36,7 +36,7 @@ class DrawnAssembly:
     come the drivers' coordinates.
     """
 
-    def __init__(self, groups: FollowedGroups, drawn: Points) -> None:
+    def __init__(self, groups: TrackedGroups, drawn: Points) -> None:
         self.groups, formula, mechanism = groups, groups.formula, groups.design.mechanism
         self.steps = [(group, step) for group in formula.upstream for step in group.unknowns]
         scale = [1.0 if step.turns else groups.size for _, step in self.steps]

@@ -71,8 +71,8 @@ class _Fold:
         left = max(np.abs(self._position(x)).max(), np.abs(self._jacobian(x) @ v).max())
         if left > CLOSED:
             return None
-        least = float(np.linalg.svd(self._derivative(x, v, normal), compute_uv=False)[-1])
-        return x, float(np.abs(step).max()) + ROUNDED / least
+        smallest = float(np.linalg.svd(self._derivative(x, v, normal), compute_uv=False)[-1])
+        return x, float(np.abs(step).max()) + ROUNDED / smallest
 
     def _position(self, x: Floats) -> Floats:
         held = [self.system.driver_row(name, x).value - q for name, q in self.held.items()]

@@ -86,8 +86,8 @@ class GroupTracer:
             self._newton(placed)
         elif shape is not None:
             self._closed_form(placed, *shape)
-        elif (whole := whole_form(group)) is not None:
-            self._whole(placed, whole)
+        elif (complete := complete_form(group)) is not None:
+            self._complete(placed, complete)
         elif in_one_step(group):
             self._one_step(placed)
         else:
@@ -98,11 +98,11 @@ class GroupTracer:
     def driven(self, step: TreeJoint, parent: Pose) -> Coordinate:
         """Coordinate of a driven joint."""
         assert step.driver is not None
-        given = self.drivers[step.driver]
-        if given.turn is None:
-            return given.slide
+        driver_motion = self.drivers[step.driver]
+        if driver_motion.turn is None:
+            return driver_motion.slide
         driver = self.dimensions.mechanism.drivers[step.driver]
-        turn = given.turn if step.child == driver.link else given.turn.conjugate
+        turn = driver_motion.turn if step.child == driver.link else driver_motion.turn.conjugate
         return Rotor(parent.rotor.now.turn(turn), parent.rotor.local)
 
     def _hang(self, group: Group, coordinates: Mapping[TreeJoint, Coordinate]) -> None:
@@ -159,7 +159,7 @@ class GroupTracer:
         pivot = pair_of(turning, self.dimensions).place(parent, UNTURNED).place
         return Chain(pivot, anchor, tuple(directions), senses)
 
-    def _whole(self, placed: Placed, form: WholeGroup) -> None:
+    def _complete(self, placed: Placed, form: WholeGroup) -> None:
         """A closed form of a group's own."""
         group, solved = placed.group, form.place(self, placed.group)
         self._hang(group, dict(zip(group.unknowns, solved.coordinates, strict=True)))
@@ -260,8 +260,8 @@ def _dyad_shape(group: Group) -> tuple[Dyad, tuple[str, str]] | None:
     return None
 
 
-def whole_form(group: Group) -> WholeGroup | None:
-    """The registered closed form that fits a group as a whole."""
+def complete_form(group: Group) -> WholeGroup | None:
+    """The registered closed form that fits all of a group."""
     for name in DYADS:
         form: Any = DYADS[name]
         if hasattr(form, "fits") and group.unknowns and (found := form()).fits(group):
@@ -271,7 +271,7 @@ def whole_form(group: Group) -> WholeGroup | None:
 
 def closed_form(group: Group) -> bool:
     """Whether a group is placed without iteration."""
-    return dyad_shape(group) is not None or in_one_step(group) or whole_form(group) is not None
+    return dyad_shape(group) is not None or in_one_step(group) or complete_form(group) is not None
 
 
 def iterated(structure: Structure) -> tuple[Group, ...]:
@@ -293,7 +293,7 @@ def counted(structure: Structure, mechanism: Mechanism) -> list[str]:
 
 
 def _adds_up(group: Group) -> bool:
-    return geared(group) and whole_form(group) is None
+    return geared(group) and complete_form(group) is None
 
 
 def upstream(structure: Structure, mechanism: Mechanism) -> list[Group]:

@@ -1,4 +1,4 @@
-"""The range of a driver that cannot turn fully: followed from the start both ways, both ends refined."""
+"""The range of a driver that cannot turn fully: tracked from the start in both directions, both ends refined."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from linkwright.registry import no_such
 from linkwright.words import Message, _, pgettext
 
 #: Step of the search: of a turning driver in rad, of a sliding one as share of the mechanism's size; how far a
-#: sliding one is followed, in sizes.
+#: sliding one is tracked, in sizes.
 STEP = math.radians(1.0)
 SLIDE_STEP = 1.0 / 100
 FARTHEST = 20.0
@@ -170,16 +170,17 @@ def range_sentence(mechanism: Mechanism, links: Sequence[str] = ()) -> str:
         groups = [end.group for end in (found.low, found.high) if end is not None]
         if any(isinstance(each, Message) and each.values.get("links") == tuple(links) for each in groups):
             return _(
-                "with the other drivers at their start {told}",
+                "with the other drivers at their start {reason}",
                 code="range.others_still",
-                told=found.explain(),
+                reason=found.explain(),
             )
     return ""
 
 
 @dataclass(frozen=True)
 class _Stop:
-    """Between the coordinates ``good`` and ``bad``; coordinates of what is followed (n,), signs of modes at ``good``.
+    """Between the coordinates ``good`` and ``bad``; coordinates of the tracked groups (n,), signs of modes at
+    ``good``.
 
     ``group``: the one that becomes singular at ``good``, where that is known; ``change``: the one whose change point
     ``bad`` is, beneath a group without closed form, with its quality there.
@@ -231,8 +232,8 @@ class _Search:
             tries.append(np.stack([nominal + near, nominal - near], axis=1).ravel())
         for q in tries:
             positions = self.positions(q)
-            followed = self.solver.follow(positions, apart=True)
-            states = {} if followed is None else followed.states
+            tracked = self.solver.track(positions, separate=True)
+            states = {} if tracked is None else tracked.states
             codes = self.solver.evaluate(("outcome",), positions, states, {})[0]
             good = np.flatnonzero((codes == 0) & _finite(states, len(q)))
             if len(good):
@@ -265,7 +266,7 @@ class _Search:
                 place,
                 group,
                 _(
-                    "has a change point, through which the groups without closed form cannot be followed",
+                    "has a change point, through which the groups without closed form cannot be tracked",
                     code="range.change",
                 ),
                 precision,
@@ -290,7 +291,7 @@ class _Search:
         return _range_end(value, group, how, precision)
 
     def _to_singular(self, stop: _Stop) -> _Stop:
-        """Where what is followed becomes singular before ``bad``: there, unless a dyad ends before."""
+        """Where a tracked group becomes singular before ``bad``: there, unless a dyad ends before."""
         if stop.unknowns is None:
             return stop
         branch = self._branch(stop, stop.bad)
@@ -304,16 +305,16 @@ class _Search:
         beyond = reached + math.copysign(
             2.0 * FLOOR * (1.0 if self.rotary else self.size), stop.bad - stop.good
         )
-        group = self.solver.follower().weakest_group(branch)
+        group = self.solver.tracker().weakest_group(branch)
         return replace(stop, good=reached, bad=beyond, unknowns=branch.last, group=group)
 
     def _stop(self, direction: float) -> _Stop | None:
         step, span = (STEP, 2 * np.pi) if self.rotary else (SLIDE_STEP * self.size, FARTHEST * self.size)
         q = self.begin + direction * step * np.arange(round(span / step) + 1.0)
         positions = self.positions(q)
-        followed = self.solver.follow(positions)
-        states = {} if followed is None else followed.states
-        found = passages(self.solver, positions, followed)
+        tracked = self.solver.track(positions)
+        states = {} if tracked is None else tracked.states
+        found = passages(self.solver, positions, tracked)
         modes = signs(found, self.solver.assembly.modes, len(q))
         codes = self._solver(modes).evaluate(("outcome",), positions, states, modes)[0]
         mark_singular(codes, found, self.solver.structure)
@@ -329,7 +330,7 @@ class _Search:
                 change, quality = (p.group, p.quality) if p.kind == "end" else (None, 0.0)
         if bad is None:
             return None
-        unknowns = None if followed is None else followed.coordinates[last]
+        unknowns = None if tracked is None else tracked.coordinates[last]
         signs_there = {name: float(row[last]) for name, row in modes.items()}
         return _Stop(float(q[last]), float(bad), signs_there, unknowns, change=change, quality=quality)
 
@@ -378,17 +379,17 @@ class _Search:
     def _states(self, stop: _Stop, q: Floats) -> dict[str, Floats]:
         if stop.unknowns is None:
             return {}
-        follower = self.solver.follower()
+        tracker = self.solver.tracker()
         branches = [self._branch(stop, float(there)) for there in q]
         none = np.full(len(stop.unknowns), np.nan)
         rows = [b.last if b.complete and b.last is not None else none for b in branches]
-        return follower.states(np.array(rows))
+        return tracker.states(np.array(rows))
 
     def _branch(self, stop: _Stop, there: float) -> Branch:
         assert stop.unknowns is not None
         rows = self.positions(np.array([stop.good, there])).coordinates
         ends = np.stack([row[0] for row in rows.values()], axis=1)
-        return self.solver.follower().between(ends[0], ends[1], stop.unknowns)
+        return self.solver.tracker().between(ends[0], ends[1], stop.unknowns)
 
     def _towards(self, stop: _Stop, end: float) -> Floats:
         """The way from the beginning to an end where change points are passed; else the end alone."""
@@ -413,23 +414,23 @@ class _Search:
         left = self._sines(ends, states)[:, 1] > 0
         gone = {name for name, fine in zip(self._guides(), left, strict=False) if not fine}
         gone |= {name for name, row in zip(modal, quality, strict=True) if not row[1] > 0}
-        least = {name: row[0] for name, row in zip(modal, quality, strict=True)}
+        qualities = {name: row[0] for name, row in zip(modal, quality, strict=True)}
         first = next((name for name in modal if name in gone), None)
-        stuck = stop.group or first or min(least, key=least.__getitem__, default="")
-        stuck = stuck or solver.follower().groups.formula.groups[-1].name
-        told = getattr(placed[stuck].dyad, "at_end", None)
-        if told is None:
+        stuck = stop.group or first or min(qualities, key=qualities.__getitem__, default="")
+        stuck = stuck or solver.tracker().groups.formula.groups[-1].name
+        explain_end = getattr(placed[stuck].dyad, "at_end", None)
+        if explain_end is None:
             return groups[stuck], _("is singular", code="range.singular")
         facts = tuple(placed[stuck].facts)
         row = solver.evaluate(tuple(row_name("fact", stuck, on=fact) for fact in facts), ends, states, modes)[
             :, 0
         ]
-        return groups[stuck], told(dict(zip(facts, map(float, row), strict=True)))
+        return groups[stuck], explain_end(dict(zip(facts, map(float, row), strict=True)))
 
 
 def _range_end(value: float, group: Group, how: str, precision: float) -> RangeEnd:
-    said = _("group {signature} ({links})", signature=group.signature, links=tuple(group.links))
-    return RangeEnd(value, said, how, precision)
+    label = _("group {signature} ({links})", signature=group.signature, links=tuple(group.links))
+    return RangeEnd(value, label, how, precision)
 
 
 def _finite(states: Mapping[str, Floats], count: int) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:

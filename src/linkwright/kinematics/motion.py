@@ -28,7 +28,7 @@ from linkwright.words import _
 if TYPE_CHECKING:
     import pandas
 
-    from linkwright.kinematics.followed_way import Followed
+    from linkwright.kinematics.tracked_branch import TrackedBranch
 
 
 Evaluate = Callable[[tuple[str, ...]], Floats]
@@ -128,9 +128,9 @@ class LinkMotion:
         """Angle of the link's x axis against the frame's, (n,) rad, counter-clockwise positive.
 
         Continuous over positions that can be reached, in the order of time, and of driven links also over positions
-        that are far apart; the first lies in (-π, π].
+        that are far from each other; the first lies in (-π, π].
         """
-        return self._motion.kept(("angle", self.name), self._angle)
+        return self._motion.cached(("angle", self.name), self._angle)
 
     @property
     def counted(self) -> bool:
@@ -141,15 +141,15 @@ class LinkMotion:
 
     @property
     def turns_before(self) -> float:
-        """Whole turns, rad, of a link whose turns are known, that ``angle`` leaves out so that its first one lies in
+        """Full turns, rad, of a link whose turns are known, that ``angle`` leaves out so that its first one lies in
         (-π, π]."""
         turned = self._motion.row("turned_angle", self.name)
         known = turned[np.isfinite(turned)]
         return TURN * float(np.ceil(known[0] / TURN - 0.5)) if len(known) else 0.0
 
     def _angle(self) -> Floats:
-        apart = not self._motion.positions.is_way
-        if self.counted or (apart and self._motion.solver.motion.angles.follows(self.name)):
+        separate = not self._motion.positions.is_way
+        if self.counted or (separate and self._motion.solver.motion.angles.follows(self.name)):
             return locked(self._motion.row("turned_angle", self.name) - self.turns_before)
         raw = np.arctan2(self.direction[:, 1], self.direction[:, 0])
         order = self._motion.order
@@ -192,9 +192,9 @@ class Motion(Plotted):
     modes: Mapping[str, Floats] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     barred: Floats | None = None
-    followed: Followed | None = None
+    tracked: TrackedBranch | None = None
     breaks: frozenset[int] = frozenset()
-    _kept: dict[Hashable, Any] = field(default_factory=dict, init=False, repr=False)
+    _cache: dict[Hashable, Any] = field(default_factory=dict, init=False, repr=False)
 
     @property
     def mechanism(self) -> Mechanism:
@@ -246,7 +246,7 @@ class Motion(Plotted):
     def in_order(self) -> Motion:
         """The same positions one after the other, as everything needs that lies between two of them."""
         order = self.order
-        return self if order is None else self.kept("in order", lambda: self._taken(order))
+        return self if order is None else self.cached("in order", lambda: self._taken(order))
 
     def _taken(self, order: Indices) -> Motion:
         return Motion(
@@ -258,7 +258,7 @@ class Motion(Plotted):
             {name: row[order] for name, row in self.modes.items()},
             self.notes,
             None if self.barred is None else self.barred[order],
-            None if self.followed is None else self.followed.taken(order),
+            None if self.tracked is None else self.tracked.taken(order),
         )
 
     @property
@@ -273,7 +273,7 @@ class Motion(Plotted):
         return locked(good if self.barred is None else good & (self.barred == 0))
 
     @cached_property
-    def whole(self) -> bool:
+    def complete(self) -> bool:
         """Whether all positions are solved, and the way leads through all of them."""
         return not self.breaks and bool(self.ok.all())
 
@@ -298,11 +298,11 @@ class Motion(Plotted):
             self.design.base.link(name)
         return LinkMotion(self, name)
 
-    def kept(self, key: Hashable, find: Callable[[], Found]) -> Found:
-        """What was found from the motion before under a key, or is found now, kept as long as the motion."""
-        if key not in self._kept:
-            self._kept[key] = find()
-        found: Found = self._kept[key]
+    def cached(self, key: Hashable, find: Callable[[], Found]) -> Found:
+        """A result derived from the motion, cached under a key as long as the motion."""
+        if key not in self._cache:
+            self._cache[key] = find()
+        found: Found = self._cache[key]
         return found
 
     def turning(self, link: str, against: str) -> Floats:
@@ -363,7 +363,7 @@ class Motion(Plotted):
         """An angle, a displacement, a component of a point's motion, an output that the model names, or a rate of
         these, (n,)."""
         if output.kind in NAMED:
-            return self.kept(("named", output.owner), lambda: self._named_course(output.owner))[output.kind]
+            return self.cached(("named", output.owner), lambda: self._named_course(output.owner))[output.kind]
         if output.kind == "angle":
             return self.link(output.owner).angle
         if KINDS[output.kind].of != "point":
@@ -424,7 +424,7 @@ class Motion(Plotted):
 
 
 def _unwrapped(angle: Floats) -> Floats:
-    """Angles (n,) moved by whole turns, each next to the one before."""
+    """Angles (n,) moved by full turns, each next to the one before."""
     if len(angle) and angle.max() - angle.min() >= np.pi:
         angle[1:] -= TURN * np.cumsum(np.round(np.diff(angle) / TURN))
     return angle

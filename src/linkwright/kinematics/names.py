@@ -148,11 +148,11 @@ def output_meant(mechanism: Mechanism, text: str) -> Output:
 
 
 def output_or_point(mechanism: Mechanism, text: str) -> Output:
-    """The same, or the whole motion of a point that is named alone or by a vector of it: its position."""
+    """The same, or the full motion of a point that is named alone or by a vector of it: its position."""
     found = _output(mechanism, text)
     if found is not None:
-        whole = found.kind in POINT and not found.component
-        return Output("position", found.owner) if whole else found
+        vector = found.kind in POINT and not found.component
+        return Output("position", found.owner) if vector else found
     if owners(mechanism, text):
         return Output("position", point_key(mechanism, text))
     if "." in text:
@@ -213,7 +213,7 @@ def of_forces(mechanism: Mechanism, names: Iterable[str]) -> bool:
 
 def no_output(mechanism: Mechanism, text: str, known: Iterable[str] = ()) -> NoReturn:
     """Raises RequestError with those of the known names that come nearest to one that means nothing; of all outputs
-    where none are given."""
+    where there are none."""
     alone = () if "." in text else (*mechanism.links, *mechanism.guides)
     hint = offered(text, known or [*output_names(mechanism), *alone], _("such as {names}"), most=6)
     raise RequestError(
@@ -301,7 +301,7 @@ def _at_joint(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Ou
         return None
     joint, joined = rest[0], joints[rest[0]].joined
     if len(rest) == 3 and rest[2] not in joined:
-        told = _(
+        message = _(
             "{name!r}: joint {joint!r} does not touch {link!r}; it joins {joined}",
             code="study.not_touching",
             name=text,
@@ -309,10 +309,10 @@ def _at_joint(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Ou
             link=rest[2],
             joined=tuple(joined),
         )
-        raise RequestError(told)
+        raise RequestError(message)
     links = rest[2:] or [link for link in joined if link != "frame"]
     if len(links) != 1:
-        told = _(
+        message = _(
             '{name!r}: joint {joint!r} joins {joined}; say on which link: "{name} on {moving}"',
             code="study.say_link",
             name=text,
@@ -320,7 +320,7 @@ def _at_joint(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Ou
             joined=tuple(joined),
             moving=links[0],
         )
-        raise RequestError(told)
+        raise RequestError(message)
     return Output(kind, joint, axis, links[0])
 
 

@@ -28,7 +28,7 @@ class MotionOutputs:
         return found if not isinstance(found, Vec) else found.x if output.component == "x" else found.y
 
     def of(self, output: Output) -> Scalar | Vec:
-        """The traced value of an output, of a vector the whole of it."""
+        """The traced value of an output, of a vector with all components."""
         kind, owner, motion = output.kind, output.owner, self.motion
         match KINDS[kind].of:
             case "point":

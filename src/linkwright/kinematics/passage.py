@@ -14,10 +14,10 @@ Kind = Literal["change", "meeting", "end", "gap", "pole"]
 class Passage:
     """Where a group's modes meet (``change``), its outer pins meet (``meeting``), or it cannot pass: out of reach
     (``gap``), or infinitely far as its guides become parallel (``pole``). An ``end`` is one of the first two beneath
-    a group without closed form, which cannot be followed through it.
+    a group without closed form, which cannot be tracked through it.
 
     It lies at ``share`` of the step from the position ``before`` to the position ``after``, ``at`` the first driver's
-    coordinate (rad or m); ``quality`` is the least square of the sine of the group's transmission angle there.
+    coordinate (rad or m); ``quality`` is the minimum square of the sine of the group's transmission angle there.
     ``flips``: the places between which the group has its other sign because of it.
     """
 

@@ -53,12 +53,12 @@ def clear_of_zero(
     """
     for k, (name, low, high) in enumerate(zip(names, lows, highs, strict=True)):
         if kind_of(name) == "fact":
-            least = NEAR * high
+            margin = NEAR * high
         elif low > max(NEAR, high - low):
-            least = NEAR
+            margin = NEAR
         else:
-            least = max(NEAR, leap(k))
-        if not (low > least and isfinite(high)):
+            margin = max(NEAR, leap(k))
+        if not (low > margin and isfinite(high)):
             return False
     return True
 
@@ -97,13 +97,13 @@ def plainly_passed(
     if motion.next_states or any("sine" in placed.facts for placed in motion.placed.values()):
         return None
     names = [each for group in modal(motion) for each in measures(motion, group)]
-    followed = [program_names(mechanism, output)[0] for output in outputs]
-    wanted = tuple(dict.fromkeys((*names, *chain.from_iterable(followed))))
+    names_of_outputs = [program_names(mechanism, output)[0] for output in outputs]
+    wanted = tuple(dict.fromkeys((*names, *chain.from_iterable(names_of_outputs))))
     rows = _turned(mechanism, structure, motion, wanted, steps)
     if rows is None or not nothing_passed(names, rows[: len(names)]):
         return None
     found = dict(zip(wanted, rows, strict=True))
-    return [_reverses([found[name] for name in each], mechanism.size) for each in followed]
+    return [_reverses([found[name] for name in each], mechanism.size) for each in names_of_outputs]
 
 
 def _reverses(rows: Sequence[Sequence[float]], size: float) -> bool:
@@ -114,8 +114,11 @@ def _reverses(rows: Sequence[Sequence[float]], size: float) -> bool:
         ways = [c[k] * e[k] - s[k] * d[k] for k in range(len(c))]
     else:
         ways = [b - a for a, b in zip(rows[0], ahead[0], strict=True)]
-    least = REVERSED * (max(ways) - min(ways))
-    return min(ways) < -least < 0.0 < least < max(ways) and max(ways) - min(ways) > REVERSED * size
+    minimum_travel = REVERSED * (max(ways) - min(ways))
+    return (
+        min(ways) < -minimum_travel < 0.0 < minimum_travel < max(ways)
+        and max(ways) - min(ways) > REVERSED * size
+    )
 
 
 def _turned(

@@ -45,9 +45,11 @@ def placements(motion: Motion) -> dict[str, Placement]:
     return found
 
 
-def followed(placed: Mapping[str, Placement], beside: Sequence[tuple[Motion, int]]) -> dict[str, Placement]:
+def with_placements_of(
+    placed: Mapping[str, Placement], positions: Sequence[tuple[Motion, int]]
+) -> dict[str, Placement]:
     """Placements with those at positions of other motions of the same mechanism after them."""
-    rows = [(placements(motion), [index]) for motion, index in beside]
+    rows = [(placements(motion), [index]) for motion, index in positions]
 
     def of(name: str, part: str) -> Floats:
         more = [getattr(other[name], part)[row] for other, row in rows]

@@ -29,7 +29,7 @@ _RATES = {
     False: ("length", "velocity", "acceleration"),
 }
 
-#: Positions of which a turning driver is further apart are no way, but positions of their own, rad.
+#: Positions between which a driver turns further than this are no path, but separate positions, rad.
 LARGEST_STEP = 0.55
 
 
@@ -124,7 +124,7 @@ class Positions:
 
 
 def at_times(mechanism: Mechanism, time: ArrayLike, period: float | None = None) -> Positions:
-    """The positions at given times, s, of a closed cycle that is back after a ``period``, s, if one is given."""
+    """The positions at times, s, of a closed cycle that is back after a ``period``, s, if that is not None."""
     t = _numbers(time)
     if not np.isfinite(t).all():
         raise CycleError(_("a time is not a finite number; give times in seconds", code="motion.bad_time"))
@@ -132,12 +132,14 @@ def at_times(mechanism: Mechanism, time: ArrayLike, period: float | None = None)
     return Positions(t, coordinates, rotary(mechanism), period)
 
 
-def _numbers(given: ArrayLike) -> Floats:
+def _numbers(values: ArrayLike) -> Floats:
     try:
-        found = np.atleast_1d(np.asarray(given, dtype=float))
+        found = np.atleast_1d(np.asarray(values, dtype=float))
     except (TypeError, ValueError):
         texts = (
-            [given] if isinstance(given, str) else [each for each in np.ravel(given) if isinstance(each, str)]
+            [values]
+            if isinstance(values, str)
+            else [each for each in np.ravel(values) if isinstance(each, str)]
         )
         if texts:
             raise CycleError(
@@ -150,10 +152,10 @@ def _numbers(given: ArrayLike) -> Floats:
             ) from None
         raise CycleError(
             _(
-                "{given} is no input and no time; give numbers in SI units (rad, m, s), such as 0.5 "
+                "invalid input or time {values}; give numbers in SI units (rad, m, s), such as 0.5 "
                 "or [0.0, 0.5]",
                 code="motion.no_numbers",
-                given=repr(given)[:60],
+                values=repr(values)[:60],
             )
         ) from None
     if found.ndim > 1:
@@ -222,10 +224,10 @@ def at_one_time(mechanism: Mechanism, time: float) -> dict[str, float]:
 
 
 def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> Positions:
-    """The positions at given coordinates of the first driver, or of several drivers by name (rad or m).
+    """The positions at coordinates of the first driver, or of several drivers by name (rad or m).
 
     Rates are those of the drivers' constant speeds. Raises CycleError for a driver with another law whose
-    coordinate is given, since then the time would not be known.
+    coordinate is set, since then the time would not be known.
     """
     if not mechanism.drivers:
         raise CycleError(
@@ -235,17 +237,17 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
                 name=mechanism.name,
             )
         )
-    given = dict(at) if isinstance(at, Mapping) else {next(iter(mechanism.drivers)): at}
-    if not given:
+    requested = dict(at) if isinstance(at, Mapping) else {next(iter(mechanism.drivers)): at}
+    if not requested:
         raise CycleError(
             _(
-                "no input is given; give the coordinates of a driver, as in at={{{driver!r}: [0.5]}}",
+                "no input; give the coordinates of a driver, as in at={{{driver!r}: [0.5]}}",
                 code="motion.no_inputs",
                 driver=next(iter(mechanism.drivers)),
             )
         )
     rows = {}
-    for name, values in given.items():
+    for name, values in requested.items():
         driver = _driver(mechanism, name)
         if driver.law.constant_speed is None:
             raise CycleError(

@@ -19,9 +19,9 @@ _NUMBER = "#"
 def shape(mechanism: Mechanism, free: frozenset[str] = frozenset()) -> Hashable:
     """A key that two mechanisms share just when one program serves both, each with its own dimensions.
 
-    Dimensions that are zero and not ``free``, angles that are whole quarter turns, points of a link that coincide and
-    the directions of guides along a link's axis are known to a program (see ``Dimensions``); all other numbers are
-    its arguments. Loads, joints and laws take part with their fields, numbers left out.
+    Dimensions that are zero and not ``free``, angles that are multiples of a quarter turn, points of a link that
+    coincide and the directions of guides along a link's axis are known to a program (see ``Dimensions``); all other
+    numbers are its arguments. Loads, joints and laws take part with their fields, numbers left out.
     """
     numbers = mechanism.dimensions()
     form, guides = _forms.get(mechanism.family, None, lambda: _form(mechanism, numbers))
@@ -73,7 +73,7 @@ def _driver(driver: Driver) -> Hashable:
     return driver.name, driver.joint, driver.link, driver.relative_to, type(driver.law)
 
 
-#: The number of quarter turns in angles that are whole ones; 0 for zero.
+#: The number of quarter turns in angles that are multiples of one; 0 for zero.
 _QUARTERS = {turns * 0.5 * math.pi: turns for turns in range(-636, 637)}
 
 

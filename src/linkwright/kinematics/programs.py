@@ -1,4 +1,4 @@
-"""Traced programs of a mechanism's motion, kept by its shape: a changed number costs no tracing."""
+"""Traced programs of a mechanism's motion, cached by its shape: a changed number costs no tracing."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from linkwright.topology import Structure
 
 @dataclass(frozen=True)
 class Manner:
-    """How a motion is traced: ``free`` dimensions, ``flipping`` groups whose assembly mode is given per position,
+    """How a motion is traced: ``free`` dimensions, ``flipping`` groups whose assembly mode is set per position,
     ``iterations`` of groups without closed form (see ``trace_motion``)."""
 
     free: frozenset[str] = frozenset()
@@ -98,7 +98,7 @@ def motion_programs(mechanism: Mechanism, manner: Manner) -> MotionPrograms:
         StructureError: as :func:`linkwright.topology.structure`.
     """
     key = Form((shape(mechanism, manner.free), manner.flipping, manner.iterations))
-    return _kept.get(None, key, lambda: MotionPrograms(mechanism, analysed(mechanism), manner))
+    return _cache.get(None, key, lambda: MotionPrograms(mechanism, analysed(mechanism), manner))
 
 
-_kept: Recent[None, MotionPrograms] = Recent(32)
+_cache: Recent[None, MotionPrograms] = Recent(32)

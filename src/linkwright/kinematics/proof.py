@@ -41,7 +41,7 @@ Terms = dict[tuple[int, int], complex]
 #: A link: number of its rotation, angle of its x axis beyond it, and one of its points with its place.
 _Body = tuple[int, float, complex, Terms]
 
-#: Longest and shortest part of a step, rad or share of the size, and tries after which a step is given up.
+#: Longest and shortest part of a step, rad or share of the size, and attempts after which a step is abandoned.
 LONGEST, FLOOR, PATIENCE = 0.5, 1e-7, 2000
 #: Contraction at which parts aim, and from which on none is tried; relative rounding; coordinates that are the same.
 WANTED, LARGEST, ROUNDING, SAME = 0.5, 0.95, 4e-16, 1e-9
@@ -58,13 +58,14 @@ _NO_PROOF = _(
 class Proof:
     """Which steps of a motion are proved to keep its assembly while the drivers move in a straight line.
 
-    ``proved`` (steps,); ``margin`` (steps,) of the inequality behind it, 0 where it fails; ``apart`` (positions,): no
-    other assembly lies nearer, rad or share of the mechanism's size, NaN where the motion is not solved.
+    ``proved`` (steps,); ``margin`` (steps,) of the inequality behind it, 0 where it fails; ``separation``
+    (positions,): no other assembly lies nearer, rad or share of the mechanism's size, NaN where the motion is not
+    solved.
     """
 
     proved: Flags
     margin: Floats
-    apart: Floats
+    separation: Floats
 
     def explain(self, language: str = "en") -> str:
         """The proof in a sentence."""
@@ -76,27 +77,27 @@ class Proof:
             "first": first,
             "margin": f"{self.margin.min(initial=1.0):.2g}",
         }
-        told = (
-            _("the assembly is proved to be kept in all {total} steps (smallest margin {margin})")
+        sentence = (
+            _("the assembly is proved not to change in all {total} steps (smallest margin {margin})")
             if count == total
             else _(
-                "the assembly is proved to be kept in {count} of {total} steps; the first one "
+                "the assembly is proved not to change in {count} of {total} steps; the first one "
                 "without proof is step {first}",
             )
         )
-        return told.format(**values).translate(language)
+        return sentence.format(**values).translate(language)
 
 
 def prove(motion: Motion) -> Proof:
     """Which steps of a motion provably keep its assembly, and by what margin.
 
-    Groups without closed form are followed by a rule that has not been seen to fail, yet is no proof; modes of dyads
-    need none. Steps lead from each position to the next, in a closed cycle from the last to the first as well.
+    Groups without closed form are tracked by a rule that has never been observed to fail, yet is no proof; modes of
+    dyads need none. Steps lead from each position to the next, in a closed cycle from the last to the first as well.
 
     >>> import linkwright as lw
     >>> proof = lw.prove(lw.solve_motion(lw.load("gallery:triad"), steps=36))
     >>> proof.explain()
-    'the assembly is proved to be kept in all 36 steps (smallest margin 0.5)'
+    'the assembly is proved not to change in all 36 steps (smallest margin 0.5)'
 
     Raises:
         LinkwrightError: a joint is of a kind of which nothing can be proved here, such as a cam.
@@ -106,7 +107,7 @@ def prove(motion: Motion) -> Proof:
     count = motion.steps if positions.closed and not positions.repeated else motion.steps - 1
     passable = (ok & np.roll(ok, -1))[:count]
     passable[[k for k in motion.breaks if k < count]] = False
-    if motion.followed is None:
+    if motion.tracked is None:
         return Proof(passable, passable.astype(float), np.where(ok, np.inf, np.nan))
     loops = _Loops(motion)
     y = loops.coordinates_of(motion)
@@ -234,8 +235,8 @@ class _Loops:
 
     def coordinates_of(self, motion: Motion) -> Floats:
         """y (positions, n + d) of a motion."""
-        assert motion.followed is not None
-        known = motion.followed.follower.named(motion.followed.coordinates)
+        assert motion.tracked is not None
+        known = motion.tracked.tracker.named(motion.tracked.coordinates)
         rows = [known[key] if key in known else motion.joint(key[1]).displacement for key in self.unknowns]
         return np.stack([*rows, *motion.inputs.values()], axis=1)
 
@@ -295,15 +296,15 @@ def _real(v: Complexes) -> Floats:
 
 def _walked(loops: _Loops, begin: Floats, end: Floats) -> float:
     """The smallest margin of the parts in which a step is proved; 0 where it is not, or leads elsewhere than to its
-    end but for whole turns."""
-    drive, x, y, least = end[loops.n :] - begin[loops.n :], 0.0, begin, 1.0
+    end but for full turns."""
+    drive, x, y, smallest = end[loops.n :] - begin[loops.n :], 0.0, begin, 1.0
     pace = max(float(np.abs(drive / loops.unit).max(initial=0.0)), 1e-300)
     h = min(1.0, LONGEST / pace)
     for _unused in range(PATIENCE):
         if x >= 1.0:
             gap = (y - end)[: loops.n] / loops.scale
             gap = np.where(loops.turns, 2.0 * np.sin(gap / 2.0), gap)
-            return least if np.abs(gap).max(initial=0.0) < SAME else 0.0
+            return smallest if np.abs(gap).max(initial=0.0) < SAME else 0.0
         h = min(h, 1.0 - x)
         with np.errstate(all="ignore"):
             try:
@@ -311,7 +312,7 @@ def _walked(loops: _Loops, begin: Floats, end: Floats) -> float:
             except np.linalg.LinAlgError:
                 ahead, contraction, margin = y, np.inf, 0.0
         if margin > 0.0:
-            x, y, least = (1.0 if h >= 1.0 - x else x + h), ahead, min(least, margin)
+            x, y, smallest = (1.0 if h >= 1.0 - x else x + h), ahead, min(smallest, margin)
         elif h * pace < FLOOR:
             return 0.0
         share, bounds = (

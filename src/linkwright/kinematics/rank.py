@@ -80,7 +80,7 @@ def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:
 def rank_from_dimensions(mechanism: Mechanism) -> RankReport | None:
     """Rank where the joints close by the dimensions alone, for models without a drawing that counting refuses.
 
-    Positions are sought from all links strewn at random, the same at every call; the one of the greatest rank
+    Positions are sought from all links strewn at random, the same at every call; the one of maximum rank
     counts, as others may be special. None where no position is found, where the rank confirms the count, of higher
     pairs, whose phases a position found so need not keep, and of more than 30 links.
     """
@@ -189,9 +189,9 @@ def _freedoms_without(full: ConstraintEquations, rows: Sequence[Row], without: S
     equations, left = Counter(row.joint for row in rows), frozenset(without)
     lost = 0
     for joint in full.mechanism.joints.values():
-        kept = sum(link not in left for link in joint.joined)
+        links_left = sum(link not in left for link in joint.joined)
         each = equations[joint.name] // (len(joint.joined) - 1)
-        lost += each * max(kept - 1, 0)
+        lost += each * max(links_left - 1, 0)
     return 3 * (len(full.links) - len(left)) - lost
 
 
@@ -220,7 +220,7 @@ def _closed(system: ConstraintEquations, x: Floats, held: str | None = None) -> 
 
 
 def _assembled(system: ConstraintEquations) -> tuple[Floats | None, int]:
-    """Coordinates that satisfy the joints and the rank there, the greatest among some; None where none are found.
+    """Coordinates that satisfy the joints and the rank there, the maximum among some; None where none are found.
 
     The first driver is held where it was strewn, as steps that move everything often end in special positions.
     """
@@ -289,7 +289,7 @@ def report_of(
     count = grubler(counts(mechanism))
     freedoms = 3 * len(mechanism.links)
     mobility = freedoms - rank
-    equations, redundant = freedoms - count, _said(implied)
+    equations, redundant = freedoms - count, _messages(implied)
     make = partial(RankReport, rank, freedoms, equations, count, redundant, links, special)
     if mobility == count:
         return make(_CONFIRMED[where].format(count=count))
@@ -358,7 +358,7 @@ def _named(names: Sequence[str]) -> tuple[Message, ...]:
     return tuple(_("'{name}'", name=name) for name in names)
 
 
-def _said(rows: Sequence[Row]) -> tuple[Message, ...]:
+def _messages(rows: Sequence[Row]) -> tuple[Message, ...]:
     return tuple(_HELD[row.holds].format(joint=row.joint) for row in rows)
 
 
@@ -366,11 +366,13 @@ def _gaping(
     mechanism: Mechanism, system: ConstraintEquations, rank: int, implied: Sequence[Row], gap: float
 ) -> RankReport:
     count = grubler(counts(mechanism))
-    said = _(
+    message = _(
         "Grübler gives {count}; the links do not fit together near the drawing: at best a "
         "gap of {gap} is left, so no link is redundant there",
         code="rank.gaping",
         count=count,
         gap=length_text(gap * system.size, 3),
     )
-    return RankReport(rank, system.freedoms, system.freedoms - count, count, _said(implied), (), False, said)
+    return RankReport(
+        rank, system.freedoms, system.freedoms - count, count, _messages(implied), (), False, message
+    )

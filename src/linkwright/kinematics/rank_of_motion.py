@@ -21,7 +21,7 @@ from linkwright.words import _
 
 
 def jacobian_rank(motion: Motion, index: int = 0) -> RankReport:
-    """Rank of the constraint Jacobian of the whole mechanism at a solved position, by singular values.
+    """Rank of the constraint Jacobian of the mechanism at a solved position, by singular values.
 
     A singular value below 1e-9 of the largest counts as zero. Sees what counting cannot: passive constraints
     (Norton, Design of Machinery, ch. 2; Wittenburg, Dynamics of Multibody Systems, ch. 5). Special lengths and
@@ -81,7 +81,8 @@ def coordinates(motion: Motion, index: int) -> Floats:
 
 
 def _rank_of_groups(mechanism: Mechanism, built: Structure, x: Floats) -> int | None:
-    """The rank where every group alone is regular, its drivers held: then no equation of the whole implies another.
+    """The rank where every group alone is regular, its drivers held: then no equation of the mechanism implies
+    another.
 
     Ordered as the groups are solved, the Jacobian of the joints and drivers has the groups' own ones on its diagonal
     and nothing above them. None where a group is not regular.

@@ -70,14 +70,14 @@ class RateTracer:
     def _rate(self, step: TreeJoint, carried: Scalar, rates: Rates) -> Scalar:
         if step.driver is None:
             return rates.get(step, 0.0)
-        return self._given(step, self.drivers[step.driver].rate, carried)
+        return self._with_drive(step, self.drivers[step.driver].rate, carried)
 
     def _second(self, step: TreeJoint, carried: Scalar, seconds: Rates) -> Scalar:
         if step.driver is None:
             return seconds.get(step, 0.0)
-        return self._given(step, self.drivers[step.driver].second, carried)
+        return self._with_drive(step, self.drivers[step.driver].second, carried)
 
-    def _given(self, step: TreeJoint, value: Scalar, carried: Scalar) -> Scalar:
+    def _with_drive(self, step: TreeJoint, value: Scalar, carried: Scalar) -> Scalar:
         """A driver's rate as the chain counts it: absolute for a pin, of the block for a guide."""
         if step.slides:
             return value

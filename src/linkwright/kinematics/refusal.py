@@ -7,7 +7,7 @@ import numpy as np
 from linkwright.kinematics.input_range import range_sentence
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.outcome import Outcome, PositionError
-from linkwright.kinematics.reach_sentences import input_at, way_stopped
+from linkwright.kinematics.reach_messages import input_at, way_stopped
 from linkwright.words import _
 
 _CHANGE = _(
@@ -19,18 +19,18 @@ _CHANGE = _(
 def _not_passed(motion: Motion) -> PositionError:
     """The error for a cycle that is barred between two positions, though all of them are reached from both sides."""
     barred = Outcome(False, _("the way is barred between two positions"), None, "barred")
-    way, told = motion.followed, (barred, *motion.notes)
+    way, reasons = motion.tracked, (barred, *motion.notes)
     if way is not None and way.stops:
         group = next(each for each in motion.structure.groups if each.name == way.stops[0].group)
-        told = (barred, way_stopped(motion, group, way.stops[0]), *motion.notes)
-    said = _(
-        "{name!r} cannot pass its cycle: {told}; {advice}",
+        reasons = (barred, way_stopped(motion, group, way.stops[0]), *motion.notes)
+    message = _(
+        "{name!r} cannot pass its cycle: {reasons}; {advice}",
         code="motion.not_passed",
         name=motion.mechanism.name,
-        told=told,
+        reasons=reasons,
         advice=_CHANGE,
     )
-    return PositionError(said, (), barred)
+    return PositionError(message, (), barred)
 
 
 def refusal(motion: Motion) -> PositionError:
@@ -49,16 +49,18 @@ def refusal(motion: Motion) -> PositionError:
             steps=motion.steps,
         )
     links = next((each.links for each in motion.structure.groups if each.name == outcome.group), ())
-    told = list(motion.notes) if outcome.kind == "barred" else range_sentence(motion.mechanism, tuple(links))
-    said = (
-        _("{name!r} cannot be solved at {where}: {sentence}; {told}; {advice}", code="motion.refused_told")
-        if told
+    reasons = (
+        list(motion.notes) if outcome.kind == "barred" else range_sentence(motion.mechanism, tuple(links))
+    )
+    message = (
+        _("{name!r} cannot be solved at {where}: {sentence}; {reasons}; {advice}", code="motion.refused_told")
+        if reasons
         else _("{name!r} cannot be solved at {where}: {sentence}; {advice}", code="motion.refused")
     ).format(
         name=motion.mechanism.name,
         where=where,
         sentence=outcome,
-        told=told,
+        reasons=reasons,
         advice=_CHANGE,
     )
-    return PositionError(said, tuple(int(i) for i in failed), outcome)
+    return PositionError(message, tuple(int(i) for i in failed), outcome)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 #: Share of the drivers' largest rate up to which a rate is rounding, where something reverses.
 ROUNDING = 1e-14
-#: The same where its own rate is not above the second share of the largest one's square: what stands still.
+#: The same where its own rate is not above the second share of the largest one's square: what is at rest.
 STANDING, STEADY = 1e-10, 1e-8
 #: Times of a driver's law among which its largest rate is sought, and of a law that has no duration, s, how long.
 LOOKS, WHILE = 361, 1.0

@@ -17,7 +17,7 @@ Terms = dict[Key, float]
 
 
 class RotationSums:
-    """What links' rotations and guides' displacements gain together over a whole cycle.
+    """What links' rotations and guides' displacements gain together over a full cycle.
 
     ``unknowns``: rotations of links that turn freely on their chains, displacements of guides; ``rotations``: of all
     links, in these and the drivers' turns; ``sums``: unknowns that higher pairs make depend on others.

@@ -25,7 +25,7 @@ from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.passing_proof import clear_of_zero
 from linkwright.kinematics.positions import Positions, at_inputs, at_times
-from linkwright.kinematics.reach_sentences import branch_notes, passage_notes, turn_notes
+from linkwright.kinematics.reach_messages import branch_notes, passage_notes, turn_notes
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
@@ -47,7 +47,7 @@ def solve_motion(
 
     Args:
         mechanism: what to solve.
-        steps: equal steps over the cycle (see ``over_cycle``); used if neither ``at`` nor ``times`` is given.
+        steps: equal steps over the cycle (see ``over_cycle``); used if neither ``at`` nor ``times`` is set.
         at: coordinates of the first driver (rad or m), or of drivers by name.
         times: times in s.
         endpoint: repeat the first position of a closed cycle at its end.
@@ -91,8 +91,7 @@ def _positions(
     if not positions.count:
         raise RequestError(
             _(
-                "no positions are given; give an input or a time, or leave at and times out for the "
-                "whole cycle",
+                "no positions; give an input or a time, or leave at and times out for the full cycle",
                 code="motion.no_positions",
             )
         )
@@ -124,7 +123,7 @@ def with_times(motion: Motion, times: Iterable[float]) -> tuple[Motion, list[int
 
 
 class MotionRun:
-    """One evaluation of a solver over given positions; ``single``: inputs for themselves, not a cycle."""
+    """One evaluation of a solver over positions; ``single``: inputs for themselves, not a cycle."""
 
     def __init__(self, solver: MotionSolver, positions: Positions, *, single: bool = False) -> None:
         self.solver = solver
@@ -136,30 +135,30 @@ class MotionRun:
         if failures not in ("raise", "mark"):
             raise RequestError(
                 _(
-                    "failures is {given!r}; give 'raise' to refuse positions that cannot be reached, or "
+                    "invalid failures {value!r}; give 'raise' to refuse positions that cannot be reached, or "
                     "'mark' to mark them",
                     code="motion.no_failures",
-                    given=failures,
+                    value=failures,
                 )
             )
-        followed = self.solver.follow(self.positions, apart=self.single)
-        at_once = None if followed or stored or self.single else self._at_once()
+        tracked = self.solver.track(self.positions, separate=self.single)
+        at_once = None if tracked or stored or self.single else self._at_once()
         if at_once is not None:
             return at_once
-        states = {} if followed is None else followed.states
-        modes, said = reached_modes(self.solver, self.positions) if self.single else ({}, ())
-        found = [] if modes else passages(self.solver, self.positions, followed)
+        states = {} if tracked is None else tracked.states
+        modes, messages = reached_modes(self.solver, self.positions) if self.single else ({}, ())
+        found = [] if modes else passages(self.solver, self.positions, tracked)
         if any(p.touches for p in found):
             modes = signs(found, self.solver.assembly.modes, self.positions.count)
         if modes:
             self.solver = self.solver.with_flips(mode_groups(modes))
-        breaks = frozenset() if followed is None else followed.breaks
+        breaks = frozenset() if tracked is None else tracked.breaks
         breaks |= {p.before for p in found if p.kind == "end" or p.barred}
         names = stored or self.solver.outputs.standard
         motion = self._evaluate(states, modes, found, breaks, names)
-        motion.followed = followed
-        motion.notes += said + turn_notes(motion) + branch_notes(motion)
-        if failures == "raise" and not motion.whole:
+        motion.tracked = tracked
+        motion.notes += messages + turn_notes(motion) + branch_notes(motion)
+        if failures == "raise" and not motion.complete:
             raise motion.refusal()
         return motion
 
@@ -209,7 +208,7 @@ def marked(
     modes: Mapping[str, Floats],
     barred: Floats,
 ) -> Motion:
-    """The motion of outputs (names, n), NaN at positions that are not solved, ``barred`` or not followed."""
+    """The motion of outputs (names, n), NaN at positions that are not solved, ``barred`` or not tracked."""
     for row in states.values():
         barred = np.where(np.isfinite(row), barred, 1.0)
     rows = Rows(values, solver.programs.places(names))
@@ -231,7 +230,7 @@ def reached_modes(solver: MotionSolver, positions: Positions) -> tuple[dict[str,
 
     Empty if no change point is passed.
 
-    For mechanisms of dyads with one driver that turns at constant speed and passes the whole turn. The way
+    For mechanisms of dyads with one driver that turns at constant speed and passes the full turn. The way
     begins at the start of the cycle; after an odd number of change points in one turn the second turn has the
     other sign.
     """

@@ -12,13 +12,13 @@ from linkwright.core.arrays import Floats
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.assembly import Assembly, assemble
-from linkwright.kinematics.continuation import Follower
+from linkwright.kinematics.continuation import BranchTracker
 from linkwright.kinematics.design import Design
-from linkwright.kinematics.followed_way import Followed, followed
 from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.programs import AS_IT_IS, Manner, MotionPrograms, motion_programs
 from linkwright.kinematics.trace import MotionTrace
+from linkwright.kinematics.tracked_branch import TrackedBranch, track_branch
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.topology import Structure
 
@@ -81,7 +81,7 @@ class MotionSolver:
         return MotionSolver(design.mechanism, Manner(self.manner.free), self.assembly)
 
     def with_flips(self, groups: Iterable[str]) -> MotionSolver:
-        """The same mechanism, with assembly modes of some groups given per position."""
+        """The same mechanism, with assembly modes of some groups set per position."""
         flipping = frozenset(groups)
         if flipping == self.manner.flipping:
             return self
@@ -92,30 +92,31 @@ class MotionSolver:
         return self.programs.program(names)
 
     @cached_property
-    def _own_follower(self) -> Follower:
-        return self._following(self.nominal)
+    def _own_tracker(self) -> BranchTracker:
+        return self._tracker_of(self.nominal)
 
-    def _following(self, design: Design) -> Follower:
-        return Follower(self.with_flips(()).programs, self.assembly, design)
+    def _tracker_of(self, design: Design) -> BranchTracker:
+        return BranchTracker(self.with_flips(()).programs, self.assembly, design)
 
-    def follower(self, design: Design | None = None) -> Follower:
+    def tracker(self, design: Design | None = None) -> BranchTracker:
         """What follows the groups without closed form."""
-        return self._own_follower if design is None or design is self.nominal else self._following(design)
+        return self._own_tracker if design is None or design is self.nominal else self._tracker_of(design)
 
-    def follow(
-        self, positions: Positions, design: Design | None = None, apart: bool = False
-    ) -> Followed | None:
-        """The way of the groups without closed form, None if there are none; ``apart``: each position for itself."""
+    def track(
+        self, positions: Positions, design: Design | None = None, separate: bool = False
+    ) -> TrackedBranch | None:
+        """The way of the groups without closed form, None if there are none; ``separate``: each position for
+        itself."""
         if not self.motion.next_states:
             return None
         if self._assembly is not None or not (design is None or design is self.nominal):
-            return followed(self.follower(design), positions, apart)
-        key = (positions.key, apart)
-        return _ways.get(self.mechanism, key, lambda: followed(self._own_follower, positions, apart))
+            return track_branch(self.tracker(design), positions, separate)
+        key = (positions.key, separate)
+        return _ways.get(self.mechanism, key, lambda: track_branch(self._own_tracker, positions, separate))
 
     def states(self, positions: Positions, design: Design | None = None) -> dict[str, Floats]:
         """Chain coordinates of groups without closed form at every position."""
-        found = self.follow(positions, design)
+        found = self.track(positions, design)
         return {} if found is None else dict(found.states)
 
     def evaluate(
@@ -135,4 +136,4 @@ class MotionSolver:
 
 
 #: Of mechanisms as they are.
-_ways: Recent[Mechanism, Followed] = Recent(16)
+_ways: Recent[Mechanism, TrackedBranch] = Recent(16)

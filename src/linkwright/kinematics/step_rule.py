@@ -16,8 +16,8 @@ from linkwright.formula.trace import Scalar, maximum, reciprocal
 CORRECTION, MISFIT = 0.1, 0.01
 #: Largest change of a coordinate in one step, rad or share of the size.
 LARGEST = 0.3
-#: What a correction and a misfit may be beside these shares: rounding; and where steps cannot be halved, as where a
-#: cam's rise begins behind a dwell: no other assembly of the same sign of the determinant is so near.
+#: What a correction and a misfit may be in addition to these shares: rounding; and where steps cannot be halved, as
+#: where a cam's rise begins behind a dwell: no other assembly of the same sign of the determinant is so near.
 ROUNDING, ROOM = 1e-10, 1e-4
 
 

@@ -1,4 +1,4 @@
-"""The motion of a whole mechanism, traced along its solving order into one program."""
+"""The motion of a mechanism, traced along its solving order into one program."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from linkwright.topology.analysis import Structure
 class MotionTrace:
     """Every link's state as traced values, and what the groups know about themselves.
 
-    ``outcome``: 0 where the whole mechanism is in position, else the number (from 1) of the first group that
+    ``outcome``: 0 where the mechanism is in position, else the number (from 1) of the first group that
     is not, negative if it is in reach but singular.
     """
 
@@ -61,7 +61,7 @@ class MotionTrace:
         return reaction_place(self.mechanism.joints[joint], self.dimensions, self.poses)
 
     def point(self, link: str, local: Vec) -> tuple[Vec, Vec, Vec]:
-        """Position, velocity and acceleration of a point given in a link's axes."""
+        """Position, velocity and acceleration of a point in a link's axes."""
         state = self.states[link]
         return state.pose.place + state.arm(local), state.velocity_of(local), state.acceleration_of(local)
 
@@ -79,7 +79,7 @@ def trace_motion(
 
     ``free``: dimensions that will vary (others are known zeros where they are zero); ``iterations``:
     Newton steps of groups without closed form, 0: all groups are left open as their states say; ``modes_vary``:
-    groups (by name) whose assembly mode is given per position, for motion through change points.
+    groups (by name) whose assembly mode is set per position, for motion through change points.
     """
     trace = Trace()
     dimensions = Dimensions(mechanism, trace, free)

@@ -54,5 +54,5 @@ def _evaluated(forces: Forces, outputs: dict[str, Scalar]) -> Floats:
     program = NumpyProgram(Program.of(motion.solver.motion.trace, outputs))
     inner = program.program
     parameters = [motion.design.parameters[name] for name in inner.parameters]
-    arrays, given = {**motion.positions.arrays, **motion.modes}, {**motion.states, **forces.fields}
-    return np.asarray(program.run(parameters, arrays, given, length=motion.steps))
+    arrays, fields = {**motion.positions.arrays, **motion.modes}, {**motion.states, **forces.fields}
+    return np.asarray(program.run(parameters, arrays, fields, length=motion.steps))

@@ -71,7 +71,7 @@ class Forces(Plotted):
 
     @cached_property
     def roundings(self) -> Floats:
-        """Sizes (n,), N, below which a joint force is but rounding beside the largest of the machine there."""
+        """Sizes (n,), N, below which a joint force is a rounding error of the largest of the machine there."""
         rows = self.rows
         found = rows.values[[place for name, place in rows.index.items() if kind_of(name) == "reaction"]]
         return np.asarray(
@@ -151,7 +151,7 @@ class Forces(Plotted):
 
     @cached_property
     def input_torque_from_power(self) -> Floats:
-        """The same from the powers of all forces, (n,); for one driver; NaN where it stands still."""
+        """The same from the powers of all forces, (n,); for one driver; NaN where it is at rest."""
         if len(self.mechanism.drivers) != 1:
             raise RequestError(
                 _(

@@ -91,8 +91,8 @@ class FrictionTerms:
 
     def wrenches(self, sizes: Mapping[str, Scalar] | None = None) -> dict[str, list[Wrench]]:
         """The friction as loads on both links; magnitudes by the names of the fields, else inputs of these names."""
-        given = sizes or {term.field: self.motion.trace.field_input(term.field) for term in self.terms}
-        return {term.field: self._wrenches(term, given[term.field]) for term in self.terms}
+        term_sizes = sizes or {term.field: self.motion.trace.field_input(term.field) for term in self.terms}
+        return {term.field: self._wrenches(term, term_sizes[term.field]) for term in self.terms}
 
     def _wrenches(self, term: FrictionTerm, size: Scalar) -> list[Wrench]:
         if not term.slides:

@@ -1,10 +1,10 @@
 """Friction that agrees with the reactions it causes, as traced values: Newton's steps, and what they leave.
 
 Joint forces are linear in the friction and in the sizes of the forces between teeth, which press with either flank.
-Teeth push apart without work, so that the latter change no force between teeth. Hence the forces that press the parts
-of the joints together are f = |R + A f + B |S + C f||, with R and S the forces without friction. If the sizes
-H = |A| + |B| |C| have a spectral radius below 1, this is a contraction: one solution, to which every iteration comes.
-Joint forces follow from the last group to the first, and the friction block by block with them.
+Separating forces of teeth do no work, so that the latter change no force between teeth. Hence the forces that press
+the parts of the joints together are f = |R + A f + B |S + C f||, with R and S the forces without friction. If the
+sizes H = |A| + |B| |C| have a spectral radius below 1, this is a contraction: one solution, to which every iteration
+comes. Joint forces follow from the last group to the first, and the friction block by block with them.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ class _Block:
     teeth: Sequence[_Teeth]
 
     def under(self, sizes: Sequence[Scalar]) -> tuple[list[Vec], list[list[Vec]]]:
-        """The forces under friction of given pressing forces, and their slopes by these."""
+        """The forces under friction from normal forces, and their derivatives by these."""
         forces = [
             Vec(*(
                 free + product([[getattr(gain, axis) for gain in row]], sizes)[0]
@@ -137,14 +137,14 @@ def _block(
         free[connection.joint] = force
         return 0.0
 
-    def given(connection: Connection, force: Scalar) -> Scalar:
+    def tooth_force(connection: Connection, force: Scalar) -> Scalar:
         name = connection.joint
         teeth[name], inputs[name] = force, trace.field_input(f"teeth:{name}")
         return inputs[name]
 
     plain = forces_of(friction.wrenches(held), size=none)
     fields = {term.field: trace.field_input(term.field) for term in terms}
-    rubbing = forces_of(friction.wrenches({**held, **fields}), size=given)
+    rubbing = forces_of(friction.wrenches({**held, **fields}), size=tooth_force)
     forces = [pressing(rubbing, term) for term in terms]
     by = list(zip(fields.values(), factors, strict=True))
     pairs = [
@@ -211,7 +211,7 @@ def _newton(block: _Block, sizes: Sequence[Scalar]) -> list[Scalar]:
 
 
 def _bound(sizes: Sequence[Sequence[Scalar]]) -> Scalar:
-    """At least the given power of the spectral radius."""
+    """At least this power of the spectral radius."""
     sums: list[Scalar] = [1.0] * len(sizes)
     for _ in range(POWER):
         sums = product(sizes, sums)

@@ -146,14 +146,14 @@ class Named:
                         driver=driver.name,
                     )
                 )
-            given = self.motion.motion.drivers[driver.name]
-            if given.turn is None:
-                seeds[trace.position(Input("slide", driver.name).name)] = given.rate
+            driver_motion = self.motion.motion.drivers[driver.name]
+            if driver_motion.turn is None:
+                seeds[trace.position(Input("slide", driver.name).name)] = driver_motion.rate
             else:
                 turn, cosine, sine = (Input(kind, driver.name).name for kind in ("turn", "cos", "sin"))
-                seeds[trace.position(turn)] = given.rate
-                seeds[trace.position(cosine)] = -given.turn.y * given.rate
-                seeds[trace.position(sine)] = given.turn.x * given.rate
+                seeds[trace.position(turn)] = driver_motion.rate
+                seeds[trace.position(cosine)] = -driver_motion.turn.y * driver_motion.rate
+                seeds[trace.position(sine)] = driver_motion.turn.x * driver_motion.rate
         return {**seeds, **self._iterated_rates()}
 
     def _iterated_rates(self) -> dict[Value, Scalar]:
@@ -173,7 +173,7 @@ class Named:
         return {value: rate for value, rate in found.items() if isinstance(value, Value)}
 
     def _angle(self, name: str, output: Output) -> Quantity:
-        """Tangent of half the angle from the middle direction: it grows with the angle over a whole turn."""
+        """Tangent of half the angle from the middle direction: it grows with the angle over a full turn."""
         middle = self.middle(output.owner)
         e = self.motion.motion.poses[output.owner].direction
         c, s = float(np.cos(middle)), float(np.sin(middle))
@@ -187,11 +187,13 @@ class Named:
     def _of_formula(self, output: Output | None, order: int) -> Scalar:
         """What moves in the formula of a named output, the input for None, or one of its rates."""
         if output is None:
-            name, given = next(iter(self.motion.motion.drivers.items()))
-            kind: Literal["turn", "slide"] = "slide" if given.turn is None else "turn"
-            return (self.motion.motion.trace.position(Input(kind, name).name), given.rate, given.second)[
-                order
-            ]
+            name, driver_motion = next(iter(self.motion.motion.drivers.items()))
+            kind: Literal["turn", "slide"] = "slide" if driver_motion.turn is None else "turn"
+            return (
+                self.motion.motion.trace.position(Input(kind, name).name),
+                driver_motion.rate,
+                driver_motion.second,
+            )[order]
         if output.kind in NAMED:
             return self._named(output)[NAMED.index(output.kind) + order]
         if output.kind == "angle" and order == 0:
@@ -304,8 +306,8 @@ class Named:
         return total / (rate * rate)
 
     def _first_rate(self, name: str) -> Scalar:
-        given = next(iter(self.motion.motion.drivers.values()), None)
-        return no_output(self.mechanism, name) if given is None else given.rate
+        driver_motion = next(iter(self.motion.motion.drivers.values()), None)
+        return no_output(self.mechanism, name) if driver_motion is None else driver_motion.rate
 
     def _dyad(self, name: str, output: Output) -> Group:
         group = self._group(name, output)

@@ -25,7 +25,7 @@ class ForceOutputs:
         return found if not isinstance(found, Vec) else found.x if output.component == "x" else found.y
 
     def of(self, output: Output) -> Scalar | Vec:
-        """The traced value of an output, of a vector the whole of it."""
+        """The traced value of an output, of a vector with all components."""
         owner, forces = output.owner, self.forces
         match output.kind:
             case "reaction":

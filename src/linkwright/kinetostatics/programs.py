@@ -1,4 +1,4 @@
-"""Traced programs of a mechanism's forces, kept beside those of its motion."""
+"""Traced programs of a mechanism's forces, cached with those of its motion."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ def force_programs(
     """The programs of the forces that belong to those of a motion; arguments as for ``trace_forces``, ``rubbing``:
     the friction is traced, else an input per position."""
     key = (inertia, along_input, rubbing)
-    return _kept.get(motion, key, lambda: ForcePrograms(motion, *key))
+    return _cache.get(motion, key, lambda: ForcePrograms(motion, *key))
 
 
-_kept: Recent[MotionPrograms, ForcePrograms] = Recent(48)
+_cache: Recent[MotionPrograms, ForcePrograms] = Recent(48)

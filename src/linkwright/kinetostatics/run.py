@@ -16,7 +16,7 @@ from linkwright.core.search import first_largest
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.motion import Motion, Rows
-from linkwright.kinematics.reach_sentences import input_at
+from linkwright.kinematics.reach_messages import input_at
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.forces import Forces
@@ -67,7 +67,7 @@ def run_forces(
     """Solves the forces of a motion; with a ``solver`` of the same motion solver nothing is traced again.
 
     ``signals``: what its loads follow, where more of its cycle is known than the motion tells; ``asked``: outputs
-    that are stored beside those that forces store.
+    that are stored with those that forces store.
     """
     solver = solver or ForceSolver(motion.solver, inertia=not static)
     names = tuple(dict.fromkeys((*solver.programs.checks.names, *asked)))
@@ -134,7 +134,7 @@ def _contacts_lost(forces: Forces) -> Iterable[Message]:
 def _indeterminate(motion: Motion) -> tuple[str, ...]:
     """Says which couples and forces statics cannot tell, because others prevent the same rotation."""
     guides = [c.joint for group in motion.structure.groups for c in group.cuts if c.slides]
-    said = [
+    messages = [
         _(
             "the couple of guide {name!r} is statically indeterminate, as other guides prevent "
             "the same rotation: it is taken as zero, and the couples of those guides carry all",
@@ -144,15 +144,15 @@ def _indeterminate(motion: Motion) -> tuple[str, ...]:
         for name in guides
     ]
     if passive := motion.structure.passive:
-        said.append(
+        messages.append(
             _(
-                "how the passive pairs {names} and the pairs beside them share the load is "
+                "how the passive pairs {names} and the pairs parallel to them share the load is "
                 "statically indeterminate: the passive ones are taken as unloaded",
                 code="forces.passive",
                 names=passive,
             )
         )
-    return tuple(said)
+    return tuple(messages)
 
 
 def _load_fields(motion: Motion, names: Iterable[str], signals: MotionSignals) -> dict[str, Floats]:

@@ -12,7 +12,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, kind_of
 from linkwright.core.quantity import shown
 from linkwright.errors import SelfCheckError
-from linkwright.kinematics.reach_sentences import input_at
+from linkwright.kinematics.reach_messages import input_at
 from linkwright.words import Message, _
 
 if TYPE_CHECKING:
@@ -78,9 +78,9 @@ class ForceChecks:
         """Raises SelfCheckError at the position where a check is off most, if one is by more than rounding."""
         forces, left, (driving, needed) = self._parts(rows)
         with np.errstate(all="ignore"):
-            apart = np.abs(driving - needed)
+            difference = np.abs(driving - needed)
             balanced = _squares(left) <= PLAINLY**2 * _squares(forces)
-            if balanced.all() and (apart <= LIMIT * np.abs(needed)).all():
+            if balanced.all() and (difference <= LIMIT * np.abs(needed)).all():
                 return
             largest = self._largest(forces)
             left = np.abs(left) * self._measures[len(forces) :]
@@ -88,16 +88,16 @@ class ForceChecks:
                 self._unbalanced(left, largest, motion)
             names, factors = self._speeds
             speed = (np.abs(motion.rows.fetch(names, motion.evaluate)) * factors).max(axis=0, initial=0.0)
-            if (apart > LIMIT * largest * speed).any():
+            if (difference > LIMIT * largest * speed).any():
                 _differ(
                     _(
                         "the forces of {name!r} do not pass their own check at {where}: the power of the "
-                        "drivers and that of all other forces differ by {gap}, beside the {size} that forces "
+                        "drivers and that of all other forces differ by {gap}, compared with the {size} that forces "
                         "and speeds of this size make. {check_failed}",
                         code="forces.powers_differ",
                     ),
                     "W",
-                    apart,
+                    difference,
                     largest * speed,
                     motion,
                 )
@@ -110,7 +110,7 @@ class ForceChecks:
                 _differ(
                     _(
                         "the forces of {name!r} do not pass their own check at {where}: forces, loads and "
-                        "inertia put together leave a link out of balance by {gap}, beside forces of up to "
+                        "inertia put together leave a link out of balance by {gap}, compared with forces of up to "
                         "{size}. {check_failed}",
                         code="forces.results_unbalanced",
                     ),
@@ -136,7 +136,7 @@ class ForceChecks:
         raise SelfCheckError(
             _(
                 "the forces of {name!r} do not pass their own check at {where}: link {link!r} is out "
-                "of balance at joint {joint!r} by {gap}, beside forces of up to {size}. "
+                "of balance at joint {joint!r} by {gap}, compared with forces of up to {size}. "
                 "{check_failed}",
                 code="forces.unbalanced",
                 name=motion.mechanism.name,

@@ -65,7 +65,7 @@ class MotionSignals:
 
     @cached_property
     def closes(self) -> tuple[float, float] | None:
-        """Period and gain of the input in it, where the last position is followed by the first."""
+        """Period and gain of the input in it, where the first position comes after the last."""
         return None if self.motion.positions.repeated else self._lap(self.motion.positions)
 
     @cached_property
@@ -83,7 +83,7 @@ class MotionSignals:
         if self.cycle.positions.closed or self.mechanism.cycle is None:
             return self.cycle
         found = self._angles.over(replace(self.mechanism, cycle=None))
-        return found if found is not None and found.positions.closed and found.whole else self.cycle
+        return found if found is not None and found.positions.closed and found.complete else self.cycle
 
     @cached_property
     def full_cycle(self) -> FullCycle:

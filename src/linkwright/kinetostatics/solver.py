@@ -76,5 +76,5 @@ class ForceSolver:
         program = self.program(names)
         values = [motion.design.parameters[name] for name in program.program.parameters]
         arrays = {**motion.positions.arrays, **motion.modes}
-        given = {**motion.states, **fields}
-        return np.asarray(program.run(values, arrays, given, length=motion.steps))
+        states_and_fields = {**motion.states, **fields}
+        return np.asarray(program.run(values, arrays, states_and_fields, length=motion.steps))

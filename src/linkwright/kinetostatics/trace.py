@@ -1,4 +1,4 @@
-"""Joint forces and driver efforts of a whole mechanism, traced group by group in reverse solving order.
+"""Joint forces and driver efforts of a mechanism, traced group by group in reverse solving order.
 
 For every link the demand is what joints must supply: m (a - g) minus the applied loads, and the moment of
 that about the link's anchor. In a group Jᵀ λ = Q gives the forces λ at the cuts from the demands Q on the
@@ -248,7 +248,7 @@ class _Reverse:
         self.forces.joints.append(JointForce(connection, cut.on, force, couple))
 
     def _carry(self, step: TreeJoint) -> None:
-        """The joint that hangs a child on its parent supplies the child's whole demand."""
+        """The joint that hangs a child on its parent supplies all of the child's demand."""
         demand = self.demands[step.child]
         pin = step.turns
         passed = self._moved(demand, step, free_pin=pin and step.free)

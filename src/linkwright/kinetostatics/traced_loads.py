@@ -55,20 +55,24 @@ class AlongInput:
 
 def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
     """What the magnitudes of loads of a mechanism take."""
-    given = {each.name: each.magnitude for each in loads}
-    sizes = given.values()
+    magnitudes = {each.name: each.magnitude for each in loads}
+    sizes = magnitudes.values()
     limits = [each.limits for each in sizes if each.limits is not None]
     return AlongInput(
-        frozenset(given),
+        frozenset(magnitudes),
         tuple(dict.fromkeys(each.output for each in limits)),
         {pair: near for each in sizes for pair, near in each.angles(mechanism).items()},
         {
             constant_name(name, key): value
-            for name, each in given.items()
+            for name, each in magnitudes.items()
             for key, value in each.constants.items()
         },
-        {row_name("magnitude", name): each.size.curve for name, each in given.items() if each.size.curve},
-        tuple(name for name, each in given.items() if each.fallible),
+        {
+            row_name("magnitude", name): each.size.curve
+            for name, each in magnitudes.items()
+            if each.size.curve
+        },
+        tuple(name for name, each in magnitudes.items() if each.fallible),
     )
 
 

@@ -74,12 +74,12 @@ class Balancing(Plotted, Tabular, Frozen):
             for name, unit, without, having in self._peaks()
         ]  # fmt: skip
         head = (_("counterweight on"), _("mass kg"), "x mm", "y mm")
-        beside = (_("peak of"), _("unit"), _("without"), _("with"), _("remains"))
+        headings = (_("peak of"), _("unit"), _("without"), _("with"), _("remains"))
         none = _(
             "No counterweight is needed: the links have no mass, or their mass centres lie where they must."
         )
         first = Table(head, weights) if weights else Table(notes=[none])
-        return Table(title=self.mechanism.name), first, Table(beside, peaks, "<<>>>")
+        return Table(title=self.mechanism.name), first, Table(headings, peaks, "<<>>>")
 
     def data(self) -> dict[str, Any]:
         """Plain data, SI."""
@@ -167,7 +167,7 @@ def _radius(radius: Radius, link: str) -> float:
     if isinstance(radius, Mapping) and link not in radius:
         raise RequestError(
             _(
-                "no radius is given for the counterweight on {link!r}; add it to the radii, or give "
+                "no radius is set for the counterweight on {link!r}; add it to the radii, or give "
                 "one for all",
                 code="forces.weight_no_radius",
                 link=link,

@@ -26,7 +26,7 @@ class EnergyFluctuation:
     """Largest energy excess of a cycle: ``value`` = E(``high``) - E(``low``), J.
 
     ``low``, ``high``: angles (rad) of slowest and fastest running, or for areas the numbers of the areas after
-    which they occur (0: before the first). ``balance``: energy left over a whole cycle, J. ``diagram`` gives
+    which they occur (0: before the first). ``balance``: energy left over a full cycle, J. ``diagram`` gives
     ``angle`` and ``energy``, the indicator diagram, rad and J from its first angle, when it is asked for.
     """
 
@@ -95,8 +95,8 @@ def of_energy(energy: Curve, *, balance: float) -> EnergyFluctuation:
     return EnergyFluctuation(high.value - low.value, low.place, high.place, balance, diagram)
 
 
-def _without_rounding(found: EnergyFluctuation, least: float) -> tuple[Floats, Floats]:
-    return found.angle, np.where(np.abs(found.energy) < least, 0.0, found.energy)
+def _without_rounding(found: EnergyFluctuation, negligible: float) -> tuple[Floats, Floats]:
+    return found.angle, np.where(np.abs(found.energy) < negligible, 0.0, found.energy)
 
 
 def _diagram(energy: Curve, low: float, high: float) -> tuple[Floats, Floats]:
@@ -113,8 +113,8 @@ def fluctuation_from_areas(
     ``areas`` in mm²; ``torque_scale`` N·m per mm; ``angle_scale`` rad per mm. E after each area is the running sum.
     Raises LinkwrightError for no areas, scales that are not above zero, or areas whose sum is not zero.
     """
-    given = np.asarray(areas, dtype=float)
-    if given.ndim != 1 or not given.size or not np.isfinite(given).all():
+    values = np.asarray(areas, dtype=float)
+    if values.ndim != 1 or not values.size or not np.isfinite(values).all():
         raise LinkwrightError(
             _(
                 "give the areas as a list of numbers in mm², in the order of the diagram",
@@ -128,14 +128,14 @@ def fluctuation_from_areas(
                 code="running.scales",
             )
         )
-    energy = np.concatenate([[0.0], np.cumsum(given)]) * torque_scale * angle_scale
-    if abs(given.sum()) > BALANCE * np.abs(given).sum():
+    energy = np.concatenate([[0.0], np.cumsum(values)]) * torque_scale * angle_scale
+    if abs(values.sum()) > BALANCE * np.abs(values).sum():
         raise LinkwrightError(
             _(
                 "the areas add up to {total:g} mm², not to zero: the mean line is misplaced or an "
                 "area is missing",
                 code="running.areas_sum",
-                total=given.sum(),
+                total=values.sum(),
             )
         )
     low, high = first_largest(-energy), first_largest(energy)

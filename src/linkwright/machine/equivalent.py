@@ -14,8 +14,8 @@ from linkwright.core.outputs import row_names
 from linkwright.curves.curve import Curve, Extreme, Integral, at_nodes
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import not_back
+from linkwright.kinematics.full_turns import MOST
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.whole_turns import MOST
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation, of_energy
 from linkwright.machine.torque_curve import TURN, TorqueCurve
@@ -27,7 +27,7 @@ def equivalent_inertia(motion: Motion) -> Floats:
     """J_e = Σ (m v² + J ω²)/ω₁², (n,) kg·m²: the inertia on the first driver's link of equal kinetic energy.
 
     v of the mass centres, ω of all moving links, ω₁ the driver's rate. For a sliding driver an equivalent mass, kg.
-    NaN where the driver stands still.
+    NaN where the driver is at rest.
     """
     return _inertia_and_slope(motion)[0]
 
@@ -215,8 +215,8 @@ def steady_rate(motion: Motion) -> float:
         )
     turned = abs(rate[0]) * (motion.positions.period or 0.0)
     if not motion.positions.closed or not turned or abs(turned / TURN - round(turned / TURN)) > 1e-9:
-        raise LinkwrightError(_not_whole_turns(motion.mechanism))
-    if not motion.whole:
+        raise LinkwrightError(_not_full_turns(motion.mechanism))
+    if not motion.complete:
         raise LinkwrightError(
             _(
                 "{name!r} does not reach all positions of its cycle, so it cannot run steadily",
@@ -227,18 +227,18 @@ def steady_rate(motion: Motion) -> float:
     return float(rate[0])
 
 
-def _not_whole_turns(mechanism: Mechanism) -> Message:
+def _not_full_turns(mechanism: Mechanism) -> Message:
     if mechanism.higher and not_back(mechanism):
         return _(
             "the wheels or racks of {name!r} do not come back to where they began within {most} "
-            "turns, so no cycle of it repeats; give teeth or radii in a ratio of smaller whole "
+            "turns, so no cycle of it repeats; give teeth or radii in a ratio of smaller "
             "numbers",
             code="running.never_back",
             name=mechanism.name,
             most=MOST,
         )
     return _(
-        "the cycle of {name!r} is not whole turns of its driver; leave cycle out, or give turns",
+        "the cycle of {name!r} is not a number of full turns of its driver; leave cycle out, or give turns",
         code="running.not_whole_turns",
         name=mechanism.name,
     )

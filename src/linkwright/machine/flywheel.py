@@ -101,9 +101,9 @@ def rim(
 
     J = ρ π b (D⁴ - d⁴)/32 with d = D (1 - 2 thickness_ratio). Raises LinkwrightError for values out of range.
     """
-    given = (inertia, density, width_ratio, thickness_ratio)
+    parameters = (inertia, density, width_ratio, thickness_ratio)
     names = (_("moment of inertia"), _("density"), _("width"), _("thickness"))
-    for name, value in zip(names, given, strict=True):
+    for name, value in zip(names, parameters, strict=True):
         if not value > 0:
             raise RequestError(
                 _(

@@ -116,7 +116,7 @@ class SteadyRunning(Plotted, Numbers):
         """The numbers: motor, energy and inertia, flywheel by the formula, exact flywheel; without a motor where the
         loads drive the machine."""
         reduced, energy, at = self.equivalent, self.energy, self.equivalent.input_at
-        least, most = reduced.inertia_extremes
+        smallest, largest = reduced.inertia_extremes
         motor = [
             Row("speed", reduced.speed, "angular_velocity"),
             Row("mean_torque", self.mean_torque, "torque"),
@@ -129,8 +129,8 @@ class SteadyRunning(Plotted, Numbers):
             placed("energy_highest", float(np.max(energy.energy)), "energy", at(energy.high)),
         ]
         inertia = [
-            placed("inertia_smallest", least.value, "inertia", at(least.place)),
-            placed("inertia_largest", most.value, "inertia", at(most.place)),
+            placed("inertia_smallest", smallest.value, "inertia", at(smallest.place)),
+            placed("inertia_largest", largest.value, "inertia", at(largest.place)),
             share("required_fluctuation", self.required),
         ]
         exact = [Row("exact_flywheel", self.exact_flywheel, "inertia")]
@@ -195,12 +195,12 @@ class SteadyRunning(Plotted, Numbers):
 
     @property
     def remarks(self) -> list[Message]:
-        """What is to be said beside the numbers: that the loads drive the machine, or what its motor rests on."""
+        """Remarks about the numbers: that the loads drive the machine, or what its motor depends on."""
         return [each for each in (self.driven, self.evened) if each is not None]
 
     @property
     def evened(self) -> Message | None:
-        """That the motor of the mean power does only beside a flywheel, or the inertia that the machine has."""
+        """That the motor of the mean power suffices only with a flywheel, or with the inertia of the machine."""
         if self.driven is not None or self.power_without_flywheel <= self.motor.power * (1.0 + NOTHING):
             return None
         powers = (self.motor.power, self.power_without_flywheel)

@@ -20,8 +20,8 @@ from linkwright.words import _
 #: A machine whose kinetic energy falls below this share of that at its mean speed stops, and one whose inertia falls
 #: below this share of the largest has none.
 STOPPED, NO_INERTIA = 1e-8, 1e-9
-#: Widths, as shares of the period, of pieces beside the place of least energy, where a machine almost stops.
-BESIDE = 0.25 * 0.25 ** np.arange(12)
+#: Widths, as shares of the period, of pieces next to the place of minimum energy, where a machine almost stops.
+NEAR_SHARES = 0.25 * 0.25 ** np.arange(12)
 #: A coefficient of speed fluctuation below this is rounding.
 ROUNDING = 1e-12
 #: How often pieces are halved where the speed that was found is not smooth, and it is found again.
@@ -93,11 +93,11 @@ def true_speed(
                 speed=speed,
             )
         )
-    given = TorqueCurve.constant(load.mean, period=load.period) if driver is None else driver
+    driving = TorqueCurve.constant(load.mean, period=load.period) if driver is None else driver
     if driver is not None:
         energy_fluctuation(driver, load)
     total = inertia if callable(inertia) else _constant(inertia)
-    return SteadyCycle(given.minus(load).work, total, speed).curve(motor_torque=given.mean, steps=steps)
+    return SteadyCycle(driving.minus(load).work, total, speed).curve(motor_torque=driving.mean, steps=steps)
 
 
 class SteadyCycle:
@@ -111,7 +111,7 @@ class SteadyCycle:
         inertia = at_nodes(own, work.edges)
         curves = (work, Curve(work.edges, inertia))
         lowest, lightest = extremes_of([(curve, "min") for curve in curves])
-        self._least, self._slowest_place, self._lightest = lowest.value, lowest.place, lightest.value
+        self._minimum, self._slowest_place, self._lightest = lowest.value, lowest.place, lightest.value
         self._first = self._cycles(work.edges, work.values, inertia)
         self._known: dict[float, _Solved] = {}
 
@@ -201,12 +201,12 @@ class SteadyCycle:
     def _stops(self, energy: float, found: Speeds) -> bool:
         """Whether next to nothing is left of the energy somewhere."""
         most = 0.5 * self.speed * self.speed * float(found.inertia.max())
-        return not energy + self._least > STOPPED * most
+        return not energy + self._minimum > STOPPED * most
 
     def _graded(self, edges: Floats) -> Floats:
-        """Edges with those of pieces that are the shorter the nearer they are to the place of least energy."""
+        """Edges with those of pieces that are the shorter the nearer they are to the place of minimum energy."""
         start, end = edges[[0, -1]].tolist()
-        more = self._slowest_place + np.concatenate([[0.0], BESIDE, -BESIDE]) * (end - start)
+        more = self._slowest_place + np.concatenate([[0.0], NEAR_SHARES, -NEAR_SHARES]) * (end - start)
         return np.unique(np.concatenate([edges, more[(more > start) & (more < end)]]))
 
     def _at_edges(self, edges: Floats) -> SteadyCycles:

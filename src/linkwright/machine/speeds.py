@@ -115,13 +115,13 @@ class SteadyCycles:
         """Sums over the Gauss points, (designs,)."""
         return np.asarray(np.add.reduceat(values.sum(axis=0), self._starts))
 
-    def _least(self, values: Floats) -> Floats:
+    def _minimum(self, values: Floats) -> Floats:
         return np.asarray(np.minimum.reduceat(values.min(axis=0), self._starts))
 
     def _energy(self, inertia: Floats) -> Floats:
         """2 E0/ω_mean² by safeguarded Newton's steps for the square of the mean speed, (designs,)."""
-        least, scale = self._least(self.excess), -self._least(-inertia)
-        low, high = -least, scale - least
+        lowest, scale = self._minimum(self.excess), -self._minimum(-inertia)
+        low, high = -lowest, scale - lowest
         energy = self.total(self.share * (inertia - self.excess))
         energy = np.where((low < energy) & (energy < high), energy, high)
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -133,10 +133,10 @@ class SteadyCycles:
                 newton = energy + mean * (mean * mean - 1.0) / slope
                 inside = (low < newton) & (newton < high)
                 before, energy = energy, np.where(inside, newton, 0.5 * (low + high))
-                enough = np.maximum(1e-15 * scale, np.where(inside, LAST * (energy + least), 0.0))
+                enough = np.maximum(1e-15 * scale, np.where(inside, LAST * (energy + lowest), 0.0))
                 if not (np.abs(energy - before) > enough).any():
                     break
-        return np.asarray(np.where(self._least(inertia) > 0.0, energy, np.nan))
+        return np.asarray(np.where(self._minimum(inertia) > 0.0, energy, np.nan))
 
     def flywheel(self, fluctuation: float, first: Floats) -> Floats:
         """Flywheels (designs,), kg·m², with which the speed fluctuates by just a share of the mean.
@@ -152,11 +152,11 @@ class SteadyCycles:
             for _ in range(SIZES):
                 found = self.at(size)
                 reached, slope = found.fluctuation, self.slopes(found, 1.0, -1.0).flywheel
-                following = size + reached * (1.0 - reached / fluctuation) / slope
-                following = np.where(following > 0.0, following, 1e-3 * size)
-                following = np.where(left, following, size)
-                left = left & (np.abs(following - size) > FOUND * (size + own))
-                size = following
+                next_size = size + reached * (1.0 - reached / fluctuation) / slope
+                next_size = np.where(next_size > 0.0, next_size, 1e-3 * size)
+                next_size = np.where(left, next_size, size)
+                left = left & (np.abs(next_size - size) > FOUND * (size + own))
+                size = next_size
                 if not left.any():
                     break
         return np.where(left, np.nan, size)

@@ -59,7 +59,7 @@ class TorqueCurve(Plotted):
         if isinstance(torque, str):
             return cls(partial(_expressed, parse(torque, ("theta",))), period)
         if callable(torque):
-            return cls(partial(_given, torque), period)
+            return cls(partial(_evaluated, torque), period)
         values = np.asarray(torque, dtype=float)
         return cls.from_table(np.arange(values.size) * period / max(values.size, 1), values, period=period)
 
@@ -122,7 +122,7 @@ class TorqueCurve(Plotted):
     def minus(self, other: TorqueCurve) -> TorqueCurve:
         """This torque minus another one over their common period, from this one's start.
 
-        Raises LinkwrightError where one period is no whole multiple of the other.
+        Raises LinkwrightError where one period is no integer multiple of the other.
         """
         long, short = max(self.period, other.period), min(self.period, other.period)
         if abs(long / short - round(long / short)) > 1e-9:
@@ -159,10 +159,10 @@ def _linear(x: Floats, y: Floats, theta: Floats) -> Floats:
 
 
 def _expressed(expression: Expression, theta: Floats) -> Floats:
-    return _given(lambda angle: expression.over({"theta": angle}), theta)
+    return _evaluated(lambda angle: expression.over({"theta": angle}), theta)
 
 
-def _given(function: Callable[[Floats], ArrayLike], theta: Floats) -> Floats:
+def _evaluated(function: Callable[[Floats], ArrayLike], theta: Floats) -> Floats:
     return np.broadcast_to(np.asarray(function(theta), dtype=float), theta.shape)
 
 

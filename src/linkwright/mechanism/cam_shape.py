@@ -23,7 +23,7 @@ POINTS, BEYOND = 720, 0.1
 class CamShape:
     """Points are complex numbers, m, in the axes of the link that is named; angles φ (n,) are the cam's.
 
-    While the cam stands, the carrier turns about its ``centre`` by -φ times the sense and its phase back: the trace
+    While the cam rests, the carrier turns about its ``centre`` by -φ times the sense and its phase back: the trace
     point draws the pitch curve, a roller's circle or the flat face envelops the profile (Norton, Cam Design and
     Manufacturing Handbook, ch. 9).
     """

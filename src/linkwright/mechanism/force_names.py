@@ -43,7 +43,7 @@ def chosen_pairs(mechanism: Mechanism, names: Sequence[str]) -> list[tuple[str, 
 def reaction_index(mechanism: Mechanism, joint: str, on: str) -> str:
     """The index of a joint force: 12 from link 1 on link 2; B,3 from a pin of several links on link 3.
 
-    Where two links meet in several joints the joint's name stands behind the numbers: 01,guide.
+    Where two links meet in several joints the joint's name follows the numbers: 01,guide.
     """
     numbers = link_numbers(mechanism)
     joined = mechanism.joints[joint].joined

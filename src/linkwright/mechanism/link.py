@@ -76,7 +76,7 @@ class Link:
 
     @cached_property
     def coinciding(self) -> tuple[int, ...]:
-        """Of points at one place the number of the first, none where all lie apart."""
+        """Of points at one place the number of the first, none where all are distinct."""
         first, places = dict[Vec, int](), self.points.values()
         if len(set(places)) == len(places):
             return ()
@@ -184,7 +184,7 @@ def from_drawing(
 
 
 def centre(link: Link, points: Mapping[str, Pair], dimension: Callable[[str], Any]) -> Pair:
-    """Mass centre (m) in the link's axes: as given, at the point named, else midway between the first two points (one
+    """Mass centre (m) in the link's axes: as set, at the point named, else midway between the first two points (one
     point: at it)."""
     if isinstance(link.mass_centre, str):
         return points[link.mass_centre]

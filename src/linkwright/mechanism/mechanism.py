@@ -134,10 +134,10 @@ class Mechanism(Frozen):
         require(changes, Mapping)
         known = self._dimensions
         new = known | {address: self._checked(address, value) for address, value in changes.items()}
-        kept = {address: each for address, each in self.expressions.items() if address not in changes}
-        for address, expression in kept.items():
+        unchanged = {address: each for address, each in self.expressions.items() if address not in changes}
+        for address, expression in unchanged.items():
             new[address] = self._checked(address, expression.evaluate(new))
-        moved = {self._owners.get(each) for each in (*changes, *kept) if new[each] != known[each]}
+        moved = {self._owners.get(each) for each in (*changes, *unchanged) if new[each] != known[each]}
         value, parameters = new.__getitem__, {name: new[name] for name in self.parameters}
         renewed: dict[str, set[str]] = {sort: set() for sort in _SORTS}
         for sort, name in filter(None, moved):
@@ -150,7 +150,7 @@ class Mechanism(Frozen):
                 new_joint = joints.get(name, joint)
                 joints[name] = new_joint.aligned(links[joint.joined[0]].points)
         drivers = self.drivers if parameters != self.parameters else renewed["driver"]
-        same = len(kept) == len(self.expressions)
+        same = len(unchanged) == len(self.expressions)
         found = {"_dimensions": new, "_owners": self._owners, "higher": self.higher}
         return self._changed(
             found | ({"family": self.family} if same else {}),
@@ -167,7 +167,7 @@ class Mechanism(Frozen):
             gravity=(value("gravity.x"), value("gravity.y")),
             cycle=None if self.cycle is None else self.cycle.with_dimensions(value),
             parameters=_with(self.parameters, parameters),
-            expressions=self.expressions if same else kept,
+            expressions=self.expressions if same else unchanged,
         )
 
     def _changed(self, found: Mapping[str, Any], **changes: Any) -> Mechanism:
@@ -226,11 +226,11 @@ class Mechanism(Frozen):
         joint = self.joints.get(name)
         return joint.joined if joint is not None and joint.coordinate == "turn" else ()
 
-    def said_in(self, language: str) -> Mechanism:
+    def translate(self, language: str) -> Mechanism:
         """The same with name, purpose and source in a language, where the file gives them in several."""
-        told = {"name": self.name, "purpose": self.purpose, "source": self.source}
-        said = {key: in_language(text, language) for key, text in told.items()}
-        return self if said == told else self._changed({}, **said)
+        texts = {"name": self.name, "purpose": self.purpose, "source": self.source}
+        translated_texts = {key: in_language(text, language) for key, text in texts.items()}
+        return self if translated_texts == texts else self._changed({}, **translated_texts)
 
     @attached
     def structure(self) -> Any:
@@ -317,10 +317,10 @@ class Mechanism(Frozen):
         except (TypeError, ValueError):
             raise RequestError(
                 _(
-                    "{address}: {given} is no number; give its SI value, such as 0.05 for 50 mm",
+                    "{address}: invalid number {text}; give its SI value, such as 0.05 for 50 mm",
                     code="model.set_no_number",
                     address=address,
-                    given=repr(value)[:60],
+                    text=repr(value)[:60],
                 )
             ) from None
         if not math.isfinite(value):
@@ -348,13 +348,13 @@ class Mechanism(Frozen):
             limit = None if (field := self.declared(address)) is None else field.limit(value)
         if limit is not None:
             unit = SI_UNITS.get(getattr(self.declared(address), "dimension", ""), "")
-            told = f"{value:g} {unit}".rstrip()
+            shown_value = f"{value:g} {unit}".rstrip()
             raise RequestError(
                 _(
                     "{address} is set to {value}; give {limit}",
                     code="model.set_outside",
                     address=address,
-                    value=told,
+                    value=shown_value,
                     limit=limit,
                 )
             )

@@ -183,7 +183,7 @@ def _read(machines: Machine | Sequence[Machine], language: str) -> list[Given]:
         elif isinstance(each, Mechanism):
             found.append(each)
         elif (task := task_file(each)) is not None:
-            found.append(task.said_in(language))
+            found.append(task.translate(language))
         else:
             calculated = kind_of(str(each)) is not None
             found.append((load_calculation(str(each)), str(each)) if calculated else str(each))
@@ -212,7 +212,7 @@ def _cases(
             found.append(Calculation(each, settings(each.report, language, None, _beside(folder, each.file))))
             continue
         mechanism = each if isinstance(each, Mechanism) else load(str(each))
-        mechanism = mechanism.said_in(language)
+        mechanism = mechanism.translate(language)
         source = next(files, "" if isinstance(each, Mechanism) else str(each))
         with about("position"):
             worked_place(mechanism, position)

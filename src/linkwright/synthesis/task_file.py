@@ -29,7 +29,7 @@ class TaskFile:
     source: str = ""
     report: Mapping[str, Any] = field(default_factory=dict)
 
-    def said_in(self, language: str) -> TaskFile:
+    def translate(self, language: str) -> TaskFile:
         """The same with its texts in a language."""
         return replace(
             self,

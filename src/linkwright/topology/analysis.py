@@ -9,7 +9,7 @@ from linkwright.core.table import Table, Tabular
 from linkwright.elements.topology import Connection, Group
 from linkwright.errors import speaker
 from linkwright.joints.base import JOINTS, PAIRS
-from linkwright.topology.mobility import lower_pairs
+from linkwright.topology.mobility import lower_pair_counts
 from linkwright.topology.trains import GearTrain, written
 from linkwright.words import Say, _, language_of, ngettext
 from linkwright.words.sentence import link_label
@@ -151,7 +151,7 @@ _MOBILITIES = {
 
 
 def _mobility(structure: Structure, say: Say) -> list[str]:
-    n, (r, p, w) = structure.counts["links"], lower_pairs(structure.counts)
+    n, (r, p, w) = structure.counts["links"], lower_pair_counts(structure.counts)
     higher = {
         kind: count for kind, count in structure.counts.items() if kind in JOINTS and JOINTS[kind].higher
     }

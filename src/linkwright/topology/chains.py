@@ -130,20 +130,20 @@ def _most_joints(bodies: Sequence[str], joints: Sequence[Connection], merged: di
 def _largest_contour(bodies: Sequence[str], inner: Sequence[Connection], merged: dict[str, str]) -> int:
     """Sides of the largest of the shortest closed contours of links through each inner joint."""
     edges = [(merged[c.a], merged[c.b]) for c in inner]
-    beside: dict[str, list[tuple[int, str]]] = {body: [] for body in bodies}
+    neighbours: dict[str, list[tuple[int, str]]] = {body: [] for body in bodies}
     for number, (a, b) in enumerate(edges):
-        beside[a].append((number, b))
-        beside[b].append((number, a))
-    return max((_contour(beside, skipped, *edge) for skipped, edge in enumerate(edges)), default=0)
+        neighbours[a].append((number, b))
+        neighbours[b].append((number, a))
+    return max((_contour(neighbours, skipped, *edge) for skipped, edge in enumerate(edges)), default=0)
 
 
-def _contour(beside: Mapping[str, Sequence[tuple[int, str]]], skipped: int, start: str, goal: str) -> int:
+def _contour(neighbours: Mapping[str, Sequence[tuple[int, str]]], skipped: int, start: str, goal: str) -> int:
     """Links on the shortest way between two links without the joint between them; 0 if there is none."""
     distance = {start: 1}
     queue = deque([start])
     while queue and goal not in distance:
         body = queue.popleft()
-        for number, other in beside[body]:
+        for number, other in neighbours[body]:
             if number != skipped and other not in distance:
                 distance[other] = distance[body] + 1
                 queue.append(other)

@@ -2,7 +2,7 @@
 
 Unknowns are the three freedoms of every moving link and the two of every pin that joins three links
 or more; equations are what joints and drivers demand. A guide's demand on the rotation touches only
-rotations, so a loop of guides that fixes a rotation twice is seen here and counted once.
+rotations, so a loop of guides that fixes a rotation twice is found here and counted once.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from linkwright.joints.base import Joint
 from linkwright.mechanism.mechanism import Mechanism
 
 FRAME = "frame"
-#: What stands before a driver's name where it is the source of a demand.
+#: Prefix of a driver's name where it is the source of a demand.
 DRIVER = "driver "
 
 
@@ -97,9 +97,9 @@ class ConstraintGraph:
 
     def sum_rotations(self, source: str, factors: Mapping[str, float]) -> None:
         """The demand that Σ factor · rotation of a link is constant; redundant if others hold it already."""
-        kept = {link: factor for link, factor in factors.items() if link != FRAME and abs(factor) > SMALL}
-        if self.sums.add(kept):
-            self.demand(source, tuple(kept), rotation_only=True)
+        nonzero = {link: factor for link, factor in factors.items() if link != FRAME and abs(factor) > SMALL}
+        if self.sums.add(nonzero):
+            self.demand(source, tuple(nonzero), rotation_only=True)
         else:
             self.redundant.append(source)
 

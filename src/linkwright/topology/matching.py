@@ -69,8 +69,8 @@ class _Search:
         work = [(root, iter(self.successors[root]))]
         self._enter(root)
         while work:
-            vertex, following = work[-1]
-            for other in following:
+            vertex, neighbours = work[-1]
+            for other in neighbours:
                 if self.order[other] < 0:
                     self._enter(other)
                     work.append((other, iter(self.successors[other])))

@@ -25,7 +25,7 @@ def counts(mechanism: Mechanism) -> dict[str, int]:
     return found
 
 
-def lower_pairs(numbers: Mapping[str, int]) -> tuple[int, int, int]:
+def lower_pair_counts(numbers: Mapping[str, int]) -> tuple[int, int, int]:
     """Pairs that turn, pairs that slide, and welds among the counts."""
     kinds = {JOINTS[kind]: count for kind, count in numbers.items() if kind in JOINTS}
     turning, sliding = (
@@ -51,10 +51,10 @@ def islands(mechanism: Mechanism) -> list[list[str]]:
         for body in equation.bodies:
             neighbours.setdefault(body, set()).update(equation.bodies)
     found: list[list[str]] = []
-    seen: set[str] = set()
+    visited: set[str] = set()
     file_order = {name: number for number, name in enumerate(mechanism.links)}
     for name in mechanism.links:
-        if name in seen:
+        if name in visited:
             continue
         reached, stack = set(), [name]
         while stack:
@@ -62,7 +62,7 @@ def islands(mechanism: Mechanism) -> list[list[str]]:
             if body not in reached:
                 reached.add(body)
                 stack.extend(neighbours[body])
-        seen |= reached
+        visited |= reached
         found.append(sorted(reached & file_order.keys(), key=file_order.__getitem__))
     return found
 
@@ -70,12 +70,12 @@ def islands(mechanism: Mechanism) -> list[list[str]]:
 def explain_free(mechanism: Mechanism, free: Sequence[str], lacking: int, mobility: int) -> StructureError:
     """The sentence for freedoms that nothing determines."""
     parts = islands(mechanism)
-    apart = tuple("{" + ", ".join(part) + "}" for part in parts)
+    islands_listed = tuple("{" + ", ".join(part) + "}" for part in parts)
     problem = (
         _(
             "{has}; nothing determines the motion of {links}, and nothing else depends on it: a "
             "local freedom, as of a roller on its pin; leave out what turns so (a cam's roller "
-            "is told by touch: roller), or give {more} (driver: {{turn: …, about: …, speed: …}})",
+            "is set by touch: roller), or give {more} (driver: {{turn: …, about: …, speed: …}})",
             code="mobility.free_idle",
         )
         if _idle(mechanism, free)
@@ -92,14 +92,14 @@ def explain_free(mechanism: Mechanism, free: Sequence[str], lacking: int, mobili
             "speed: …}}), or join the links further",
             code="mobility.islands",
         )
-    said = problem.format(
+    message = problem.format(
         has=_has(mechanism, mobility),
         count=len(parts),
-        parts=together(apart),
+        parts=together(islands_listed),
         links=tuple(map(repr, free)),
         more=_MORE[min(lacking, 4)].format(count=lacking),
     )
-    return StructureError(said)
+    return StructureError(message)
 
 
 def _idle(mechanism: Mechanism, links: Sequence[str]) -> bool:
@@ -118,13 +118,13 @@ def explain_excess(
         why = (
             _(
                 "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, but "
-                "{drivers} is given",
+                "{drivers} is set",
                 code="mobility.cannot_be_driven",
             )
             if drivers == 1
             else _(
                 "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, but "
-                "{drivers} are given",
+                "{drivers} are set",
             )
         ).format(
             name=mechanism.name,

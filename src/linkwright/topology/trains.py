@@ -139,7 +139,7 @@ def blocking_pairs(mechanism: Mechanism) -> list[str]:
 
 
 def _tied(mechanism: Mechanism) -> Callable[[str], str]:
-    """The link that stands for all whose rotations are tied to that of a link."""
+    """The representative of all links whose rotations are tied to that of a link."""
     ties = Classes()
     for joint in mechanism.joints.values():
         if joint.ties:
@@ -148,7 +148,7 @@ def _tied(mechanism: Mechanism) -> Callable[[str], str]:
 
 
 def written(ratio: float) -> str:
-    """A ratio as a fraction of whole numbers where it is one."""
+    """A ratio as a fraction of integers where it is one."""
     from fractions import Fraction
 
     part = Fraction(ratio).limit_denominator(LARGEST)

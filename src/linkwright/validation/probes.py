@@ -1,4 +1,4 @@
-"""How published numbers are found here: a probe takes what is given and returns SI values by name."""
+"""How published numbers are found here: a probe takes input data and returns SI values by name."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ Find = Callable[[str], float]
 Probe = Callable[[Mapping[str, Any]], Find]
 
 
-def machine(given: Mapping[str, Any]) -> Find:
+def machine(inputs: Mapping[str, Any]) -> Find:
     """Results of a model at one input (``at``, ``input``), time, or at rest, by the names of its columns."""
-    mechanism = load(_source(given))
-    if "time" in given:
-        motion = solve_motion(mechanism, times=[parse(given["time"], "time")])
-    elif at := given.get("at", given.get("input")):
+    mechanism = load(_source(inputs))
+    if "time" in inputs:
+        motion = solve_motion(mechanism, times=[parse(inputs["time"], "time")])
+    elif at := inputs.get("at", inputs.get("input")):
         motion = solve_motion(mechanism, at=[parse(at, mechanism.across)])
     else:
         motion = solve_motion(mechanism)
@@ -49,20 +49,20 @@ def machine(given: Mapping[str, Any]) -> Find:
     return find
 
 
-def _source(given: Mapping[str, Any]) -> str:
-    """Where the gallery's ``model`` stands, or a ``file`` among the data."""
-    return f"gallery:{given['model']}" if "model" in given else str(_DATA / given["file"])
+def _source(inputs: Mapping[str, Any]) -> str:
+    """The address of the gallery's ``model``, or of a ``file`` among the data."""
+    return f"gallery:{inputs['model']}" if "model" in inputs else str(_DATA / inputs["file"])
 
 
 def _forces(motion: Any) -> Forces | None:
     return solve_forces(motion) if motion.mechanism.has_loads else None
 
 
-def limits(given: Mapping[str, Any]) -> Find:
+def limits(inputs: Mapping[str, Any]) -> Find:
     """Input and angle of a link's limit positions: ``jaw max input``."""
     from linkwright.events.limit_positions import limit_positions
 
-    motion = _motion(_source(given), 360)
+    motion = _motion(_source(inputs), 360)
 
     def find(what: str) -> float:
         link, kind, value = what.split()
@@ -77,11 +77,11 @@ def _motion(source: str, steps: int) -> Any:
     return solve_motion(load(source), steps=steps)
 
 
-def metrics(given: Mapping[str, Any]) -> Find:
+def metrics(inputs: Mapping[str, Any]) -> Find:
     """Design numbers: ``stroke``, or ``stroke guide`` with its subject."""
     from linkwright.analysis import metrics as table_of
 
-    motion = _motion(_source(given), 90)
+    motion = _motion(_source(inputs), 90)
 
     def find(what: str) -> float:
         name, _, subject = what.partition(" ")
@@ -92,22 +92,22 @@ def metrics(given: Mapping[str, Any]) -> Find:
     return find
 
 
-def structure(given: Mapping[str, Any]) -> Find:
+def structure(inputs: Mapping[str, Any]) -> Find:
     """Mobility and class."""
     from linkwright.topology import structure as analysis
 
-    found = analysis(load(f"gallery:{given['model']}"))
+    found = analysis(load(f"gallery:{inputs['model']}"))
     values = {"mobility": found.mobility, "grubler": found.grubler, "class": found.mechanism_class}
     return lambda what: float(values[what])
 
 
-def gear_pair(given: Mapping[str, Any]) -> Find:
+def gear_pair(inputs: Mapping[str, Any]) -> Find:
     """Attributes of a gear pair."""
     from linkwright.gears.pair import gear_pair as pair_of
 
-    options = {key: value for key, value in given.items() if key not in ("teeth", "module")}
+    options = {key: value for key, value in inputs.items() if key not in ("teeth", "module")}
     options["profile_shift"] = tuple(options["profile_shift"])
-    return partial(_attribute, pair_of(tuple(given["teeth"]), given["module"], **options))
+    return partial(_attribute, pair_of(tuple(inputs["teeth"]), inputs["module"], **options))
 
 
 def _attribute(owner: Any, path: str) -> float:
@@ -116,52 +116,52 @@ def _attribute(owner: Any, path: str) -> float:
     return float(owner)
 
 
-def involute(given: Mapping[str, Any]) -> Find:
+def involute(inputs: Mapping[str, Any]) -> Find:
     """The involute function of an angle."""
     from linkwright.gears.involute import involute as value
 
     return lambda what: float(value(parse(what, "angle")))
 
 
-def areas(given: Mapping[str, Any]) -> Find:
+def areas(inputs: Mapping[str, Any]) -> Find:
     """Energy and speed fluctuation of areas of a turning moment diagram."""
     from linkwright.machine.energy import fluctuation_from_areas
     from linkwright.machine.flywheel import speed_fluctuation
 
-    scale = parse(given["angle_scale"], "angle")
+    scale = parse(inputs["angle_scale"], "angle")
     energy = fluctuation_from_areas(
-        given["areas"], torque_scale=given["torque_scale"], angle_scale=scale
+        inputs["areas"], torque_scale=inputs["torque_scale"], angle_scale=scale
     ).value
-    speed = parse(given["speed"], "angular_velocity")
+    speed = parse(inputs["speed"], "angular_velocity")
     values = {
         "energy_fluctuation": energy,
-        "speed_fluctuation": speed_fluctuation(energy, speed, given["inertia"]),
+        "speed_fluctuation": speed_fluctuation(energy, speed, inputs["inertia"]),
     }
     return values.__getitem__
 
 
-def torque(given: Mapping[str, Any]) -> Find:
+def torque(inputs: Mapping[str, Any]) -> Find:
     """Motor, energy fluctuation and flywheel of torque curves."""
     from linkwright.machine import TorqueCurve, energy_fluctuation, flywheel_inertia, motor, speed_fluctuation
 
-    driver = TorqueCurve.from_function(given["torque"])
-    load_curve = TorqueCurve.from_function(given["load"]) if "load" in given else None
-    speed = parse(given["speed"], "angular_velocity")
+    driver = TorqueCurve.from_function(inputs["torque"])
+    load_curve = TorqueCurve.from_function(inputs["load"]) if "load" in inputs else None
+    speed = parse(inputs["speed"], "angular_velocity")
     energy = energy_fluctuation(driver, load_curve) if load_curve else energy_fluctuation(driver)
     values = {"energy_fluctuation": energy.value, "power": motor(driver.mean, speed).power}
-    if "fluctuation" in given:
-        values["flywheel"] = flywheel_inertia(energy.value, speed, given["fluctuation"])
+    if "fluctuation" in inputs:
+        values["flywheel"] = flywheel_inertia(energy.value, speed, inputs["fluctuation"])
     if load_curve is not None:
-        values["speed_fluctuation"] = speed_fluctuation(energy.value, speed, given["inertia"])
-        values["largest_acceleration"] = driver.minus(load_curve).extremes()[1][1] / given["inertia"]
+        values["speed_fluctuation"] = speed_fluctuation(energy.value, speed, inputs["inertia"])
+        values["largest_acceleration"] = driver.minus(load_curve).extremes()[1][1] / inputs["inertia"]
     return values.__getitem__
 
 
-def calculation(given: Mapping[str, Any]) -> Find:
+def calculation(inputs: Mapping[str, Any]) -> Find:
     """Results of a calculation of the gallery, by the path in its data."""
     from linkwright.parts import load
 
-    data = load(f"gallery:{given['model']}").solve().data()
+    data = load(f"gallery:{inputs['model']}").solve().data()
 
     def find(what: str) -> float:
         here: Any = data
@@ -174,39 +174,39 @@ def calculation(given: Mapping[str, Any]) -> Find:
     return find
 
 
-def path(given: Mapping[str, Any]) -> Find:
+def path(inputs: Mapping[str, Any]) -> Find:
     """Sum of squares of the best four-bar through timed points."""
     from linkwright.synthesis.path_generation.generate import path_generation
 
-    points = [tuple(each) for each in given["points"]]
-    angles = given.get("angles")
+    points = [tuple(each) for each in inputs["points"]]
+    angles = inputs.get("angles")
     turned = np.radians(angles) if angles else np.arange(len(points)) * 2.0 * np.pi / len(points)
     options: dict[str, Any] = {}
-    if given.get("fixed"):
+    if inputs.get("fixed"):
         options = {"phase": False, "pivot": (0, 0), "direction": 0.0}
     best = path_generation(points, angles=turned, seed=0, **options).best
     return lambda what: float(best.error)
 
 
-def function(given: Mapping[str, Any]) -> Find:
+def function(inputs: Mapping[str, Any]) -> Find:
     """Lengths of the four-bar through pairs of angles that are measured from the frame."""
     from linkwright.synthesis.function_generation.generate import function_generation
 
-    pairs = (np.radians(given[name]) for name in ("inputs", "outputs"))
+    pairs = (np.radians(inputs[name]) for name in ("inputs", "outputs"))
     best = function_generation(
-        *pairs, input_zero=0, output_zero=0, frame=parse(given["frame"], "length")
+        *pairs, input_zero=0, output_zero=0, frame=parse(inputs["frame"], "length")
     ).best
     return best.linkage.lengths().__getitem__
 
 
-def double_crank(given: Mapping[str, Any]) -> Find:
+def double_crank(inputs: Mapping[str, Any]) -> Find:
     """Lengths of the double crank of least squares in Freudenstein's equation, and the coefficients of
     cos φ = P0 cos ψ + P1 cos(ψ - φ) + P2, through the pairs of a table."""
     from linkwright.synthesis.function_generation.generate import function_generation
 
-    rows = list(csv.DictReader((_DATA / given["table"]).read_text("utf-8").splitlines()))
-    pairs = (np.radians([float(row[given[name]]) for row in rows]) for name in ("inputs", "outputs"))
-    frame = parse(given["frame"], "length")
+    rows = list(csv.DictReader((_DATA / inputs["table"]).read_text("utf-8").splitlines()))
+    pairs = (np.radians([float(row[inputs[name]]) for row in rows]) for name in ("inputs", "outputs"))
+    frame = parse(inputs["frame"], "length")
     best = function_generation(*pairs, input_zero=0, output_zero=0, frame=frame, equation_error=True).best
     a, b, c, d = (best.linkage.lengths()[name] for name in ("input", "coupler", "output", "frame"))
     values = {"driving crank": a, "coupler": b, "follower": c}
@@ -214,15 +214,15 @@ def double_crank(given: Mapping[str, Any]) -> Find:
     return values.__getitem__
 
 
-def slider_crank(given: Mapping[str, Any]) -> Find:
+def slider_crank(inputs: Mapping[str, Any]) -> Find:
     """Lengths of a slider-crank from stroke and ratios."""
     from linkwright.synthesis.requirements.slider_crank import slider_crank_from_ratios
 
-    best = slider_crank_from_ratios(given["stroke"], given["rod_ratio"], given["eccentricity"]).best
+    best = slider_crank_from_ratios(inputs["stroke"], inputs["rod_ratio"], inputs["eccentricity"]).best
     return lambda what: float(best.values[what])
 
 
-def motion_law(given: Mapping[str, Any]) -> Find:
+def motion_law(inputs: Mapping[str, Any]) -> Find:
     """Largest velocity, acceleration, jerk of a motion law for a rise of 1 over 1."""
     from linkwright.laws.fitting import motion_law as law
 
@@ -233,11 +233,11 @@ def motion_law(given: Mapping[str, Any]) -> Find:
     return find
 
 
-def regression(given: Mapping[str, Any]) -> Find:
+def regression(inputs: Mapping[str, Any]) -> Find:
     """A straight line through samples."""
     from linkwright.parts import Fitting, Numbers, Samples
 
-    held = {name: Numbers(tuple(given[name])) for name in ("x", "y")}
+    held = {name: Numbers(tuple(inputs[name])) for name in ("x", "y")}
     found = Samples(held, regressions={"r": Fitting("y", ("x",))}).solve().regressions["r"]
     coefficients = zip(("intercept", "slope"), found.coefficients, found.errors, strict=True)
     values = {"deviation": found.deviation, "determination": found.determination}

@@ -40,12 +40,12 @@ class Reference:
 
 @dataclass(frozen=True)
 class Published:
-    """Numbers of one source that one call finds: ``probe`` with what is ``given``."""
+    """Numbers of one source that one call finds: ``probe`` with ``inputs``."""
 
     case: str
     source: str
     probe: str
-    given: Mapping[str, Any]
+    inputs: Mapping[str, Any]
     numbers: tuple[Reference, ...]
     within: float = ROUNDED
     place: str = field(default="")
@@ -78,18 +78,18 @@ def from_data() -> Iterator[Published]:
                 yield Published(*head, {**entry["given"], "at": place}, numbers, within, place)
             continue
         numbers = tuple(
-            _reference(str(what), given, printed=key == "printed")
+            _reference(str(what), inputs, printed=key == "printed")
             for key in ("printed", "derived")
-            for what, given in entry.get(key, {}).items()
+            for what, inputs in entry.get(key, {}).items()
         )
         yield Published(*head, entry.get("given", {}), numbers, within)
 
 
-def _reference(what: str, given: Any, *, printed: bool) -> Reference:
-    if isinstance(given, Mapping):
-        why = WHY[given["why"]]
-        return Reference(what, str(given["printed"]), printed, str(given["right"]), why)
-    return Reference(what, str(given), printed)
+def _reference(what: str, inputs: Any, *, printed: bool) -> Reference:
+    if isinstance(inputs, Mapping):
+        why = WHY[inputs["why"]]
+        return Reference(what, str(inputs["printed"]), printed, str(inputs["right"]), why)
+    return Reference(what, str(inputs), printed)
 
 
 def from_gallery(name: str) -> Iterator[Published]:
@@ -104,8 +104,8 @@ def from_gallery(name: str) -> Iterator[Published]:
         here = printed | frozenset(state.get("printed", ()))
         numbers = tuple(Reference(what, text, kind in here) for what, kind, text in _of_state(state))
         place = next((f"{key} {state[key]}" for key in ("input", "time") if key in state), "")
-        given = {"model": name, **{key: state[key] for key in ("input", "time") if key in state}}
-        yield Published(*head, "machine", given, numbers, place=place.partition(" ")[2])
+        inputs = {"model": name, **{key: state[key] for key in ("input", "time") if key in state}}
+        yield Published(*head, "machine", inputs, numbers, place=place.partition(" ")[2])
     limits = tuple(
         Reference(f"{each['link']} {each['kind']} {what}", str(each[what]), what in each.get("printed", ()))
         for each in expected.get("limits", ())

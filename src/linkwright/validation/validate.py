@@ -30,7 +30,7 @@ class Checked:
 
     @property
     def ok(self) -> bool:
-        """Whether ours agrees to the digits that are given; where the source is wrong, with the right number."""
+        """Whether ours agrees to the printed digits; where the source is wrong, with the right number."""
         return abs(self.digits) <= self.case.within
 
     @property
@@ -78,7 +78,7 @@ class Validation(Tabular):
             table = Table((head[0], *head[2:]), [(row[0], *row[2:]) for row in rows])
         shown = self.checks if every else [each for each in self.checks if not each.ok or each.erratum]
         count = _(
-            "{agree} of {all} numbers of {cases} cases agree to the digits given. {printed} are "
+            "{agree} of {all} numbers of {cases} cases agree to the printed digits. {printed} are "
             "printed by their sources, and {errata} of these are printed wrongly; the others are "
             "derived from what the sources give.",
             agree=sum(each.ok for each in self.checks),
@@ -135,15 +135,15 @@ def line(each: Checked, language: str) -> str:
     ours = f"{each.value:.10g} {number.partition(' ')[2]}".strip()
     if each.erratum:
         return say(
-            _("{case}: {what}: {given} is wrong, right is {right} (ours {ours}): {why}").format(
+            _("{case}: {what}: {inputs} is wrong, right is {right} (ours {ours}): {why}").format(
                 ours=ours, right=each.reference.right, why=in_language(each.reference.why, language), **words
             )
         )
     return say(
         (
-            _("{case}: {what}: {given}, ours {ours} ({digits} last digits)")
+            _("{case}: {what}: {inputs}, ours {ours} ({digits} last digits)")
             if each.ok
-            else _("{case}: {what}: DIFFERS: {given}, ours {ours} ({digits} last digits)")
+            else _("{case}: {what}: DIFFERS: {inputs}, ours {ours} ({digits} last digits)")
         ).format(ours=ours, digits=f"{each.digits:.2g}", **words)
     )
 
@@ -172,7 +172,7 @@ def validate(cases: Iterable[Published] | None = None, progress: Progress | None
 def check(case: Published) -> list[Checked]:
     """The numbers of one case."""
     try:
-        find = PROBES[case.probe](case.given)
+        find = PROBES[case.probe](case.inputs)
     except LinkwrightError as error:
         return [Checked(case, each, math.nan, math.nan, math.inf, error.sentence) for each in case.numbers]
     return [_checked(case, each, find) for each in case.numbers]

@@ -10,7 +10,7 @@ from linkwright.elements.topology import Group, TreeJoint
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import ZERO, Pair, Term, cosine, minus, sine, symbol
 from linkwright.groups.base import Dyad
-from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
+from linkwright.kinematics.groups import complete_form, dyad_shape, in_one_step
 from linkwright.words import _
 from linkwright.worked_solutions.chains import ChainClosure, attach, chain_closures, trail
 from linkwright.worked_solutions.dyads import DyadWriter, write_dyad
@@ -86,7 +86,7 @@ class Places(Placing):
             step.say(book.say(_("Closure equations of the chains, cut at {joints}:", joints=joints)))
         for closure in chains:
             self._closure(step, group, closure, known)
-        form = whole_form(group)
+        form = complete_form(group)
         step.say(
             book.say(_("They have no closed form; Newton's method gives"))
             if form is None

@@ -140,7 +140,7 @@ def test_the_swing_is_between_the_outermost_limits() -> None:
 )
 def test_a_swing_that_does_not_exist(phase: SwingPhase, limits: list[Limit], code: str) -> None:
     signals = Turning([0, 10])
-    signals.whole = FullCycle(None)
+    signals.full_cycle = FullCycle(None)
     signals.limits = lambda _: limits  # type: ignore[method-assign]
     with refused(code, output="jaw"):
         activity(phase, signals, ramp=True)

@@ -29,7 +29,7 @@ class Turning:
         self.heading, self.lag, self.rotary = int(np.sign(speed)), np.radians(lag), rotary
         self.rate = speed * 2 * np.pi / PERIOD
         self.time = self.input / self.rate
-        self.whole = FullCycle(PERIOD, 2 * np.pi * self.heading)
+        self.full_cycle = FullCycle(PERIOD, 2 * np.pi * self.heading)
         self.mechanism: Any = SimpleNamespace(drivers={"driver": None}, parameters={})
 
     def output(self, output: Output) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

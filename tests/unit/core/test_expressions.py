@@ -58,7 +58,7 @@ def test_an_expression_has_the_value_of_its_arithmetic(text: str, dimension: str
         ("5 N*m", "torque", 4, "ambiguous", {"name": "m"}),
         ("pi/4", "angle", 0, "missing-unit", {"text": "pi/4"}),
         ("l2*l2", "length", 0, "wrong-dimension", {"text": "l2*l2", "example": "60.5 mm"}),
-        ("max(l2)", "length", 0, "expression", {"name": "max", "needed": 2, "given": 1}),
+        ("max(l2)", "length", 0, "expression", {"name": "max", "needed": 2, "count": 1}),
     ],
 )
 def test_a_wrong_expression_is_refused_with_its_column(
@@ -169,7 +169,7 @@ def test_a_unit_behind_factors_is_that_of_all_where_it_fits(text: str, dimension
 def test_a_parameter_that_can_be_read_in_two_ways_is_refused_with_both(text: str) -> None:
     number, unit = text.split()
     first, last = number.split("/")
-    with refused("ambiguous", QuantityError, whole=f"({number})*{unit}", tight=f"{first}/({last} {unit})"):
+    with refused("ambiguous", QuantityError, quantity=f"({number})*{unit}", tight=f"{first}/({last} {unit})"):
         parse_any(text, {"n": NONE})
 
 

@@ -102,7 +102,7 @@ def test_strokes_go_from_one_event_to_the_next_around_the_cycle() -> None:
     _, acts, since = rising.at(np.array([0, 0, 1, 1]), np.array([1.0, 5.0, 5.0, 0.3]))
     assert acts.tolist() == [True, False, True, True]
     assert since == pytest.approx([0.5, 0.5, 4.0, 4.0 - TURN])
-    begin, end = (found.kept(found.rising == kind) for kind in (True, False))
+    begin, end = (found.selected(found.rising == kind) for kind in (True, False))
     assert between(begin, end, own).length == pytest.approx([np.pi, np.pi])
 
 

@@ -142,8 +142,8 @@ def test_starts_far_from_the_root_are_refused(share: float) -> None:
 def test_other_signs_and_long_ways_are_refused() -> None:
     tracker, begin = tracked().tracker, before()
     found = place(BEGIN + 0.006, begin, 0.006)
-    assert np.abs(found.signs).tolist() == [[1.0]] and tracker.kept(found).tolist() == [True]
-    assert tracker.kept(replace(found, signs=-found.signs)).tolist() == [False]
+    assert np.abs(found.signs).tolist() == [[1.0]] and tracker.same_signs(found).tolist() == [True]
+    assert tracker.same_signs(replace(found, signs=-found.signs)).tolist() == [False]
     for h in (0.02, 0.04, 0.06):
         rows = coordinates(h)
         change = max(abs(way) for way, _, _ in parts(h, rows).values())
@@ -155,8 +155,8 @@ def test_the_sign_is_that_of_the_assembly() -> None:
     """Of all assemblies with the crank in one place, found from random starts: each has the sign of its own
     Jacobian, of which both come up, whatever the unit in which its determinant is less than 1."""
     solver = MotionSolver(lw.loads(SLOTTED))
-    follower, here = solver.follower(), at_times(solver.mechanism, [BEGIN])
-    groups = follower.groups
+    tracker, here = solver.tracker(), at_times(solver.mechanism, [BEGIN])
+    groups = tracker.groups
     q = [float(row[0][0]) for row in here.coordinates.values()]
     random, signs = np.random.default_rng(5), {}
     for _ in range(120):
@@ -164,7 +164,7 @@ def test_the_sign_is_that_of_the_assembly() -> None:
         root = groups.solve(start.tolist(), q, [0.0], 30)
         if root is None or not np.abs(root.z / groups.scale).max() < 1e3:
             continue
-        begin = before(follower.states(np.array([root.z])))
+        begin = before(tracker.states(np.array([root.z])))
         (sign,) = place(BEGIN, begin, 0.0).signs[:, 0]
         signs.setdefault(1.0 if root.signs[0] else -1.0, set()).add(sign)
     assert sorted(signs) == [-1.0, 1.0]

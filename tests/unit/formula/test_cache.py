@@ -182,7 +182,7 @@ def test_code_that_others_may_read_but_not_write_is_used(base: Path, monkeypatch
 
 def test_the_memory_keeps_what_was_used_last(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("LINKWRIGHT_CACHE", "off")
-    monkeypatch.setattr(cache, "_KEPT_IN_MEMORY", 2)
+    monkeypatch.setattr(cache, "_IN_MEMORY", 2)
     cache.forget()
     compiled = count_compilations(monkeypatch)
     text = "define void @{0}(ptr %p) {{\nret void\n}}\n"

@@ -167,7 +167,7 @@ def test_the_last_chunks_of_several_threads_are_small() -> None:
     large = every((size, first) for size, (first, _) in zip(sizes, found, strict=True) if size > 8)
     assert all(4 * size <= 1003 - first for size, first in large)
     done: list[tuple[int, int]] = []
-    spread_over(1003, 160, 2, lambda *chunk: done.append(chunk), least=8)
+    spread_over(1003, 160, 2, lambda *chunk: done.append(chunk), minimum=8)
     assert sorted(done) == found
-    spread_over(8, 160, 2, lambda *chunk: done.append(chunk), least=8)
+    spread_over(8, 160, 2, lambda *chunk: done.append(chunk), minimum=8)
     assert done[-1] == (0, 8)

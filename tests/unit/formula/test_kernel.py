@@ -18,14 +18,14 @@ from linkwright.formula.kernel import (
     choose,
     fetch,
     inverse,
-    least,
     load,
-    lower,
     mark_of,
     marked,
+    minimum,
     put,
     ramp,
     root,
+    smallest,
     spread,
     square,
     store,
@@ -56,7 +56,7 @@ def norms(n: int, x: Reals, y: Reals, order: Wholes, out: Reals) -> int:
         r = root(load(x, t) * load(x, t) + load(y, t) * load(y, t))
         store(out, t, r)
         total_ += r
-        low = lower(low, marked(r, ramp(t)))
+        low = minimum(low, marked(r, ramp(t)))
     out[n] = total(total_)
     out[n + 1] = exp(log(2.0)) + sin(1.0) * cos(1.0) + sqrt(4)
     k = 0
@@ -66,7 +66,7 @@ def norms(n: int, x: Reals, y: Reals, order: Wholes, out: Reals) -> int:
             continue
         out[order[k]] = (out + 0)[order[k]] + series(0.5, k // 2)
         k += 1
-    return mark_of(least(low))
+    return mark_of(smallest(low))
 
 
 def test_kernels_compute_what_python_says() -> None:

@@ -36,7 +36,7 @@ def verdict(seed: int, off: float) -> str:
         solver = MotionSolver(mechanism)
         if not solver.motion.next_states:
             return "not judged"
-        exact = solver.follower()
+        exact = solver.tracker()
         goal = exact.drawn_inputs
     except lw.LinkwrightError:
         return "not judged"
@@ -44,7 +44,7 @@ def verdict(seed: int, off: float) -> str:
     moved = {
         name: (x + rng.normal(0, off), y + rng.normal(0, off)) for name, (x, y) in mechanism.drawing.items()
     }
-    rough = MotionSolver(replace(mechanism, drawing=moved)).follower()
+    rough = MotionSolver(replace(mechanism, drawing=moved)).tracker()
     try:
         start = rough.drawn
     except lw.LinkwrightError:

@@ -15,14 +15,14 @@ from linkwright.analysis import Analysis
 from linkwright.events.path_step import PathStep
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.branch import Branch, Node, _Walk, follow, straight
-from linkwright.kinematics.continuation import Follower
+from linkwright.kinematics.continuation import BranchTracker
 from linkwright.kinematics.design import Design
-from linkwright.kinematics.followed_formula import FollowedGroups, Root
-from linkwright.kinematics.followed_way import Followed, _Journey
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.reach_sentences import branch_notes
+from linkwright.kinematics.reach_messages import branch_notes
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.step_rule import CORRECTION, MISFIT
+from linkwright.kinematics.tracked_branch import TrackedBranch, _Journey
+from linkwright.kinematics.tracking_formula import Root, TrackedGroups
 
 pytestmark = pytest.mark.rotating
 
@@ -37,9 +37,9 @@ def fault(name: str) -> lw.Mechanism:
     return lw.load(FAULTS / f"{name}.yaml")
 
 
-def followed(motion: Motion) -> Followed:
-    assert motion.followed is not None
-    return motion.followed
+def tracked(motion: Motion) -> TrackedBranch:
+    assert motion.tracked is not None
+    return motion.tracked
 
 
 @pytest.fixture(scope="module")
@@ -47,24 +47,24 @@ def triad() -> Motion:
     return lw.solve_motion(lw.load("gallery:triad"), steps=36)
 
 
-def at(motion: Motion, places: Floats) -> tuple[Floats, Followed]:
+def at(motion: Motion, places: Floats) -> tuple[Floats, TrackedBranch]:
     """Drivers (m, 1) at numbers of positions, and the way solved at just these times."""
     step = motion.time[1] - motion.time[0]
     there = lw.solve_motion(motion.mechanism, times=motion.time[0] + places * step)
-    return np.stack(list(there.inputs.values()), axis=1), followed(there)
+    return np.stack(list(there.inputs.values()), axis=1), tracked(there)
 
 
 PLACES = np.array([30.75, 3.25, 3.5, 3.25, 17.0, 35.5, 8.125])
 
 
-def agree(found: dict[str, Floats], there: Followed) -> None:
+def agree(found: dict[str, Floats], there: TrackedBranch) -> None:
     for name, row in there.states.items():
         turned = np.round((found[name] - row) / (2 * np.pi)) * 2 * np.pi if name.endswith("angle") else 0.0
         assert found[name] - turned == pytest.approx(row, abs=1e-11)
 
 
 def test_between_two_positions_lies_what_is_solved_there(triad: Motion) -> None:
-    way = followed(triad)
+    way = tracked(triad)
     q, there = at(triad, PLACES)
     agree(way.between(PLACES, q), there)
 
@@ -81,31 +81,31 @@ def test_a_law_that_is_no_straight_line_is_met_where_it_is(read: bool) -> None:
     motion = lw.solve_motion(lw.loads(text[0] + law), steps=6)
     places = np.array([0.5, 2.25, 4.75, 5.0])
     q, there = at(motion, places)
-    way = followed(motion) if read else replace(followed(motion), stretches=())
+    way = tracked(motion) if read else replace(tracked(motion), stretches=())
     agree(way.between(places, q), there)
 
 
 def test_without_a_branch_every_place_has_a_way_of_its_own(triad: Motion) -> None:
     q, there = at(triad, PLACES)
-    agree(replace(followed(triad), stretches=()).between(PLACES, q), there)
+    agree(replace(tracked(triad), stretches=()).between(PLACES, q), there)
 
 
 def branch_of(triad: Motion) -> Branch:
-    return followed(triad).stretches[0].branch
+    return tracked(triad).stretches[0].branch
 
 
 def test_readings_are_quintics_of_the_sixth_order(triad: Motion, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without their correction they miss the root by sixty-four times less at half the step."""
-    follower, way, off = triad.solver.follower(), followed(triad), []
+    tracker, way, off = triad.solver.tracker(), tracked(triad), []
     share = np.linspace(0.01, 0.99, 41)
     q = way.inputs[0] + share[:, None] * (way.inputs[9] - way.inputs[0])
     monkeypatch.setattr("linkwright.kinematics.branch.WANTED", 1e9)
     for steps in (18, 36):
         monkeypatch.setattr("linkwright.kinematics.branch.LONGEST", float(q[-1, 0] - q[0, 0]) / steps)
-        branch = follower.between(way.inputs[0], way.inputs[9], way.coordinates[0])
+        branch = tracker.between(way.inputs[0], way.inputs[9], way.coordinates[0])
         near, _, known = branch.read(share, q)
         assert known.all() and len(branch.steps) >= steps
-        off.append(np.abs(near - follower.groups.many(near, q)[0]).max(axis=1))
+        off.append(np.abs(near - tracker.groups.many(near, q)[0]).max(axis=1))
     assert off[0].max() < 1e-4
     assert np.median(off[0]) / np.median(off[1]) == pytest.approx(64.0, rel=0.4)
 
@@ -117,25 +117,25 @@ def test_a_reading_counts_if_its_correction_is_small_and_the_signs_are_kept(
     triad: Motion, monkeypatch: pytest.MonkeyPatch, of_the_step: float, other: bool, sure: bool
 ) -> None:
     """Else the place is walked to from the beginning of its step."""
-    way, walked = followed(triad), list[float]()
-    follower, branch = way.follower, branch_of(triad)
+    way, walked = tracked(triad), list[float]()
+    tracker, branch = way.tracker, branch_of(triad)
     x = np.array([0.5 * (branch.steps[3][0].x + branch.steps[3][1].x)])
     q = branch.way.drive(x)
-    change = (branch.read(x, q)[1] / follower.groups.scale).max()
-    exact, signs = follower.groups.many(branch.read(x, q)[0], q)
-    moved = branch.read(x, q)[0] + of_the_step * CORRECTION * change * follower.groups.scale
+    change = (branch.read(x, q)[1] / tracker.groups.scale).max()
+    exact, signs = tracker.groups.many(branch.read(x, q)[0], q)
+    moved = branch.read(x, q)[0] + of_the_step * CORRECTION * change * tracker.groups.scale
     found = [tuple(each != other for each in signs[0])]
-    monkeypatch.setattr(follower.groups, "many", lambda z, q: (moved.copy(), found))
-    own = Follower._walked
-    monkeypatch.setattr(Follower, "_walked", lambda *a: (walked.append(a[2]), own(*a))[1])
-    value = follower.read(branch, x, q)
+    monkeypatch.setattr(tracker.groups, "many", lambda z, q: (moved.copy(), found))
+    own = BranchTracker._walked
+    monkeypatch.setattr(BranchTracker, "_walked", lambda *a: (walked.append(a[2]), own(*a))[1])
+    value = tracker.read(branch, x, q)
     assert (walked == []) is sure
     assert value == pytest.approx(moved if sure else exact, abs=1e-12)
 
 
 def test_nothing_is_read_over_a_break_or_an_end() -> None:
     motion = lw.solve_motion(fault("valid_position_barred"), steps=40, failures="mark")
-    way = followed(motion)
+    way = tracked(motion)
     assert way.breaks == {10} and not way.closed
     places = np.array([9.5, 10.5, 11.0, 39.0, 40.0])
     q = np.interp(places, np.arange(41.0), motion.input)[:, None]
@@ -152,7 +152,7 @@ def test_nothing_is_read_over_a_break_or_an_end() -> None:
 def test_the_last_position_leads_to_the_first_if_the_cycle_comes_back(
     triad: Motion, returns: bool | None, there: bool
 ) -> None:
-    way = followed(triad)
+    way = tracked(triad)
     assert way.closed and way.returns is True
     q, _ = at(triad, np.array([35.5]))
     found = replace(way, returns=returns).between(np.array([35.5]), q)
@@ -161,7 +161,7 @@ def test_the_last_position_leads_to_the_first_if_the_cycle_comes_back(
 
 def test_beyond_the_last_reached_position_the_motion_goes_on_to_where_it_ends() -> None:
     motion = lw.solve_motion(fault("valid_position_barred"), steps=40, failures="mark")
-    end = followed(motion).stops[0].inputs[0]
+    end = tracked(motion).stops[0].inputs[0]
     step = motion.input[1] - motion.input[0]
     times = np.interp(end + np.array([-0.3, -0.05, 0.3]) * step, motion.input, motion.time)
     names = tuple(f"w:{link}" for link in motion.mechanism.links)
@@ -175,7 +175,7 @@ def test_beyond_the_last_reached_position_the_motion_goes_on_to_where_it_ends() 
 @pytest.mark.parametrize("speed", ["1", "-1"])
 def test_a_cycle_that_ends_on_both_sides_has_two_stops_and_does_not_come_back(speed: str) -> None:
     motion = lw.solve_motion(lw.loads(turning(float(speed))), steps=60, failures="mark")
-    way = followed(motion)
+    way = tracked(motion)
     bad = np.flatnonzero(~motion.ok)
     assert way.returns is None and len(way.stops) == 2 and len(way.breaks) == 1
     assert set(way.stop_of[bad[:-1]]) == {0} and way.stop_of[bad[-1]] == 1
@@ -197,7 +197,7 @@ def test_what_is_reached_goes_on_to_both_its_ends(speed: str, steps: int) -> Non
     edges = Analysis.of(motion).resolver.edges
     laps = [
         np.radians(160.0) + float(speed) * time - stop.inputs[0]
-        for (time, _), stop in zip(edges, followed(motion).stops, strict=True)
+        for (time, _), stop in zip(edges, tracked(motion).stops, strict=True)
     ]
     assert [sense for _, sense in edges] == [-1, 1]
     assert np.sin(laps) == pytest.approx([0.0, 0.0], abs=3e-7)
@@ -210,31 +210,31 @@ def test_a_straight_row_of_inputs_is_one_way(triad: Motion) -> None:
     none = np.zeros(9)
     rows = dict.fromkeys(triad.positions.coordinates, (q, none, none))
     positions = replace(triad.positions, time=none, coordinates=rows, period=None, cycle=False)
-    journey = _Journey(solver.follower(), positions, False)
+    journey = _Journey(solver.tracker(), positions, False)
     assert journey._in_line() and not journey.lawful
     assert journey._shares() == pytest.approx(q / 2.0)
-    way = journey.followed()
+    way = journey.tracked()
     exact = lw.solve_motion(triad.mechanism, at=q)
-    agree(dict(way.states), followed(exact))
+    agree(dict(way.states), tracked(exact))
     for other, line in ((q[::-1], True), (q[[0, 2, 1, *range(3, 9)]], False), (np.append(q[:8], 1.9), True)):
         mixed = replace(positions, coordinates=dict.fromkeys(rows, (other, none, none)))
-        assert _Journey(solver.follower(), mixed, False)._in_line() is line
+        assert _Journey(solver.tracker(), mixed, False)._in_line() is line
     short = replace(positions, time=none[:2], coordinates=dict.fromkeys(rows, (q[:2], none[:2], none[:2])))
-    assert not _Journey(solver.follower(), short, False)._in_line()
+    assert not _Journey(solver.tracker(), short, False)._in_line()
 
 
 # one step ---------------------------------------------------------------------------------------------------
 def walk(motion: Motion, steps: float = 1.0) -> tuple[_Walk, Root, Root]:
     """A walk at the beginning of one step, and the roots at both its ends."""
-    follower, q = motion.solver.follower(), motion.positions.coordinates["driver"][0]
+    tracker, q = motion.solver.tracker(), motion.positions.coordinates["driver"][0]
     ahead = steps * (q[1:2] - q[:1])
     found = _Walk(
-        follower.groups, straight(q[:1], q[:1] + ahead, follower.groups.unit), followed(motion).coordinates[0]
+        tracker.groups, straight(q[:1], q[:1] + ahead, tracker.groups.unit), tracked(motion).coordinates[0]
     )
     assert found.here is not None
     begin = found._towards(found.here, ahead)
     assert begin is not None
-    end = follower.groups.solve(begin.root.z, (q[:1] + ahead).tolist(), ahead.tolist())
+    end = tracker.groups.solve(begin.root.z, (q[:1] + ahead).tolist(), ahead.tolist())
     assert end is not None
     return found, begin.root, end
 
@@ -275,38 +275,38 @@ def test_rates_in_another_direction_are_those_solved_there(triad: Motion) -> Non
 def test_no_step_leads_over_a_fold(triad: Motion, monkeypatch: pytest.MonkeyPatch) -> None:
     """A root whose determinant has another sign is none of the assembly."""
     found, _, _ = walk(triad, 0.01)
-    solve = FollowedGroups.solve
+    solve = TrackedGroups.solve
 
-    def other(groups: FollowedGroups, *given: object) -> Root | None:
+    def other(groups: TrackedGroups, *given: object) -> Root | None:
         root = solve(groups, *given)  # type: ignore[arg-type]
         ahead = given[1] != found.way.drive(np.zeros(1))[0].tolist()
         return root and replace(root, signs=tuple(each != ahead for each in root.signs))
 
-    monkeypatch.setattr(FollowedGroups, "solve", other)
+    monkeypatch.setattr(TrackedGroups, "solve", other)
     assert found._step(1.0) == np.inf and found.steps == []
-    monkeypatch.setattr(FollowedGroups, "solve", solve)
+    monkeypatch.setattr(TrackedGroups, "solve", solve)
     assert found._step(1.0) < 1.0 and len(found.steps) == 1
 
 
 @pytest.mark.parametrize("count", [2, 7])
 def test_a_way_is_read_at_every_place(triad: Motion, count: int) -> None:
-    follower, way = triad.solver.follower(), followed(triad)
-    branch = follower.between(way.inputs[0], way.inputs[9], way.coordinates[0])
+    tracker, way = triad.solver.tracker(), tracked(triad)
+    branch = tracker.between(way.inputs[0], way.inputs[9], way.coordinates[0])
     assert branch.complete and branch.reached == 1.0
     assert branch.way.pace == pytest.approx(abs(way.inputs[9, 0] - way.inputs[0, 0]))
     x = np.linspace(0.0, 1.0, count)
     q = way.inputs[0] + x[:, None] * (way.inputs[9] - way.inputs[0])
-    found = follower.read(branch, x, q)
+    found = tracker.read(branch, x, q)
     assert found[-1] == pytest.approx(branch.last, abs=1e-12) == way.coordinates[9]
-    beyond = follower.read(branch, np.array([-0.1, 1.1]), q[[0, -1]])
+    beyond = tracker.read(branch, np.array([-0.1, 1.1]), q[[0, -1]])
     assert np.isnan(beyond).all()
-    apart = follow(follower.groups, branch.way, np.full(len(follower.groups.scale), np.nan))
+    apart = follow(tracker.groups, branch.way, np.full(len(tracker.groups.scale), np.nan))
     assert not apart.complete and apart.end is None and apart.last is None and apart.reached == 0.0
 
 
 def test_a_way_that_stands_still_is_complete(triad: Motion) -> None:
-    follower, way = triad.solver.follower(), followed(triad)
-    branch = follower.between(way.inputs[4], way.inputs[4], way.coordinates[4])
+    tracker, way = triad.solver.tracker(), tracked(triad)
+    branch = tracker.between(way.inputs[4], way.inputs[4], way.coordinates[4])
     assert branch.complete and branch.last == pytest.approx(way.coordinates[4], abs=1e-13)
 
 
@@ -319,10 +319,10 @@ def test_a_way_of_too_many_tries_is_given_up(monkeypatch: pytest.MonkeyPatch) ->
 def test_a_cycle_that_ends_in_another_assembly_is_reported(triad: Motion) -> None:
     motion = lw.solve_motion(triad.mechanism, steps=12)
     assert branch_notes(motion) == ()
-    motion.followed = replace(followed(motion), returns=False)
+    motion.tracked = replace(tracked(motion), returns=False)
     (note,) = branch_notes(motion)
     assert note.code == "cycle.not_back"
-    motion.followed = None
+    motion.tracked = None
     assert branch_notes(motion) == ()
 
 
@@ -358,6 +358,6 @@ def test_another_design_has_a_way_of_its_own(triad: Motion) -> None:
     solver = MotionSolver(triad.mechanism)
     changes = {"crank.A.x": 0.9 * triad.mechanism.dimensions()["crank.A.x"]}
     other = solver.states(triad.positions, Design(triad.mechanism, solver.assembly.modes, changes))
-    there = followed(lw.solve_motion(triad.mechanism.with_dimensions(changes), steps=36))
+    there = tracked(lw.solve_motion(triad.mechanism.with_dimensions(changes), steps=36))
     agree(other, there)
-    agree(solver.states(triad.positions), followed(triad))
+    agree(solver.states(triad.positions), tracked(triad))

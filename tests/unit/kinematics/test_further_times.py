@@ -10,9 +10,9 @@ from linkwright.kinematics.solve import with_times
 
 
 @pytest.mark.parametrize("followed", [True, False])
-def test_further_times_of_a_motion_lie_on_its_way(followed: bool) -> None:
+def test_further_times_of_a_motion_lie_on_its_way(tracked: bool) -> None:
     """They are reached where the positions on both sides are, and these are what they were."""
-    text = general_case(7017).text if followed else TRIPLE_ROCKER.format(x=4.0, y=0.0, start=0.0)
+    text = general_case(7017).text if tracked else TRIPLE_ROCKER.format(x=4.0, y=0.0, start=0.0)
     known = lw.solve_motion(lw.loads(text), steps=90, failures="mark")
     period, ahead = known.positions.period, np.roll(known.ok, -1)
     assert period is not None and known.ok.any() and not known.ok.all()

@@ -24,7 +24,7 @@ def torque(mechanism):
 
 def forget():
     """As if nothing had been solved before."""
-    programs._kept = Recent(32)
+    programs._cache = Recent(32)
 
 
 def alone(mechanism):
@@ -110,7 +110,7 @@ def test_a_guide_that_is_turned_gives_the_same_bits_whatever_was_solved_before(f
 
 
 def test_the_programs_used_last_are_the_ones_that_stay(monkeypatch):
-    monkeypatch.setattr(programs, "_kept", Recent(2))
+    monkeypatch.setattr(programs, "_cache", Recent(2))
     first, second, third = (lw.load(f"gallery:{name}") for name in ("crank_rocker", "kite", "scotch_yoke"))
     for each in (first, second, first, third):
         torque(each)

@@ -29,7 +29,7 @@ from linkwright.kinematics.change_points import (
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.positions import Positions
-from linkwright.kinematics.reach_sentences import passage_notes
+from linkwright.kinematics.reach_messages import passage_notes
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Cycle
 

@@ -22,8 +22,8 @@ def test_a_rough_drawing_shows_the_assembly_nearest_to_its_points() -> None:
     shift = {"A": (-0.004, 0.015), "P": (0.012, -0.02), "Q": (-0.015, 0.01), "R": (0.004, 0.018)}
     true = {**mechanism.frame.points, **mechanism.drawing}
     rough = {name: tuple(np.add(true[name], off)) for name, off in shift.items()}
-    follower = MotionSolver(replace(mechanism, drawing={**mechanism.drawing, **rough})).follower()
-    found = lw.solve_motion(mechanism, at=follower.drawn_inputs)
+    tracker = MotionSolver(replace(mechanism, drawing={**mechanism.drawing, **rough})).tracker()
+    found = lw.solve_motion(mechanism, at=tracker.drawn_inputs)
     names = list(shift)
 
     def place(name: str, x: Floats) -> Floats:
@@ -58,12 +58,12 @@ def test_a_drawing_two_millimetres_off_shows_the_assembly_that_was_drawn(seed: i
     """Machines of a metre near limits, where slides and angles found from two points are far off: from the drawing's
     assembly the drivers lead to the one of the exact drawing."""
     mechanism = lw.loads(general_case(seed).text)
-    exact, rng = MotionSolver(mechanism).follower(), np.random.default_rng([seed, 5])
+    exact, rng = MotionSolver(mechanism).tracker(), np.random.default_rng([seed, 5])
     drawing = {
         name: (x + rng.normal(0, 0.002), y + rng.normal(0, 0.002))
         for name, (x, y) in mechanism.drawing.items()
     }
-    rough = MotionSolver(replace(mechanism, drawing=drawing)).follower()
+    rough = MotionSolver(replace(mechanism, drawing=drawing)).tracker()
     goal = rough.drawn_inputs + rough.nearest_drive(exact.drawn_inputs - rough.drawn_inputs)
     branch = rough.between(rough.drawn_inputs, goal, rough.drawn)
     assert branch.complete

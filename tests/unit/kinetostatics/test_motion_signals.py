@@ -44,6 +44,6 @@ def test_angles_are_those_of_the_cycle_and_whole_turns(lengths: tuple[str, str],
     begin = cycle.link("follower").angle[0] - cycle.link("crank").angle[0] - near[0]
     assert abs(begin - 0.3) <= np.pi + 1e-9
     assert signals.heading == (-1 if backwards else 1) and signals.rotary and signals.closes is None
-    assert signals.whole.period == pytest.approx(PERIOD)
+    assert signals.full_cycle.period == pytest.approx(PERIOD)
     assert MotionSignals(cycle).closes == pytest.approx((PERIOD, -2 * np.pi if backwards else 2 * np.pi))
     assert MotionSignals(lw.solve_motion(mechanism, steps=720, endpoint=True)).closes is None

@@ -4,7 +4,7 @@ import pytest
 
 from linkwright.laws.base import MOTION_LAWS
 from linkwright.registry import nearest
-from linkwright.words.synonyms import ALIKE
+from linkwright.words.synonyms import SYNONYMS
 
 
 def test_a_name_that_begins_with_a_known_one_offers_it() -> None:
@@ -37,7 +37,7 @@ def test_a_wrong_name_finds_the_one_that_means_the_same(
 
 
 def test_no_word_means_two_things() -> None:
-    words = ALIKE.split()
+    words = SYNONYMS.split()
     assert len(words) == len(set(words))
 
 

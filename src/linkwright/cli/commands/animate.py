@@ -96,7 +96,7 @@ def run(options: Options, session: Session) -> int:
     with progress(session, _("drawing")) as report:
         path = animation.save(options.output, width=options.width or WIDTH, progress=report, force=True)
     told(path, options, session)
-    return int(not motion.whole)
+    return int(not motion.complete)
 
 
 def _forces(motion: Motion, options: Options) -> Forces | None:

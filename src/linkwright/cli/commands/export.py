@@ -138,7 +138,7 @@ def _told(motion: Motion, session: Session) -> int:
     for number, outcome in enumerate(motion.outcomes):
         if not outcome.ok:
             session.tell(f"{input_text(motion, number, degrees=True)}: {outcome.say(session.language)}")
-    return int(not motion.whole)
+    return int(not motion.complete)
 
 
 def _of_page(file: str, beside: Sequence[str]) -> dict[str, Any]:

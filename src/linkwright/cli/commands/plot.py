@@ -106,7 +106,7 @@ def run(options: Options, session: Session) -> int:
     motions = _solved(options, session)
     diagram = _drawn(options, session, motions)
     _write(diagram, path, options, session)
-    return int(not all(motion.whole for motion in motions.values()))
+    return int(not all(motion.complete for motion in motions.values()))
 
 
 def _require_kind(options: Options) -> None:

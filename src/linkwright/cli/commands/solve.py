@@ -83,7 +83,7 @@ def run(options: Options, session: Session) -> int:
         session.show(*report(solved, options, session))
     if solved.trouble is not None:
         session.tell_error(solved.trouble.say(session.language))
-    return int(solved.trouble is not None or not solved.motion.whole)
+    return int(solved.trouble is not None or not solved.motion.complete)
 
 
 def _show_worked(solved: Solved, options: Options, session: Session) -> None:

@@ -62,7 +62,7 @@ class Sheet:
             if names is None and not np.nanmax(np.ptp(track[motion.ok], axis=0), initial=0.0) > 0:
                 continue
             self.ink.append(self.scene.trace(name))
-            closed = motion.positions.closed and motion.whole
+            closed = motion.positions.closed and motion.complete
             for piece in unbroken(track):
                 self._path(self.factor * piece, closed, spline)
 

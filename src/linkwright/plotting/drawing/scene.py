@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.placement import followed, placements
+from linkwright.kinematics.placement import placements, with_placements_of
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Circle, Line, SvgNode, Vec
 from linkwright.pictures.svg.element import group, number
@@ -115,7 +115,7 @@ def laid_out(
     ``beside``: positions of other motions of the mechanism, counted on after its own; ``view``: instead of one in
     which the machine has the ``diagonal``.
     """
-    placed = followed(placements(motion), beside)
+    placed = with_placements_of(placements(motion), beside)
     machine = Machine(motion, placed, view or fitted(motion, placed, diagonal), beside)
     parts = parts_of(machine)
     if inputs:

@@ -15,7 +15,7 @@ from linkwright.drivers.base import LABELS
 from linkwright.elements.topology import Group
 from linkwright.groups.base import DYADS
 from linkwright.joints.cam import CamJoint
-from linkwright.kinematics.groups import dyad_shape, in_one_step, whole_form
+from linkwright.kinematics.groups import complete_form, dyad_shape, in_one_step
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
@@ -256,7 +256,7 @@ class _Writer:
         cams = [c.joint for c in group.cuts if isinstance(self.mechanism.joints[c.joint], CamJoint)]
         if cams:
             yield say(_("lift and its derivatives from the profile of {cams}", cams=self._listed(cams)))
-        if whole_form(group) is not None or dyad_shape(group) is not None:
+        if complete_form(group) is not None or dyad_shape(group) is not None:
             yield say(_("closure in closed form"))
             return
         if in_one_step(group):

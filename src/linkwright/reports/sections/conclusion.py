@@ -122,7 +122,7 @@ class _Conclusion:
             yield say(ratio.format(subject=literal(row.subject), ratio=_value(row)))
         for output in main_outputs(self.case.motion)[:MOST]:
             yield from self._rates(output)
-        if not self.case.motion.whole:
+        if not self.case.motion.complete:
             yield say(
                 _(
                     "The values hold for the part of the input's range in which the machine can be "

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.analysis.base import CELLS, MetricValue
-from linkwright.analysis.table import told
+from linkwright.analysis.table import cells_of_values
 from linkwright.core.quantity import number
 from linkwright.core.table import Table
 from linkwright.equations.reading import sides
@@ -30,7 +30,7 @@ def blocks(case: Case) -> Iterator[Block]:
     for metric in dict.fromkeys(row.metric for row in rows):
         case.used[metric] = None
     head = (*CELLS[:4], _("at the input"), _("recommended"))
-    cells = [cells for cells, _unused in told(rows, case.language)]
+    cells = [cells for cells, _unused in cells_of_values(rows, case.language)]
     yield printed(Table(head, cells, "<<><>>", _("Design numbers")), case.language, "numbers")
     for sentence in case.metrics.warnings_in(case.language):
         yield Paragraph(literal(sentence), "note")

@@ -14,7 +14,7 @@ from linkwright.reports.group_pictures import group_picture, to_one_scale
 from linkwright.reports.machine_results import Case
 from linkwright.reports.section import section
 from linkwright.topology.analysis import numeral
-from linkwright.topology.mobility import lower_pairs
+from linkwright.topology.mobility import lower_pair_counts
 from linkwright.words import _, pgettext
 from linkwright.words.sentence import in_language
 
@@ -62,7 +62,7 @@ def _pictures(case: Case) -> Block:
 
 def _mobility(case: Case) -> Formula:
     counts = case.structure.counts
-    n, (turning, sliding, w) = counts["links"], lower_pairs(counts)
+    n, (turning, sliding, w) = counts["links"], lower_pair_counts(counts)
     p = turning + sliding
     higher = sum(count for kind, count in counts.items() if kind in JOINTS and JOINTS[kind].higher)
     symbols, numbers = f"3 n − 2 {'p_L' if higher else 'p'}", f"3·{n} − 2·{p}"

@@ -13,25 +13,25 @@ from linkwright.core.outputs import row_name
 from linkwright.core.quantity import shown
 from linkwright.kinematics.change_points import closes
 from linkwright.kinematics.cycle import FEW, cycle_turns, not_back, together
+from linkwright.kinematics.full_turns import MOST
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.outcome import Outcome
 from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.positions import Positions, coordinate_text
-from linkwright.kinematics.whole_turns import MOST
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import number
 from linkwright.words import Message, _
 
 if TYPE_CHECKING:
     from linkwright.elements.topology import Group
-    from linkwright.kinematics.followed_way import Stop
+    from linkwright.kinematics.tracked_branch import Stop
 
 
 #: A position this near (rad, m) to where a way ends is itself singular.
 ON_LIMIT = 1e-6
 #: Pins this near, as share of the mechanism's size, are at one place.
 AT_ONE_PLACE = 1e-9
-#: Digits, of rad or m, to which the end of a way that is followed is told.
+#: Digits, of rad or m, to which the end of a tracked path is reported.
 KNOWN = 6
 
 
@@ -58,7 +58,7 @@ _PASSAGES = {
     ),
     "end": _(
         "change point of group ({links}) at {where}: the groups without closed form that "
-        "hang on it cannot be followed through it, so the motion ends there",
+        "hang on it cannot be tracked through it, so the motion ends there",
         code="cycle.end",
     ),
     "pole": _(
@@ -73,12 +73,12 @@ _PASSAGES = {
 }
 _OUTCOMES = {
     "lost": _(
-        "group {signature} ({links}) cannot be followed to this position: it is out of reach "
+        "group {signature} ({links}) cannot be tracked to this position: it is out of reach "
         "or beyond a singular position",
         code="outcome.lost",
     ),
     "stopped": _(
-        "group {signature} ({links}) cannot be followed to this position: on the way it "
+        "group {signature} ({links}) cannot be tracked to this position: on the way it "
         "becomes singular at {where}",
         code="outcome.stopped",
     ),
@@ -105,7 +105,7 @@ def turn_notes(motion: Motion) -> tuple[Message, ...]:
         turns, driver = cycle_turns(mechanism, positions.period)
         if turns == 1:
             return ()
-        said = (
+        message = (
             _("the cycle is {turns} turns of {driver!r}: only then are all wheels back", code="cycle.turns")
             if turns > together(mechanism)
             else _(
@@ -113,9 +113,9 @@ def turn_notes(motion: Motion) -> tuple[Message, ...]:
                 code="cycle.turns_of_drivers",
             )
         )
-        return (said.format(turns=turns, driver=driver),)
+        return (message.format(turns=turns, driver=driver),)
     if (count := together(mechanism)) > FEW:
-        return (_apart(mechanism, count),)
+        return (_drivers_not_back(mechanism, count),)
     return (
         (
             _(
@@ -129,7 +129,7 @@ def turn_notes(motion: Motion) -> tuple[Message, ...]:
     )
 
 
-def _apart(mechanism: Mechanism, count: float) -> Message:
+def _drivers_not_back(mechanism: Mechanism, count: float) -> Message:
     """That drivers of several speeds are back together only after many turns, or not even then."""
     natural, driver = max((d.law.natural_duration() or 0.0, name) for name, d in mechanism.drivers.items())
     if math.isinf(count):
@@ -151,8 +151,8 @@ def _apart(mechanism: Mechanism, count: float) -> Message:
 
 
 def branch_notes(motion: Motion) -> tuple[Message, ...]:
-    """That groups that are followed do not come back to their start."""
-    way = motion.followed
+    """That tracked groups do not come back to their start."""
+    way = motion.tracked
     return (
         ()
         if way is None or way.returns is not False
@@ -168,16 +168,16 @@ def branch_notes(motion: Motion) -> tuple[Message, ...]:
 
 def passage_notes(passing: Sequence[Passage], positions: Positions) -> tuple[Message, ...]:
     """What the user should know about change points and gaps between positions."""
-    said = [_passage_note(p, positions) for p in passing]
+    messages = [_passage_note(p, positions) for p in passing]
     if positions.closed and not closes(passing):
-        said.append(
+        messages.append(
             _(
                 "after one cycle the mechanism is in its other assembly mode: the motion repeats "
                 "after two cycles",
                 code="cycle.two_cycles",
             )
         )
-    return tuple(dict.fromkeys(said))
+    return tuple(dict.fromkeys(messages))
 
 
 def _passage_note(p: Passage, positions: Positions) -> Message:
@@ -218,8 +218,8 @@ class _Facts:
         for joint in self.motion.mechanism.joints.values():
             misfit = joint.misfit(self.motion.mechanism) if set(joint.joined) & set(group.links) else None
             if misfit is not None:
-                said = _("the pair {joint!r} does not fit: {reason}", joint=joint.name, reason=misfit)
-                return Outcome(False, said, group.name, "misfit")
+                message = _("the pair {joint!r} does not fit: {reason}", joint=joint.name, reason=misfit)
+                return Outcome(False, message, group.name, "misfit")
         placed = self.motion.solver.motion.placed[group.name]
         if placed.dyad is None:
             return self._lost(group, index)
@@ -228,14 +228,14 @@ class _Facts:
         }
         if code < 0:
             together = facts.get("distance²", math.inf) < (AT_ONE_PLACE * self.motion.mechanism.size) ** 2
-            said = _of("coinciding" if together else "singular", group)
-            return Outcome(False, said, group.name, "singular")
+            message = _of("coinciding" if together else "singular", group)
+            return Outcome(False, message, group.name, "singular")
         reason = placed.dyad.explain(facts)
         return Outcome(False, _of("apart", group, reason=reason), group.name, "unreachable")
 
     def _lost(self, group: Group, index: int) -> Outcome:
         """A group without closed form: where the way to the position ends, and at which group."""
-        way = self.motion.followed
+        way = self.motion.tracked
         if way is None or way.stop_of[index] < 0:
             return Outcome(False, _of("lost", group), group.name, "unreachable")
         stop = way.stops[way.stop_of[index]]
@@ -259,7 +259,7 @@ def way_stopped(motion: Motion, group: Group, stop: Stop) -> Message:
 
 
 def _of(key: str, group: Group, **values: object) -> Message:
-    """What is to be said of a group."""
+    """The message about a group."""
     return _OUTCOMES[key].format(signature=group.signature, links=group.links, **values)
 
 

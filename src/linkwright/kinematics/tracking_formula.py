@@ -1,4 +1,4 @@
-"""Chain coordinates of the groups that are followed, and the traced formula that corrects them at given drivers.
+"""Chain coordinates of the tracked groups, and the traced formula that corrects them at set drivers.
 
 The formula is the mechanism's own trace: one of Newton's steps of every group without closed form, the closed forms
 of the groups on which they hang, and the exact rates of both.
@@ -65,12 +65,12 @@ class Root:
     signs: tuple[bool, ...]
 
 
-class FollowedFormula:
+class TrackingFormula:
     """The formula of all mechanisms of one shape.
 
-    ``upstream``: what is followed, and all on which it hangs; ``steps`` (n,): the chains' joints whose coordinates
-    are followed, by group; ``solved`` (n,): whether Newton's method finds them; ``turns`` (n,): whether they are
-    angles, with whole turns; ``as_angle`` (n,): whether their states are these angles.
+    ``upstream``: the tracked groups, and all on which they hang; ``steps`` (n,): the chains' joints whose coordinates
+    are tracked, by group; ``solved`` (n,): whether Newton's method finds them; ``turns`` (n,): whether they are
+    angles, with full turns; ``as_angle`` (n,): whether their states are these angles.
     """
 
     def __init__(self, programs: MotionPrograms) -> None:
@@ -89,11 +89,11 @@ class FollowedFormula:
         self.scalar = self.of(self._outputs())
         self.program = self.scalar.program
 
-    def __reduce__(self) -> tuple[Callable[..., FollowedFormula], tuple[MotionPrograms]]:
-        return followed_formula, (self.programs,)
+    def __reduce__(self) -> tuple[Callable[..., TrackingFormula], tuple[MotionPrograms]]:
+        return tracking_formula, (self.programs,)
 
     def of(self, outputs: Mapping[str, Scalar | bool]) -> ScalarProgram:
-        """The program for some outputs; constant speeds of drivers are given per position, as fields."""
+        """The program for some outputs; constant speeds of drivers are fields, one value per position."""
         with self.programs.lock:
             program = Program.of(self.programs.motion.trace, outputs)
         return ScalarProgram(
@@ -137,13 +137,13 @@ class FollowedFormula:
         return self.of({f"{k}": each for k, each in enumerate(entries)})
 
 
-class FollowedGroups:
-    """The followed groups of one design.
+class TrackedGroups:
+    """The tracked groups of one design.
 
     ``scale`` (n,): unit of every coordinate, 1 rad or the mechanism's size; ``unit`` (d,): of every driver.
     """
 
-    def __init__(self, formula: FollowedFormula, design: Design) -> None:
+    def __init__(self, formula: TrackingFormula, design: Design) -> None:
         self.formula, self.design = formula, design
         self.size = design.mechanism.size
         self.turns = formula.turns
@@ -163,8 +163,8 @@ class FollowedGroups:
         self._valid = row["valid"]
         self._signs = [k for name, k in row.items() if name.startswith("determinant")]
 
-    def __reduce__(self) -> tuple[type[FollowedGroups], tuple[FollowedFormula, Design]]:
-        return FollowedGroups, (self.formula, self.design)
+    def __reduce__(self) -> tuple[type[TrackedGroups], tuple[TrackingFormula, Design]]:
+        return TrackedGroups, (self.formula, self.design)
 
     def evaluator(
         self, scalar: ScalarProgram, states: Mapping[str, tuple[int, str]] | None = None
@@ -175,12 +175,12 @@ class FollowedGroups:
         program, drivers = scalar.program, list(self.design.mechanism.drivers)
         numbers = tuple(float(self.design.parameters[name]) for name in program.parameters)
         parts = (name.partition(":") for name in program.positions)
-        given = [(_GIVEN[kind], drivers.index(owner)) for kind, _, owner in parts]
+        sources = [(_SOURCES[kind], drivers.index(owner)) for kind, _, owner in parts]
         speeds = {f"{name}.speed": (k, "speed") for k, name in enumerate(drivers)}
         read = [(_READ.get(kind), k) for k, kind in ({**places, **speeds}[name] for name in program.fields)]
 
         def at(z: Sequence[float], q: Sequence[float], ahead: Sequence[float]) -> list[float]:
-            inputs = [kind(q[k], ahead[k]) for kind, k in given]
+            inputs = [kind(q[k], ahead[k]) for kind, k in sources]
             fields = [kind(z[k]) if kind else ahead[k] for kind, k in read]
             return scalar.step(numbers, inputs, fields)
 
@@ -272,12 +272,12 @@ class FollowedGroups:
 
 
 def _turned(angle: float) -> float:
-    """The nearest angle without whole turns; NaN of NaN."""
+    """The nearest angle without full turns; NaN of NaN."""
     return math.remainder(angle, TURN) if math.isfinite(angle) else math.nan
 
 
 _READ: dict[str, Callable[[float], float]] = {"cos": math.cos, "sin": math.sin, "": float}
-_GIVEN: dict[str, Callable[[float, float], float]] = {
+_SOURCES: dict[str, Callable[[float, float], float]] = {
     "cos": lambda q, _: math.cos(q),
     "sin": lambda q, _: math.sin(q),
     "turn": lambda q, _: q,
@@ -285,9 +285,9 @@ _GIVEN: dict[str, Callable[[float, float], float]] = {
     "rate": lambda _, way: way,
     "second": lambda _, way: 0.0,
 }
-_formulas: Recent[MotionPrograms, FollowedFormula] = Recent(32)
+_formulas: Recent[MotionPrograms, TrackingFormula] = Recent(32)
 
 
-def followed_formula(programs: MotionPrograms) -> FollowedFormula:
+def tracking_formula(programs: MotionPrograms) -> TrackingFormula:
     """The formula of a shape."""
-    return _formulas.get(programs, None, lambda: FollowedFormula(programs))
+    return _formulas.get(programs, None, lambda: TrackingFormula(programs))

@@ -1,4 +1,4 @@
-"""The stretches of its cycle or way that a motion reaches, with their ends between the positions."""
+"""The reachable intervals of the cycle or path of a motion, with their ends between the positions."""
 
 from __future__ import annotations
 
@@ -47,18 +47,18 @@ class Reach:
         if not len(self.changes):
             return self._motion.ok
         time = self._motion.time
-        apart = np.abs(time[:, None] - self.changes).min(axis=1, initial=np.inf)
-        return np.asarray(self._motion.ok | (apart < 1e-9 * (np.ptp(time) or 1.0)))
+        distance = np.abs(time[:, None] - self.changes).min(axis=1, initial=np.inf)
+        return np.asarray(self._motion.ok | (distance < 1e-9 * (np.ptp(time) or 1.0)))
 
     @cached_property
-    def whole(self) -> bool:
+    def complete(self) -> bool:
         """Whether all positions are passed, one after the other."""
         return not self._motion.breaks and bool(self.passed.all())
 
     @cached_property
     def edges(self) -> tuple[tuple[float, int], ...]:
         """Times, s, at which the mechanism comes into (+1) or gets out of (-1) reach."""
-        return () if self.whole else self._motion.kept("edges of reach", self._found_edges)
+        return () if self.complete else self._motion.cached("edges of reach", self._found_edges)
 
     def _found_edges(self) -> tuple[tuple[float, int], ...]:
         time, found = self._times, list[tuple[int, int]]()
@@ -74,11 +74,11 @@ class Reach:
         return tuple((self._folded(each, sense), sense) for each, (_, sense) in zip(at, found, strict=True))
 
     def _ends(self, found: Sequence[tuple[int, int]]) -> list[float]:
-        """Times, s, of ends between positions, of which the numbers are given, and the next ones."""
+        """Times, s, of ends between positions with these numbers and the next ones."""
         between = self._between
         assert between is not None
         before = np.array([k for k, _ in found], dtype=np.intp)
-        beside = np.array([(k + (sense > 0)) % self._motion.steps for k, sense in found], dtype=np.intp)
+        neighbours = np.array([(k + (sense > 0)) % self._motion.steps for k, sense in found], dtype=np.intp)
         brackets = [self._bracket(k, sense < 0) for k, sense in found]
         inside, outside = np.array([each[:2] for each in brackets]).T
         hidden, pole = np.array([each[2:] for each in brackets], dtype=np.bool_).T
@@ -92,14 +92,15 @@ class Reach:
             good[:-1, ~hidden] = between.assembled(rows, places.ravel(), rows * 0 - 1).reshape(places.shape)
         first = np.argmin(good, axis=0)
         at = ends(
-            lambda time: between.assembled(before, time, np.where(hidden, beside, -1)),
+            lambda time: between.assembled(before, time, np.where(hidden, neighbours, -1)),
             np.where(hidden, inside, looks[first, which]),
             np.where(hidden, outside, looks[first + 1, which]),
         )
         return np.where(pole & (first == count - 1), outside, at).tolist()  # type: ignore[no-any-return]
 
     def _folded(self, time: float, sense: int) -> float:
-        """An end of what is followed, s, as the fold beside which the search finds it; itself where none is found."""
+        """An end of a tracked branch, s, as the fold next to which the search finds it; itself where none is
+        found."""
         drivers = list(self._motion.mechanism.drivers.items())
         if not self._motion.states or len(drivers) > 1:
             return time
@@ -122,7 +123,7 @@ class Reach:
 
     def _bracket(self, before: int, leaves: bool) -> tuple[float, float, bool, bool]:
         """Times, s, in and out of reach around an end of it between a position and the next, of which the first is in
-        reach if it ``leaves``; whether both are in reach, but what is followed from the one does not come to the
+        reach if it ``leaves``; whether both are in reach, but the branch tracked from the one does not come to the
         other; and whether guides become parallel there, very near which nothing is solved."""
         assert self._between is not None
         time = self._times
@@ -140,7 +141,7 @@ class Reach:
         period = self._motion.positions.period
         start, end = self._times[[0, -1]].tolist()
         if not self.edges:
-            return ((start, end),) if self.whole else ()
+            return ((start, end),) if self.complete else ()
         times = [t for t, _ in self.edges]
         if self.edges[0][1] < 0:
             times.insert(0, start)
@@ -154,7 +155,7 @@ class Reach:
 
     def reached(self, time: Floats) -> Flags:
         """Which times, s, of any turn lie within the stretches that are reached."""
-        if self.whole:
+        if self.complete:
             return np.ones(len(time), dtype=np.bool_)
         start, period = self._motion.time[0], self._motion.positions.period
         laps = [time] if period is None else [start + (time - start) % period + k * period for k in (0, 1)]

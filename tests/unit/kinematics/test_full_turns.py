@@ -9,7 +9,7 @@ import pytest
 from tests.unit.kinematics.geared_followers import DRAG, FOURBAR, ROCKER, fourbar
 
 import linkwright as lw
-from linkwright.kinematics.whole_turns import whole_turns
+from linkwright.kinematics.full_turns import full_turns
 
 
 def seen(mechanism: lw.Mechanism, most: int) -> int | None:
@@ -32,7 +32,7 @@ def test_a_wheel_on_a_follower_is_back_when_the_follower_has_turned_it_whole(
     lengths: tuple[str, str], ratio: str
 ) -> None:
     mechanism = fourbar(lengths, ratio.replace("-2/3", "-0.66666666666666663").replace("-1/2", "-0.5"))
-    found = whole_turns(mechanism, np.pi)
+    found = full_turns(mechanism, np.pi)
     turned = Fraction(ratio) if lengths is DRAG else Fraction(0)
     assert found == max(turned.denominator, 1) == seen(mechanism, 6)
 
@@ -52,7 +52,7 @@ def test_a_wheel_on_the_crank_itself(ratio: str, turns: int | None) -> None:
         "links: [follower,", "links: [crank,"
     )
     mechanism = lw.loads(text.replace("GROUND", "4").replace("CRANK", "1").replace("RATIO", ratio))
-    assert whole_turns(mechanism, np.pi) == turns
+    assert full_turns(mechanism, np.pi) == turns
 
 
 @pytest.mark.rotating
@@ -65,7 +65,7 @@ def test_wheels_on_crank_and_follower_are_back_together(ratio: str, turns: int) 
         "ratio: RATIO}", f"ratio: {ratio}}}, second: {{kind: gear, links: [crank, other], ratio: -0.025}}"
     )
     mechanism = lw.loads(text.replace("GROUND", DRAG[0]).replace("CRANK", DRAG[1]))
-    assert whole_turns(mechanism, np.pi) == (turns if turns <= 1000 else None)
+    assert full_turns(mechanism, np.pi) == (turns if turns <= 1000 else None)
 
 
 RACK = FOURBAR.replace("O3: [GROUND m, 5 m]", "G: [0 m, -2 m]").replace(
@@ -83,7 +83,7 @@ def test_a_rack_is_back_only_with_a_follower_that_swings(lengths: tuple[str, str
     mechanism = lw.loads(RACK.replace("GROUND", lengths[0]).replace("CRANK", lengths[1]))
     slide = lw.solve_motion(mechanism, times=[0.0, np.pi]).joint("slide").displacement
     assert abs(slide[1] - slide[0]) == pytest.approx(0.0 if turns else 4.0 * np.pi, abs=1e-9)
-    assert whole_turns(mechanism, np.pi) == turns
+    assert full_turns(mechanism, np.pi) == turns
 
 
 ON_AN_ARM = """
@@ -106,7 +106,7 @@ drivers:
 
 def test_what_a_cam_swings_on_a_turning_arm_gains_the_arms_turn() -> None:
     """Once round the rider has turned once, with the arm, and so has a wheel of a fifth on the arm."""
-    assert whole_turns(lw.loads(ON_AN_ARM), 2 * np.pi) == 1
+    assert full_turns(lw.loads(ON_AN_ARM), 2 * np.pi) == 1
 
 
 def test_a_rack_that_a_cam_pushes_is_back_with_the_cam() -> None:
@@ -124,7 +124,7 @@ joints:
   mesh: {kind: rack, pinion: pinion, rack: rack, through: R, radius: 30 mm}
 driver: {turn: cam, about: O, speed: 1 rad/s}
 """
-    assert whole_turns(lw.loads(text), 2 * np.pi) == 1
+    assert full_turns(lw.loads(text), 2 * np.pi) == 1
 
 
 def test_a_pinion_on_a_rack_that_a_driver_pushes_to_and_fro_is_back_with_it() -> None:
@@ -143,4 +143,4 @@ drivers:
   spin: {turn: crank, about: O, speed: 1 rad/s}
   push: {slide: guide, position: "0.2 m*sin(t/(1 s))"}
 """
-    assert whole_turns(lw.loads(text), 2 * np.pi) == 1
+    assert full_turns(lw.loads(text), 2 * np.pi) == 1

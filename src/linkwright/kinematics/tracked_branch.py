@@ -1,4 +1,4 @@
-"""What is followed of the groups without closed form: their ways through all positions, and what lies between."""
+"""Tracked branches of the groups without closed form: their paths through all positions, and between them."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ import numpy as np
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.read_only import Frozen
 from linkwright.kinematics.branch import Branch, follow
-from linkwright.kinematics.continuation import SAME, Follower
-from linkwright.kinematics.followed_formula import TURN
+from linkwright.kinematics.continuation import SAME, BranchTracker
 from linkwright.kinematics.positions import Positions, off_law
+from linkwright.kinematics.tracking_formula import TURN
 
 
 @dataclass(frozen=True)
@@ -41,24 +41,24 @@ class Stretch:
             np.interp(numbers, np.arange(n + 1), np.append(self.places, self.places[-1] + step))
         )
 
-    def read(self, follower: Follower, x: Floats, q: Floats) -> Floats:
+    def read(self, tracker: BranchTracker, x: Floats, q: Floats) -> Floats:
         """Coordinates (m, n) at places x (m,) with the drivers at q (m, d); NaN where it does not go."""
-        return np.asarray(follower.read(self.branch, x, q - self.branch.way.lap) + self.gained)
+        return np.asarray(tracker.read(self.branch, x, q - self.branch.way.lap) + self.gained)
 
 
 @dataclass(frozen=True)
-class Followed(Frozen):
+class TrackedBranch(Frozen):
     """The way of the groups without closed form through n positions.
 
     ``inputs`` (n, d): coordinates of the drivers; ``states``: their chain coordinates (n,) by name, NaN where the
     way is barred; ``coordinates`` (n, unknowns): the same with angles as such; ``stops`` and ``stop_of`` (n,): where
     the way to a position ends, -1 for none; ``breaks``: positions after which it ends before the next one;
-    ``closed``: whether the first position follows the last one; ``returns``: whether such a cycle comes back to
+    ``closed``: whether the first position comes after the last one; ``returns``: whether such a cycle comes back to
     its first assembly (None: it was not passed); ``stretches``: the branches on which the drivers move from each
     position to the next.
     """
 
-    follower: Follower
+    tracker: BranchTracker
     inputs: Floats
     states: Mapping[str, Floats]
     coordinates: Floats
@@ -69,7 +69,7 @@ class Followed(Frozen):
     returns: bool | None
     stretches: tuple[Stretch, ...] = ()
 
-    def taken(self, order: Indices) -> Followed:
+    def taken(self, order: Indices) -> TrackedBranch:
         """Some of the positions in another order, each for itself."""
         return replace(
             self,
@@ -81,7 +81,7 @@ class Followed(Frozen):
         )  # fmt: skip
 
     def between(self, places: Floats, inputs: Floats) -> dict[str, Floats]:
-        """States (m,) at places (numbers of positions, counted on in between) with given drivers (m, d).
+        """States (m,) at places (fractional numbers of positions) with the drivers at ``inputs`` (m, d).
 
         NaN where one of the two neighbours is not reached.
         """
@@ -99,42 +99,42 @@ class Followed(Frozen):
         for stretch in self.stretches:
             left = known[~np.isfinite(found[known]).all(axis=1)]
             if len(left):
-                found[left] = stretch.read(self.follower, stretch.at(places[left]), inputs[left])
+                found[left] = stretch.read(self.tracker, stretch.at(places[left]), inputs[left])
         for i in known[~np.isfinite(found[known]).all(axis=1)]:
             here = self.inputs[a[i]]
-            goal = here + self.follower.nearest_drive(inputs[i] - here)
-            own = self.follower.between(here, goal, self.coordinates[a[i]])
+            goal = here + self.tracker.nearest_drive(inputs[i] - here)
+            own = self.tracker.between(here, goal, self.coordinates[a[i]])
             if own.complete and own.last is not None:
                 found[i] = own.last
-        return self.follower.states(found)
+        return self.tracker.states(found)
 
 
-def followed(follower: Follower, positions: Positions, apart: bool = False) -> Followed:
-    """The way through all positions, from the drawing on; ``apart``: they are no cycle, but each for itself."""
-    return _Journey(follower, positions, apart).followed()
+def track_branch(tracker: BranchTracker, positions: Positions, separate: bool = False) -> TrackedBranch:
+    """The way through all positions, from the drawing on; ``separate``: they are no cycle, but each for itself."""
+    return _Journey(tracker, positions, separate).track_branch()
 
 
 class _Journey:
     """The ways from the drawing through all positions, and what was found on them."""
 
-    def __init__(self, follower: Follower, positions: Positions, apart: bool) -> None:
-        self.follower, self.positions, self.apart = follower, positions, apart
+    def __init__(self, tracker: BranchTracker, positions: Positions, separate: bool) -> None:
+        self.tracker, self.positions, self.separate = tracker, positions, separate
         n = positions.count
-        rows = [positions.coordinates[name][0] for name in follower.drivers]
+        rows = [positions.coordinates[name][0] for name in tracker.drivers]
         self.q = np.stack(rows, axis=1) if rows else np.zeros((n, 0))
-        self.coordinates = np.full((n, len(follower.groups.scale)), math.nan)
+        self.coordinates = np.full((n, len(tracker.groups.scale)), math.nan)
         self.stops: list[Stop] = []
         self.stop_of = np.full(n, -1)
         self.returns: bool | None = None
         self.breaks: list[int] = []
         self.stretches: list[Stretch] = []
 
-    def followed(self) -> Followed:
+    def track_branch(self) -> TrackedBranch:
         self._all()
-        return Followed(
-            self.follower,
+        return TrackedBranch(
+            self.tracker,
             self.q,
-            self.follower.states(self.coordinates),
+            self.tracker.states(self.coordinates),
             self.coordinates,
             tuple(self.stops),
             self.stop_of,
@@ -145,14 +145,14 @@ class _Journey:
         )
 
     def _all(self) -> None:
-        follower = self.follower
-        start = self._leg(follower.drawn_inputs, follower.drawn, 0)
+        tracker = self.tracker
+        start = self._leg(tracker.drawn_inputs, tracker.drawn, 0)
         if start is not None and self.positions.count > 1 and self.lawful:
             self._along_laws(start)
         elif start is not None and self._in_line():
             self._along_line(start)
-        elif start is not None or self.apart:
-            self._apart(start, 1)
+        elif start is not None or self.separate:
+            self._each_separately(start, 1)
 
     @cached_property
     def lawful(self) -> bool:
@@ -160,7 +160,7 @@ class _Journey:
         steps = np.diff(self.positions.time)
         if not ((steps > 0.0).all() or (steps < 0.0).all()):
             return False
-        return off_law(self.follower.mechanism, self.positions) is None
+        return off_law(self.tracker.mechanism, self.positions) is None
 
     def _in_line(self) -> bool:
         """Whether the drivers' coordinates follow each other on one straight line."""
@@ -172,22 +172,22 @@ class _Journey:
 
     def _shares(self) -> Floats:
         way = self.q[-1] - self.q[0]
-        lead = int(np.argmax(np.abs(way / self.follower.groups.unit)))
+        lead = int(np.argmax(np.abs(way / self.tracker.groups.unit)))
         return np.asarray((self.q[:, lead] - self.q[0, lead]) / (way[lead] or 1.0))
 
     def _along_line(self, start: Floats) -> None:
         share = self._shares()
-        branch = self.follower.between(self.q[0], self.q[-1], start)
+        branch = self.tracker.between(self.q[0], self.q[-1], start)
         reached = self._read(branch, share, np.arange(self.positions.count))
         if not branch.complete and reached < self.positions.count:
             self._stopped(branch, np.arange(reached, self.positions.count))
-            if self.apart:
-                self._apart(self.coordinates[reached - 1], reached)
+            if self.separate:
+                self._each_separately(self.coordinates[reached - 1], reached)
 
     def _read(self, branch: Branch, places: Floats, order: Indices, gained: Floats | float = 0.0) -> int:
         """The positions in ``order`` that a branch reaches, at their ``places`` (n,) on its way; how many."""
         stretch = Stretch(branch, places, gained)
-        found = stretch.read(self.follower, places[order], self.q[order])
+        found = stretch.read(self.tracker, places[order], self.q[order])
         good = np.isfinite(found).all(axis=1)
         count = len(order) if good.all() else int(np.argmin(good))
         self.coordinates[order[:count]] = found[:count]
@@ -197,14 +197,14 @@ class _Journey:
     # one leg ------------------------------------------------------------------------------------
     def _leg(self, begin: Floats, start: Floats, index: int) -> Floats | None:
         """The straight way to one position; turning drivers go the shorter way, or else the other way round."""
-        follower, goal = self.follower, self.q[index]
-        goal = begin + follower.nearest_drive(goal - begin)
+        tracker, goal = self.tracker, self.q[index]
+        goal = begin + tracker.nearest_drive(goal - begin)
         ways = [goal]
-        if follower.rotary.sum() == 1:
-            ways.append(goal - np.where(follower.rotary, TURN * np.where(goal < begin, -1.0, 1.0), 0.0))
+        if tracker.rotary.sum() == 1:
+            ways.append(goal - np.where(tracker.rotary, TURN * np.where(goal < begin, -1.0, 1.0), 0.0))
         first: Branch | None = None
         for end in ways:
-            branch = follower.between(begin, end, start)
+            branch = tracker.between(begin, end, start)
             first = first or branch
             if branch.complete and branch.last is not None:
                 self.coordinates[index] = branch.last
@@ -213,11 +213,11 @@ class _Journey:
         self._stopped(first, np.array([index]))
         return None
 
-    def _apart(self, here: Floats | None, first: int) -> None:
+    def _each_separately(self, here: Floats | None, first: int) -> None:
         """Positions one after the other, each from the last one that was reached."""
-        follower = self.follower
-        begin = self.q[first - 1] if here is not None else follower.drawn_inputs
-        here = follower.drawn if here is None else here
+        tracker = self.tracker
+        begin = self.q[first - 1] if here is not None else tracker.drawn_inputs
+        here = tracker.drawn if here is None else here
         for i in range(first, self.positions.count):
             moved = self._leg(begin, here, i)
             if moved is not None:
@@ -226,39 +226,39 @@ class _Journey:
     def _stopped(self, branch: Branch, index: Indices) -> None:
         end, way = branch.end, branch.way
         inputs = way.drive(np.array([way.start]))[0] if end is None else end.q
-        self.stops.append(Stop(inputs, self.follower.weakest_group(branch)))
+        self.stops.append(Stop(inputs, self.tracker.weakest_group(branch)))
         self.stop_of[index] = len(self.stops) - 1
 
     # a way by the laws -----------------------------------------------------------------------------
     def _along_laws(self, start: Floats) -> None:
-        positions, follower = self.positions, self.follower
+        positions, tracker = self.positions, self.tracker
         time, n, around = positions.time, positions.count, positions.period
         begin, end = float(time[0]), float(time[0] + around if around else time[-1])
         sense = 1.0 if end >= begin else -1.0
-        branch = follow(follower.groups, follower.lawful(begin, end), start.tolist())
+        branch = follow(tracker.groups, tracker.lawful(begin, end), start.tolist())
         reached = self._read(branch, sense * time, np.arange(n))
         if branch.complete and reached == n:
             if around and branch.last is not None:
-                gap = follower.nearest_way(branch.last - start) / follower.groups.scale
+                gap = tracker.nearest_way(branch.last - start) / tracker.groups.scale
                 self.returns = bool(np.abs(gap).max() < SAME)
             return
         rest = np.arange(reached, n)
         self._stopped(branch, rest)
         self.breaks.append(reached - 1)
-        if self.apart and not positions.is_way:
-            self._apart(self.coordinates[reached - 1], reached)
+        if self.separate and not positions.is_way:
+            self._each_separately(self.coordinates[reached - 1], reached)
         elif around and len(rest):
             self._backwards(start, rest)
 
     def _backwards(self, start: Floats, rest: Indices) -> None:
         """From the first position of a closed cycle back to what was not reached."""
-        positions, follower = self.positions, self.follower
+        positions, tracker = self.positions, self.tracker
         around = positions.period
         assert around is not None
         begin, places = float(positions.time[0]), around - positions.time
-        way = follower.lawful(begin, float(positions.time[rest[0]]) - around, around)
-        back = follow(follower.groups, way, start.tolist())
-        reached = self._read(back, places, rest[::-1], follower.gains(way.lap))
+        way = tracker.lawful(begin, float(positions.time[rest[0]]) - around, around)
+        back = follow(tracker.groups, way, start.tolist())
+        reached = self._read(back, places, rest[::-1], tracker.gains(way.lap))
         behind = rest[: len(rest) - reached]
         if not back.complete and len(behind):
             self._stopped(back, behind[-1:])

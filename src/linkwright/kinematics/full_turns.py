@@ -17,11 +17,11 @@ from linkwright.topology.analysis import Structure
 
 #: Cycles of more turns are not looked for.
 MOST = 1000
-#: A rotation this near (turns) to a whole number of turns is one.
-WHOLE = 1e-9
+#: A rotation this near (turns) to an integer number of turns is one.
+FULL_TURN = 1e-9
 
 
-def whole_turns(mechanism: Mechanism, duration: float) -> int | None:
+def full_turns(mechanism: Mechanism, duration: float) -> int | None:
     """After how many times ``duration`` (s), after which the drivers are back, all links are; None: never, or not
     within 1000 times."""
     if not mechanism.higher:
@@ -32,21 +32,21 @@ def whole_turns(mechanism: Mechanism, duration: float) -> int | None:
     if ahead is None:
         return None
     gained = _gained(mechanism, structure, ahead * duration)
-    if gained is None or np.abs(gained[1]).max(initial=0.0) > WHOLE:
+    if gained is None or np.abs(gained[1]).max(initial=0.0) > FULL_TURN:
         return None
     count = _count(gained[0])
     return None if count is None or ahead * count > MOST else ahead * count
 
 
 def _count(turns: Floats) -> int | None:
-    """After how many times all of these turns (of one time each) are whole."""
+    """After how many times all of these turns (of one time each) are integers."""
     from fractions import Fraction
 
     count = 1
     for turn in turns:
         part = Fraction(float(turn)).limit_denominator(MOST)
         count = lcm(count, part.denominator)
-        if abs(turn - float(part)) > WHOLE or count > MOST:
+        if abs(turn - float(part)) > FULL_TURN or count > MOST:
             return None
     return count
 
@@ -86,23 +86,23 @@ def _change(
     slides: list[Floats],
     duration: float,
 ) -> Floats | None:
-    """What unknowns and drivers gain; of unknowns on which no wheels hang, nothing is said."""
+    """What unknowns and drivers gain; not of unknowns on which no wheels hang."""
     ends = [driver.law.coordinate(np.array([0.0, duration]))[0] for driver in mechanism.drivers.values()]
     gained = np.array([0.0] * len(unknowns) + [float(end[1] - end[0]) for end in ends])
     count = len(unknowns)
     turning = np.array(rotations)[:, :count]
     sliding = np.array(slides).reshape(-1, len(gained))[:, :count]
     uneven = np.abs(turning - np.round(turning)).max(axis=0, initial=0.0)
-    wanted = np.flatnonzero(np.maximum(uneven, np.abs(sliding).max(axis=0, initial=0.0)) > WHOLE)
+    wanted = np.flatnonzero(np.maximum(uneven, np.abs(sliding).max(axis=0, initial=0.0)) > FULL_TURN)
     if not len(wanted):
         return gained
     solver = MotionSolver(mechanism)
-    followed = solver.follow(at_times(mechanism, [0.0, duration]))
-    if followed is None:
+    tracked = solver.track(at_times(mechanism, [0.0, duration]))
+    if tracked is None:
         return _by_places(solver, unknowns, wanted, gained, duration)
-    if not np.isfinite(followed.coordinates).all():
+    if not np.isfinite(tracked.coordinates).all():
         return None
-    known = followed.follower.named(followed.coordinates)
+    known = tracked.tracker.named(tracked.coordinates)
     for i in wanted:
         if unknowns[i] in known:
             gained[i] = float(np.diff(known[unknowns[i]])[0])
@@ -116,7 +116,7 @@ def _by_places(
     gained: Floats,
     duration: float,
 ) -> Floats | None:
-    """The same from the places of slides at both times, where rotations cannot be followed; None for rotations."""
+    """The same from the places of slides at both times, where rotations cannot be tracked; None for rotations."""
     names = [unknowns[i][1] for i in wanted if unknowns[i][0] == "slide"]
     if len(names) < len(wanted):
         return None
