@@ -1,6 +1,6 @@
-"""What the generated pages say in Chinese of what docstrings say in English: kinds of loads, public names."""
+"""Chinese translations of docstrings on generated pages: kinds of loads, public names."""
 
-#: What kinds of loads are, by their docstrings.
+#: Kinds of loads, by their docstrings.
 LOADS = {
     "A viscous damper between two points: tension F = c·dL/dt, in N, positive where it pulls its ends together.":
         "两点之间的粘性阻尼器：拉力 F = c·dL/dt，单位 N，把两端拉近时为正。",
@@ -18,7 +18,7 @@ LOADS = {
     "A torsion spring between links [a, b]: torque on b is M = -(M0 + k·(φ - φ0)), in N·m, and -M on a.":
         "构件 [a, b] 之间的扭簧：b 受 M = -(M0 + k·(φ - φ0))，单位 N·m，a 受 -M。",
 }  # fmt: skip
-#: What every public name is.
+#: Public names.
 NAMES = {
     "Cam": "凸轮：运动循环、从动件、尺寸与限制",
     "CamConjugate": "共轭凸轮的另一半",

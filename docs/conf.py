@@ -66,12 +66,12 @@ def other_language(name: str, known: set[str]) -> tuple[str, str]:
 
 
 def language_link(app: Any, name: str, template: str, context: dict[str, Any], doctree: Any) -> None:
-    """What the switch in the sidebar leads to."""
+    """The target of the language switch in the sidebar."""
     page, language = other_language(name, set(app.env.found_docs))
     context["other_page"], context["other_language"] = page, {"zh": "中文", "en": "English"}[language]
 
 
-#: What the theme says on Chinese pages; words of its footer that are not here stay English.
+#: Texts of the theme on Chinese pages; texts of its footer that are not listed are in English.
 THEME = {
     "Search": "搜索", "Next": "下一页", "Previous": "上一页", "Home": "首页",
     "On this page": "本页内容", "Contents": "目录",
@@ -80,7 +80,7 @@ THEME = {
 
 
 def theme_words(app: Any, name: str, template: str, context: dict[str, Any], doctree: Any) -> None:
-    """The theme's own words in the language of the page."""
+    """The theme's texts in the language of the page."""
     if "/zh/" in f"/{name}":
         context["language"] = "zh-CN"
         context["_"] = context["gettext"] = lambda text: THEME.get(text, text)
@@ -106,7 +106,7 @@ var splitQuery = (query) =>
 
 NAMES = "(?:arc(?:sin|cos|tan)|sin|cos|tan|det|min|max|sign|exp|log)"
 THIN = '<mspace width="0.17em"/>'
-#: Places for a thin space: behind the name of a function, and before it where a factor stands; bars have none.
+#: Positions of thin spaces: after the name of a function, and between it and a factor; bars have none.
 BEHIND = re.compile(rf"(?<!<msup>)(?<!<msub>)(?<!<msubsup>)<mi>{NAMES}</mi>")
 BEFORE = re.compile(rf"</(?:mi|mn|msub|msup|mfrac|msqrt)>(?=<mi>{NAMES}</mi>|<msup><mi>{NAMES}</mi>)")
 BAR = re.compile(r'<mo(?: stretchy="false")?>(&#x0007C;)</mo>')
@@ -132,7 +132,7 @@ def formula(page: Any, node: Any) -> None:
 
 
 def joined_lines(app: Any, name: str, source: list[str]) -> None:
-    """Chinese lines of one paragraph follow each other without a space; headings and code stay as they are."""
+    """Join Chinese lines of a paragraph without a space; headings and code are unchanged."""
     joined: list[str] = []
     code = False
     for line in source[0].split("\n"):

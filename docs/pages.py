@@ -1,8 +1,8 @@
 """Generated pages of the documentation.
 
-Gallery and reference numbers are made when the documentation is built; they have the ending ``.markdown`` and stand
-in ``docs/made``, outside the repository. The reference of keys and names (``model_file.md``, ``functions.md``,
-``codes.md``) is part of the repository, so that a clone has it: ``python docs/pages.py`` writes it anew.
+Gallery and reference numbers are generated when the documentation is built, as ``.markdown`` files in ``docs/made``,
+which is not part of the repository. The reference of keys and names (``model_file.md``, ``functions.md``,
+``codes.md``) is part of the repository, so that it can be read in a clone; ``python docs/pages.py`` updates it.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from chinese import LOADS, NAMES
 
 ROOT = Path(__file__).parent
 MADE = ROOT / "made"
-#: What is copied into the built documentation as it is.
+#: Files copied to the built documentation unchanged.
 EXTRA = MADE / "extra"
 #: Positions of the living pages.
 STEPS = 240
@@ -49,7 +49,7 @@ WORDS = {
         "structure": "Structure",
         "source": "Source",
         "living": "The machine, to be played and dragged",
-        "drag": "Drag a joint: the browser solves motion, forces and design numbers again by the same formulas.",
+        "drag": "Drag a joint: the browser solves motion, forces and metrics again with the same formulas.",
     },
     "zh": {
         "solve": "运行",
@@ -63,7 +63,7 @@ WORDS = {
 
 
 def make() -> None:
-    """Writes all of them, those that are up to date left alone."""
+    """Write the pages of the build; those that are up to date are not touched."""
     pictures()
     living_pages()
     compared, made = validate(), {}
@@ -93,7 +93,7 @@ def reference() -> dict[Path, str]:
 
 
 def write(pages: Mapping[Path, str]) -> None:
-    """Pages, but for those that are up to date: then nothing is built anew."""
+    """Write pages, except those that are up to date: Sphinx builds only what changed."""
     for path, text in pages.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         if not path.exists() or path.read_text("utf-8") != text:
@@ -102,7 +102,7 @@ def write(pages: Mapping[Path, str]) -> None:
 
 # gallery ----------------------------------------------------------------------------------------
 def pictures() -> None:
-    """A drawing per model; one that cannot be put together has none."""
+    """A drawing of every model; an empty one where it cannot be assembled."""
     folder = MADE / "pictures"
     folder.mkdir(parents=True, exist_ok=True)
     for name in gallery.names():
@@ -115,7 +115,7 @@ def pictures() -> None:
 
 
 def living_pages() -> None:
-    """The living page of every model that can be put together; one that is up to date is left alone."""
+    """The living page of every model that can be assembled, unless it is up to date."""
     folder = EXTRA / "living"
     folder.mkdir(parents=True, exist_ok=True)
     front_end = (files("linkwright") / "page" / "built" / "sources.sha256").read_text("utf-8")
@@ -150,7 +150,7 @@ def first_sentence(text: str) -> str:
 
 
 def gallery_by_kinds(language: str) -> Iterator[str]:
-    """The page as it is, with what every model is for in its tables."""
+    """The existing page, with the purposes of the models updated in its tables."""
     for line in (ROOT / language / "gallery.md").read_text("utf-8").splitlines():
         if row := re.fullmatch(r"\| `(\w+)` \| .+ \| (.+?) \|", line):
             purpose = in_language(title_and_purpose(row[1])["purpose"], language)
@@ -179,7 +179,7 @@ def gallery_page(name: str, language: str) -> Iterator[str]:
 
 
 def escaped(text: str) -> str:
-    """A text in which no sign has a meaning of its own."""
+    """Text with Markdown's special characters escaped."""
     return re.sub(r"([\\`*_{}\[\]<>#$|])", r"\\\1", text)
 
 
@@ -202,7 +202,7 @@ FILE_WORDS = {
         "see": "各键见 [{0}]({0})。",
     },
 }
-#: Pages that describe what a section holds, where the schema leaves it to a command.
+#: Pages that describe sections of which the schema lists the keys only.
 SECTIONS = {
     "expected": "gallery",
     "synthesis": "how-to/synthesis",
@@ -226,7 +226,7 @@ def model_file(language: str = "en") -> Iterator[str]:
 
 
 def sentence(schema: Mapping[str, Any], language: str) -> str:
-    """What a key is, in its own words."""
+    """The description of a key as a sentence."""
     found = in_language(schema.get("description", ""), language)
     text = " ".join((LOADS.get(found, found) if language == "zh" else found).replace("``", "`").split())
     stop = "。" if language == "zh" else "."
@@ -234,7 +234,7 @@ def sentence(schema: Mapping[str, Any], language: str) -> str:
 
 
 def section_body(schema: Mapping[str, Any], language: str) -> Iterator[str]:
-    """Tables of a section's keys, one for each kind where there are several."""
+    """Tables of a section's keys, one for each kind."""
     words = FILE_WORDS[language]
     inner = schema.get("additionalProperties")
     if isinstance(inner, Mapping) and ("properties" in inner or "oneOf" in inner):
@@ -258,7 +258,7 @@ def cell(text: str) -> str:
 
 
 def plain(line: str) -> str:
-    """Signs outside of code without a meaning of their own."""
+    """Markdown's special characters escaped outside of code."""
     parts = line.split("`")
     return "`".join(re.sub(r"([*<>$\[\]|#])", r"\\\1", p) if i % 2 == 0 else p for i, p in enumerate(parts))
 
@@ -266,9 +266,9 @@ def plain(line: str) -> str:
 # functions --------------------------------------------------------------------------------------
 FUNCTION_WORDS = {
     "en": (
-        "Functions and where they are shown",
+        "Functions and examples of them",
         "Every public name of `linkwright`, with the pages whose examples use it; all examples are run by the tests.",
-        "| name | what it is | examples |",
+        "| name | description | examples |",
     ),
     "zh": (
         "函数一览",
@@ -344,20 +344,20 @@ CODE_WORDS = {
         "title": "Codes of findings and errors",
         "intro": """\
 Every finding and every error has a **code**, a short word for programs: `Finding.code`, `LinkwrightError.code`, and
-`"code"` in what `linkwright check --json` and every refused command with `--json` print. `values` holds by name what
-the sentence is about: numbers, names, units. The wording of a sentence may change with any version, and there are
-several languages; a code does not change, and does not come to mean something else. So a program compares codes and
-reads values:""",
+`"code"` in what `linkwright check --json` and every refused command with `--json` print. `values` holds, by name, the
+values in the message: numbers, names, units. The wording of a message may change with any version, and there are
+several languages; a code does not change, and neither does its meaning. So programs should compare codes and
+read values:""",
         "files": "Findings about files",
-        "code": "| code | what is the matter |\n|---|---|",
+        "code": "| code | meaning |\n|---|---|",
         "calculations": "Findings about calculations and motion programs",
-        "sentence": "| code | its sentence |\n|---|---|",
+        "sentence": "| code | message |\n|---|---|",
         "errors": "Errors",
         "parts": """\
-The code of an error is `AREA.WORD`; where an error passes another one on (`--at: …`) it has that one's code, and a
-`ModelError` the code of its first error. Texts that are no quantity (`QuantityError`) have the codes of findings.
-Those of some areas:""",
-        "areas": "| area | about | such as |\n|---|---|---|",
+The code of an error is `AREA.WORD`; an error that wraps another one (`--at: …`) has the code of that one, and a
+`ModelError` the code of its first error. Invalid quantities (`QuantityError`) have the codes of findings.
+The areas:""",
+        "areas": "| area | about | examples |\n|---|---|---|",
     },
     "zh": {
         "title": "检查结果与错误的代码",
