@@ -78,7 +78,7 @@ SLIPS: list[tuple[list[str], str, dict[str, object]]] = [
         {"name": "--static", "other": "--no-forces"},
     ),
     (["structure", "gallery:kite", "more"], "cli.unknown_argument", {"name": "more"}),
-    (["gallery", "lst"], "cli.bad_choice", {"offer": "gallery list"}),
+    (["gallery", "lst"], "cli.bad_choice", {"offer": "list"}),
     (["gallery", "show", "kiet"], "gallery.unknown", {"name": "kiet", "offer": "kite"}),
     (["gallery", "copy"], "gallery.which", {"action": "copy"}),
     (["--verson"], "cli.unknown_option", {"offer": "--version"}),

@@ -14,6 +14,7 @@ from click.shell_completion import CompletionItem
 
 from linkwright.cli.declared import read_declared
 from linkwright.cli.errors import UsageError
+from linkwright.cli.files import refuse_output
 from linkwright.cli.help import command_help
 from linkwright.cli.options import COMMON, Option, Options
 from linkwright.cli.session import Session
@@ -61,7 +62,11 @@ class Command(click.Command):
         for names in self.exclusive:
             if len(both := [each.opts[0] for each in given if each.name in names]) > 1:
                 raise not_together(both[1], both[0], ctx.command_path)
-        read_declared(ctx.params, [each for each in given if isinstance(each, Option)])
+        named = [each for each in given if isinstance(each, Option)]
+        read_declared(ctx.params, named)
+        for each in named:
+            if each.endings:
+                refuse_output(ctx.params[each.name], each.endings, force=ctx.params["force"])
         return ctx.args
 
     @property

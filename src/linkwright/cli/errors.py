@@ -1,9 +1,6 @@
 """Errors that belong to the command line."""
 
 from linkwright.errors import LinkwrightError, ModelError, RequestError
-from linkwright.words import _
-
-ONE_VALUE = _('{option}: "{text}" is more than one value; give one', code="draw.one_position")
 
 
 class UsageError(RequestError):

@@ -1,26 +1,21 @@
-"""Files that commands write, whole or not at all, never over another one unless asked: tables, data, diagrams."""
+"""Files that commands write, completely or not at all, never over another one unless asked: results, diagrams."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright import filesystem
 from linkwright.cli.errors import UsageError
-from linkwright.cli.session import Session
 from linkwright.words import _
 
 if TYPE_CHECKING:
+    from linkwright.cli.options import Options
+    from linkwright.cli.session import Session
     from linkwright.core.attached import Plotted
     from linkwright.core.table import Tabular
-    from linkwright.designs.compare import Comparison
-
-
-PICTURES = (".svg", ".pdf", ".png")
-#: Files of results.
-RESULTS = (".csv", ".json", ".xlsx", ".md", ".html")
-
+    from linkwright.designs.optimise.optimum import Optimum
 
 ENDING_SAYS = _('"{path}": the ending says what is written; end the name in {endings}', code="cli.bad_suffix")
 
@@ -30,85 +25,67 @@ def refuse_existing(path: Path, *, force: bool) -> None:
     filesystem.refuse_target(path, force=force, remedy="--force")
 
 
-def atomic_write(path: Path, content: str | bytes, *, force: bool) -> None:
-    """Writes a file by way of a temporary one beside it, so that a broken one is never seen."""
-    encoded = content.encode() if isinstance(content, str) else content
-    filesystem.atomic_write(path, encoded, force=force, remedy="--force")
-
-
-def write_diagram(
-    name: str | None,
-    found: Plotted,
-    session: Session,
-    *,
-    force: bool,
-    kind: str | None = None,
-) -> None:
-    """Draws a diagram of a result, the usual one unless a ``kind`` is named; the file's ending is its format."""
-    if name is None:
-        return
-    path = Path(name)
-    content = found.plot(kind=kind, language=session.language).content(path.suffix.lower())
-    atomic_write(path, content, force=force)
-
-
-def refuse_output(name: str | None, endings: Sequence[str], *, force: bool) -> None:
+def refuse_output(name: str | Path, endings: Sequence[str], *, force: bool) -> None:
     """Raises UsageError for a file that could not be written, before any work is done."""
-    if name is None:
-        return
     path = Path(name)
     if path.suffix.lower() not in endings:
         raise UsageError(ENDING_SAYS.format(path=path, endings=tuple(endings)))
     refuse_existing(path, force=force)
 
 
-def write_table(name: str | None, table: Callable[[], str], data: Callable[[], Any], *, force: bool) -> None:
-    """Writes the table or the data, as the file's ending says."""
-    if name is None:
-        return
+def atomic_write(path: Path, content: str | bytes, *, force: bool) -> None:
+    """Writes a file by way of a temporary one next to it, so that no incomplete one is ever there."""
+    encoded = content.encode() if isinstance(content, str) else content
+    filesystem.atomic_write(path, encoded, force=force, remedy="--force")
+
+
+def default_path(source: str, suffix: str) -> Path:
+    """A name in this folder for what a command makes of a model file."""
+    return Path(f"{Path(source.removeprefix('gallery:')).stem}{suffix}")
+
+
+def write_diagram(found: Plotted, options: Options, session: Session, *, kind: str | None = None) -> None:
+    """Draws a diagram of a result where ``--plot`` asks for one, the usual one unless a ``kind`` is named."""
+    if options.plot is not None:
+        path = Path(options.plot)
+        content = found.plot(kind=kind, language=session.language).content(path.suffix.lower())
+        atomic_write(path, content, force=options.force)
+
+
+def write_result(found: Tabular, options: Options, session: Session) -> None:
+    """Writes a result where ``--output`` asks for it: columns, tables or data, as the file's ending says."""
+    if options.output is not None:
+        from linkwright.exporters.export import chosen_format, content_of
+
+        path = Path(options.output)
+        content = content_of(found, chosen_format(path, None), session.language)
+        atomic_write(path, content, force=options.force)
+
+
+def present(found: Tabular, options: Options, session: Session, *written: object, **shown: Any) -> None:
+    """Writes a result as ``--output`` and ``--plot`` ask, and prints it; ``written``: further files to be named."""
+    write_result(found, options, session)
+    if "plot" in vars(options):
+        write_diagram(found, options, session)  # type: ignore[arg-type]
+    session.show_result(found, options.output, *written, getattr(options, "plot", None), **shown)
+
+
+def write_table(name: str, columns: dict[str, Any], data: Any, *, force: bool) -> None:
+    """Writes columns as CSV or data as JSON, as the file's ending says."""
     from linkwright.core.json_data import json_text
+    from linkwright.core.table import csv_text
 
     path = Path(name)
-    text = table() if path.suffix.lower() == ".csv" else json_text(data()) + "\n"
+    text = csv_text(columns) if path.suffix.lower() == ".csv" else json_text(data) + "\n"
     atomic_write(path, text, force=force)
 
 
-def write_result(name: str | None, found: Tabular, session: Session, *, force: bool) -> None:
-    """Writes a result as the file's ending says: its columns or tables, or its data."""
+def write_models(name: str | None, found: Optimum, *, force: bool) -> list[str]:
+    """Writes the designs of an optimum as model files, NAME, NAME_2, …, and returns what to name as written."""
     if name is None:
-        return
-    from linkwright.exporters.export import chosen_format, content_of
-
+        return []
     path = Path(name)
-    atomic_write(path, content_of(found, chosen_format(path, None), session.language), force=force)
-
-
-def curve_columns(found: Comparison) -> dict[str, Any]:
-    """Curves of a comparison as columns, SI."""
-    from linkwright.units import si_unit
-
-    columns: dict[str, Any] = {}
-    for overlay in found.curves:
-        unit = si_unit(overlay.dimension)
-        for label, (across, values) in overlay.lines.items():
-            if overlay.name == "hodograph":
-                columns[f"{label}: pivot_reaction.x [{unit}]"] = across
-                columns[f"{label}: pivot_reaction.y [{unit}]"] = values
-                continue
-            columns.setdefault(f"{label}: input", across)
-            columns[f"{label}: {overlay.name} [{unit}]"] = values
-    return columns
-
-
-def curve_data(found: Comparison) -> list[dict[str, Any]]:
-    """The same as plain data."""
-    from linkwright.units import si_unit
-
-    return [
-        {
-            "name": overlay.name,
-            "unit": si_unit(overlay.dimension),
-            "lines": {label: {"x": x.tolist(), "y": y.tolist()} for label, (x, y) in overlay.lines.items()},
-        }
-        for overlay in found.curves
-    ]
+    others = [path.with_name(f"{path.stem}_{k}{path.suffix}") for k in range(2, len(found) + 1)]
+    for index, target in enumerate([path, *others]):
+        atomic_write(target, found.model_text(index), force=force)
+    return [f"{path} … {others[-1]}" if others else str(path)]

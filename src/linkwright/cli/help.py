@@ -19,7 +19,7 @@ EXIT_CODES = _(
     "0    done, nothing to complain about\n"
     "1    an error in the model, or a position that cannot be reached\n"
     "2    the command itself is wrong: an unknown option, name or file\n"
-    "130  interrupted",
+    "130  interrupted"
 )
 
 
@@ -123,7 +123,7 @@ def version(session: Session) -> None:
             if compiled
             else _(
                 "llvmlite is not installed: everything works, sweeps of many designs are slower (pip "
-                "install llvmlite)",
+                "install llvmlite)"
             )
         )
     )

@@ -9,6 +9,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from linkwright import units
+from linkwright.cli.errors import UsageError
+from linkwright.cli.options import Options
 from linkwright.errors import QuantityError
 from linkwright.fields.base import Field, Number, Quantity, Text, file_key
 from linkwright.fields.nodes import Node
@@ -30,6 +32,31 @@ DISK: Mapping[str, Field] = {
 }
 RIM = {**DISK, "thickness_ratio": Number(above=0.0, maximum=0.5, key="thickness")}
 
+CURVE_OPTIONS = ("scale", "load", "period", "speed", "inertia", "mass", "gyration")
+NOTHING_GIVEN = _(
+    "name a model file, or give a torque diagram with --areas or --torque; see linkwright machine --help",
+    code="machine.nothing_given",
+)
+OUTPUT_NEEDS_FILE = _(
+    "--output writes the cycle of a mechanism; name a model file", code="machine.output_needs_file"
+)
+NOT_WITH_FILE = _(
+    "{option} describes a torque diagram; it cannot be used together with a model file",
+    code="machine.not_with_file",
+)
+NO_SCALE = _('--areas needs the scales of the diagram: --scale "5 N·m/mm, 1 deg/mm"', code="machine.no_scale")
+MASS_AND_GYRATION = _(
+    "--mass and --gyration belong together; give both, or --inertia", code="machine.mass_and_gyration"
+)
+NEEDS_SPEED = _(
+    "a flywheel or a speed fluctuation needs the mean speed; add --speed, such as --speed 180rpm",
+    code="machine.needs_speed",
+)
+NEEDS_FLUCTUATION = _(
+    "the dimensions of a flywheel need to know how even the speed must be; add "
+    "--fluctuation, such as --fluctuation 0.01",
+    code="machine.shape_needs_fluctuation",
+)
 _BAD_SCALE = _(
     '"{text}" does not give both scales; write torque and angle per mm above '
     'zero, such as "5 N·m/mm, 1 deg/mm"',
@@ -107,7 +134,7 @@ class Torque(Text):
 
 
 @dataclass(frozen=True)
-class Wanted:
+class FlywheelOptions:
     """What is asked of motor and flywheel, and a torque diagram with the inertia that is on its shaft already, SI."""
 
     fluctuation: float | None = file_key(
@@ -118,14 +145,11 @@ class Wanted:
         None,
     )
     ratio: float = file_key(
-        Number(nonzero=True, doc=_("speed of the flywheel's shaft over that of the crank (default 1)")),
-        1.0,
+        Number(nonzero=True, doc=_("speed of the flywheel's shaft over that of the crank (default 1)")), 1.0
     )
     efficiency: float = file_key(
         Number(
-            above=0.0,
-            maximum=1.0,
-            doc=_("efficiency of all between motor and crank, up to 1 (default 1)"),
+            above=0.0, maximum=1.0, doc=_("efficiency of all between motor and crank, up to 1 (default 1)")
         ),
         1.0,
     )
@@ -188,6 +212,13 @@ class Wanted:
         """The dimensions of a flywheel from its inertia, None where no shape is asked for."""
         return self.disk or self.rim
 
+    def require_speed(self) -> None:
+        """Raises UsageError where something is asked for that needs the mean speed or the fluctuation."""
+        if self.speed is None and (self.fluctuation is not None or self.present):
+            raise UsageError(NEEDS_SPEED)
+        if self.size is not None and self.fluctuation is None:
+            raise UsageError(NEEDS_FLUCTUATION)
+
     @property
     def present(self) -> float:
         """Moment of inertia that is there: given, or of a mass and a radius of gyration; 0 where neither is."""
@@ -218,3 +249,21 @@ def _scales(text: str) -> tuple[float, float] | None:
             return None
         found[per_mm[dimension]] = 1e-3 * value
     return (found["torque"], found["angle"]) if len(found) == 2 else None
+
+
+def refuse_contradictions(options: Options) -> None:
+    """Raises UsageError for options that belong together, or exclude each other or a model file."""
+    diagram = next((f"--{each}" for each in ("areas", "torque") if getattr(options, each) is not None), None)
+    if options.file is None:
+        if diagram is None:
+            raise UsageError(NOTHING_GIVEN)
+        if options.output is not None:
+            raise UsageError(OUTPUT_NEEDS_FILE)
+    else:
+        of_curves = [f"--{name}" for name in CURVE_OPTIONS if getattr(options, name) is not None]
+        if diagram or of_curves:
+            raise UsageError(NOT_WITH_FILE.format(option=diagram or of_curves[0]))
+    if options.areas is not None and options.areas[1] is None:
+        raise UsageError(NO_SCALE)
+    if (options.mass is None) != (options.gyration is None):
+        raise UsageError(MASS_AND_GYRATION)

@@ -4,20 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
-from linkwright.cli.machine_options import Wanted
+from linkwright.cli.machine_options import FlywheelOptions
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import shown
 from linkwright.core.rows import Block, Numbers, Row
 from linkwright.errors import LinkwrightError
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.machine import running
-from linkwright.machine.energy import EnergyFluctuation, energy_fluctuation
-from linkwright.machine.flywheel import flywheel_inertia, on_faster_shaft, speed_fluctuation
+from linkwright.machine.energy import EnergyFluctuation, energy_fluctuation, fluctuation_from_areas
+from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia, on_faster_shaft, speed_fluctuation
 from linkwright.machine.motor import motor
 from linkwright.machine.running import placed, share, speeds
 from linkwright.machine.speed import true_speed
 from linkwright.machine.torque_curve import TorqueCurve
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, Say, _, pgettext
 
 #: A mean torque below this share of the largest one is zero.
@@ -63,7 +66,7 @@ class Layout(Numbers):
         return [] if self.machine is None else self.machine.notes(language)
 
 
-def of_areas(energy: EnergyFluctuation, wanted: Wanted, say: Say) -> list[Block]:
+def of_areas(energy: EnergyFluctuation, wanted: FlywheelOptions, say: Say) -> list[Block]:
     """Rows of areas between torque curve and mean line."""
     first = [
         Row("energy_fluctuation", energy.value, "energy"),
@@ -77,7 +80,9 @@ def of_areas(energy: EnergyFluctuation, wanted: Wanted, say: Say) -> list[Block]
     return _blocks(first, rows, dimensions(flywheel, wanted.speed or 0.0, wanted))
 
 
-def of_curves(driver: TorqueCurve, load: TorqueCurve | None, wanted: Wanted, say: Say) -> list[Block]:
+def of_curves(
+    driver: TorqueCurve, load: TorqueCurve | None, wanted: FlywheelOptions, say: Say
+) -> list[Block]:
     """Rows of a driving torque against a load; raises LinkwrightError for a mean torque of zero."""
     mean = driver.mean
     (_unused, lowest), (_unused2, highest) = driver.extremes()
@@ -129,16 +134,13 @@ def _after(key: str, energy: float, area: int, say: Say) -> Row:
     return Row(key, energy, "energy", note=place, more={"after_area": area})
 
 
-def _by_formula(energy: float, wanted: Wanted) -> tuple[float, list[Row]]:
+def _by_formula(energy: float, wanted: FlywheelOptions) -> tuple[float, list[Row]]:
     """Flywheel that is needed beside what is there, 0 where none is asked for."""
     rows = [Row("inertia", wanted.present, "inertia")] if wanted.present else []
     if wanted.fluctuation is None or not wanted.speed:
         return 0.0, rows
     needed = flywheel_inertia(energy, wanted.speed, wanted.fluctuation, present=wanted.present)
-    rows += [
-        share("required_fluctuation", wanted.fluctuation),
-        Row("flywheel", needed, "inertia"),
-    ]
+    rows += [share("required_fluctuation", wanted.fluctuation), Row("flywheel", needed, "inertia")]
     return needed, rows + _on_shaft(needed, wanted)
 
 
@@ -150,13 +152,13 @@ def _accelerations(excess: TorqueCurve, inertia: float) -> list[Row]:
     ]
 
 
-def _on_shaft(flywheel: float, wanted: Wanted) -> list[Row]:
+def _on_shaft(flywheel: float, wanted: FlywheelOptions) -> list[Row]:
     if wanted.ratio == 1.0:
         return []
     return [Row("shaft_flywheel", on_faster_shaft(flywheel, wanted.ratio), "inertia")]
 
 
-def dimensions(flywheel: float, speed: float, wanted: Wanted) -> list[Row]:
+def dimensions(flywheel: float, speed: float, wanted: FlywheelOptions) -> list[Row]:
     """Dimensions of the flywheel on its shaft; none where no shape or no flywheel is asked for."""
     if wanted.size is None or not flywheel > 0:
         return []
@@ -166,3 +168,31 @@ def dimensions(flywheel: float, speed: float, wanted: Wanted) -> list[Row]:
         rows.append(Row("thickness", size.thickness, "length"))
     rim_speed = size.rim_speed(speed * abs(wanted.ratio))
     return [*rows, Row("mass", size.mass, "mass"), Row("rim_speed", rim_speed, "velocity")]
+
+
+def of_mechanism(mechanism: Mechanism, wanted: FlywheelOptions, steps: int) -> Layout:
+    """Motor and flywheel of a machine for steady running."""
+    found = running.steady_running(
+        solve_forces(mechanism, steps=steps),
+        fluctuation=FLUCTUATION if wanted.fluctuation is None else wanted.fluctuation,
+        ratio=wanted.ratio,
+        efficiency=wanted.efficiency,
+        margin=wanted.margin,
+    )
+    sized = Block("dimensions", "", dimensions(found.exact_flywheel, found.equivalent.speed, wanted))
+    return Layout(mechanism.name, lambda say: [*found.blocks(say), sized], found)
+
+
+def of_diagram(wanted: FlywheelOptions, say: Say) -> Layout:
+    """Motor and flywheel of a torque diagram, by its areas or by expressions."""
+    if wanted.areas is not None:
+        areas, scales = wanted.areas
+        torque, angle = scales or (1.0, 1.0)
+        energy = fluctuation_from_areas(areas, torque_scale=torque, angle_scale=angle)
+        title = say(_("Torque diagram of {count} areas", count=len(areas)))
+        return Layout(title, partial(of_areas, energy, wanted))
+    assert wanted.torque is not None
+    text, driver = wanted.torque
+    against, load = wanted.load or (say(_("its mean")), None)
+    title = say(_("T = {torque}, against {load}", torque=text, load=against))
+    return Layout(title, partial(of_curves, driver, load, wanted))

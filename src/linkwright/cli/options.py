@@ -11,13 +11,18 @@ import click
 from click.shell_completion import CompletionItem
 
 from linkwright.cli.errors import UsageError
+from linkwright.cli.usage import did_you_mean
 from linkwright.fields.base import Field
 from linkwright.fields.tables import PAIRS, ByAddress, Integer, Listed, Table
 from linkwright.words import LANGUAGES, _
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 Decorator = Callable[[Decorated], Decorated]
+PICTURES, MODELS, TABLES = (".svg", ".pdf", ".png"), (".yaml", ".yml"), (".csv", ".json")
+#: Files of results.
+RESULTS = (*TABLES, ".xlsx", ".md", ".html")
 _PATHS = ("FILE", "FOLDER", "DIR", "FILE|FOLDER")
+BAD_CHOICE = _('{name} cannot be "{value}"; choose from {choices}', code="cli.bad_choice")
 
 
 class Options(SimpleNamespace):
@@ -31,24 +36,16 @@ class Choice(click.Choice[str]):
         """The value itself; raises UsageError with the choices."""
         if value is None or value in self.choices:
             return value
-        name = (
-            param.opts[0] if isinstance(param, click.Option) else param.human_readable_name if param else ""
-        )
-        raise UsageError(
-            _(
-                '{name} cannot be "{value}"; choose from {choices}',
-                code="cli.bad_choice",
-                name=name,
-                value=value,
-                choices=tuple(self.choices),
-            )
-        )
+        name = param.opts[0] if isinstance(param, click.Option) else getattr(param, "name", "")
+        said = BAD_CHOICE.format(name=name, value=value, choices=tuple(self.choices))
+        raise UsageError(did_you_mean(said, str(value), self.choices))
 
 
 class Option(click.Option):
     """An option: ``field`` reads its value after those of lower ``rank``; ``optional``: its value may be left out.
 
     One that takes several values may be written once, with all of them behind it; ``initial``: where it is not given.
+    ``endings``: how the name of a file to be written may end.
     """
 
     def __init__(
@@ -59,10 +56,12 @@ class Option(click.Option):
         rank: int = 0,
         optional: bool = False,
         initial: Any = None,
+        endings: Sequence[str] = (),
         **settings: Any,
     ) -> None:
         super().__init__(*names, **settings)
-        self.help, self.field, self.rank, self.optional, self.initial = help, field, rank, optional, initial
+        self.help, self.field, self.rank, self.optional = help, field, rank, optional
+        self.initial, self.endings = initial, endings
 
 
 class Argument(click.Argument):
@@ -124,6 +123,11 @@ def argument(
     return click.argument(
         name, cls=Argument, metavar=metavar, help=help, type=kind, shell_complete=complete, **settings
     )
+
+
+def output(endings: Sequence[str], help: str, name: str = "--output", **settings: Any) -> Decorator[Any]:
+    """An option with the name of a file to be written, refused before any work where that could not be."""
+    return option(name, "FILE", help=help, endings=endings, **settings)
 
 
 def flag(name: str, help: str, default: bool | None = False) -> Decorator[Any]:
@@ -199,7 +203,7 @@ positions = together(
         help=_(
             'inputs of the first driver in the order wanted: "0 deg, 30 deg", 0..-360deg:15 '
             '(from..to:step), limit positions: "rocker min, rocker max", limits; several '
-            'drivers: "NAME=…; NAME=…"',
+            'drivers: "NAME=…; NAME=…"'
         ),
     ),
     option(
@@ -209,6 +213,31 @@ positions = together(
         help=_('times in the order wanted: "0 s, 0.1 s", "0..2 s:0.1", limit positions: limits, "boom max"'),
     ),
 )
+
+
+#: What varies.
+vary = option(
+    "--vary",
+    "RANGE",
+    of=PAIRS,
+    several=True,
+    required=True,
+    help=_('what varies: "ADDRESS=FROM..TO UNIT:NUMBER" or "ADDRESS=VALUE, VALUE UNIT"; several make a grid'),
+)
+
+
+def sampling(samples: int) -> Decorator[Any]:
+    """Which designs are taken."""
+    return together(
+        option(
+            "--sampling",
+            choices=("grid", "sobol"),
+            default="grid",
+            help=_("grid: every combination (default); sobol: evenly spread designs between the ends"),
+        ),
+        count("--samples", samples, help=_("designs of a Sobol sequence (default 64)")),
+        option("--seed", "N", of=Integer(), default=0, help=_("seed of the Sobol sequence (default 0)")),
+    )
 
 
 def _show_help(ctx: click.Context, param: click.Parameter, value: bool) -> None:

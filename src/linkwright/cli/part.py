@@ -6,7 +6,18 @@ from typing import TYPE_CHECKING
 
 from linkwright.cli.command import Command, command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.options import Options, argument, flag, fonts, force, option, together
+from linkwright.cli.options import (
+    PICTURES,
+    RESULTS,
+    Options,
+    argument,
+    flag,
+    fonts,
+    force,
+    option,
+    output,
+    together,
+)
 from linkwright.cli.session import Session
 from linkwright.fields.tables import Integer
 from linkwright.words import Message, _
@@ -26,12 +37,8 @@ part_options = together(
         default=6,
         help=_("significant digits of the numbers (3 to 15; default: 6)"),
     ),
-    option("--plot", "FILE", help=_("draw the diagram in a .svg, .pdf or .png file")),
-    option(
-        "--output",
-        "FILE",
-        help=_("write curves to a .csv file, or all numbers to a .json, .xlsx, .md or .html file"),
-    ),
+    output(PICTURES, _("draw the diagram in a .svg, .pdf or .png file"), name="--plot"),
+    output(RESULTS, _("write curves to a .csv file, or all numbers to a .json, .xlsx, .md or .html file")),
     fonts,
     force,
 )
@@ -41,17 +48,8 @@ def run_part(options: Options, session: Session, command: str) -> int:
     """Reads a file of a kind that the command takes, solves it, and shows or writes what came out."""
     from linkwright.parts.file import solve
 
-    refuse_outputs(options, session)
     show(solve(read(options.file, command, session), options.file), options, session)
     return 0
-
-
-def refuse_outputs(options: Options, session: Session) -> None:
-    """Raises UsageError for files that could not be written, before any work is done."""
-    from linkwright.cli.files import PICTURES, RESULTS, refuse_output
-
-    refuse_output(options.output, RESULTS, force=options.force)
-    refuse_output(options.plot, PICTURES, force=options.force)
 
 
 def read(source: str, command: str, session: Session) -> Problem:
@@ -80,8 +78,8 @@ def show(result: Result, options: Options, session: Session, *, kind: str | None
     """Prints the result; writes its curves and its diagram (``kind``: another than its usual one) where asked."""
     from linkwright.cli.files import write_diagram, write_result
 
-    write_result(options.output, result, session, force=options.force)
-    write_diagram(options.plot, result, session, force=options.force, kind=kind)
+    write_result(result, options, session)
+    write_diagram(result, options, session, kind=kind)
     text = result.worked(session.language) if options.worked else ""
     session.show_result(result, options.output, options.plot, text=text, digits=options.digits)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.errors import UsageError
-from linkwright.cli.options import Decorator, Options, count, flag, fonts, force, option, together
+from linkwright.cli.options import Decorator, Options, count, flag, fonts, force, option, output, together
 from linkwright.cli.session import Session
 from linkwright.errors import LinkwrightError, about
 from linkwright.fields.tables import Integer
@@ -16,6 +16,7 @@ from linkwright.words import Message, _
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
     from linkwright.mechanism.mechanism import Mechanism
+    from linkwright.plotting.drawing.dimensions import Dimension
 
 
 def cycle_steps(steps: int) -> Decorator[Any]:
@@ -46,7 +47,7 @@ arrows = together(
         optional=True,
         help=_(
             "loads and forces in these joints (B: on its last link, rocker.B: on that link); in "
-            "all without names",
+            "all without names"
         ),
     ),
     flag("--static", help=_("forces without inertia")),
@@ -54,14 +55,34 @@ arrows = together(
 )
 
 
-def picture_file(output: Message) -> Decorator[Any]:
-    """Where the picture goes (``output``: help for that), how large, and in which letters."""
-    return together(
-        option("--output", "FILE", required=True, help=output),
-        force,
-        option("--width", "PIXELS", of=Integer(1), help=_("pixels across (SVG and PDF: of the longer side)")),
-        fonts,
+def paths(help: Message) -> Decorator[Any]:
+    """Points whose paths are drawn."""
+    return option("--paths", "POINT", "--traces", several=True, help=help)
+
+
+def picture_file(endings: Sequence[str], help: Message) -> Decorator[Any]:
+    """Where the picture goes, how large, and in which letters."""
+    width = option(
+        "--width", "PIXELS", of=Integer(1), help=_("pixels across (SVG and PDF: of the longer side)")
     )
+    return together(output(endings, help, required=True), force, width, fonts)
+
+
+def vectors(motion: Motion, options: Options, *, solved: bool) -> dict[str, Any]:
+    """What of the options a drawing shows as paths and arrows; ``solved``: its forces are to be solved here."""
+    from linkwright.kinetostatics.run import solve_forces
+
+    forces: Any = options.forces is not None or None
+    if forces and (solved or options.static):
+        forces = solve_forces(motion, static=options.static)
+    return {
+        "paths": names(options.paths),
+        "velocities": names_or_all(options.velocities),
+        "accelerations": names_or_all(options.accelerations),
+        "forces": forces,
+        "reactions_of": names(options.forces) or None,
+        "centres": options.centres,
+    }
 
 
 def names(words: Sequence[str] | None) -> tuple[str, ...]:
@@ -70,7 +91,7 @@ def names(words: Sequence[str] | None) -> tuple[str, ...]:
 
 
 def names_or_all(words: Sequence[str] | None) -> tuple[str, ...] | bool:
-    """Names; True where the option stands without any, False where it does not stand."""
+    """Names; True where the option is given without any, False where it is not given."""
     return False if words is None else names(words) or True
 
 
@@ -85,13 +106,29 @@ def refuse_unknown_marks(mechanism: Mechanism, options: Options) -> None:
     joints = mechanism.joints
     for name in names(options.forces):
         if (joint := name.rpartition(".")[2]) not in joints:
-            raise UsageError(
-                _(
-                    "{name}: {cause}",
-                    name="--forces",
-                    cause=no_such(_("joint"), joint, joints),
-                )
-            )
+            raise UsageError(_("{name}: {cause}", name="--forces", cause=no_such(_("joint"), joint, joints)))
+
+
+def dimensions(words: Sequence[str] | None) -> list[Dimension] | bool:
+    """Links, pairs of points as ``O1:O3``, or all links."""
+    if words is None:
+        return False
+    parts = (name.partition(":") for name in names(words))
+    return [(first, last) if colon else first for first, colon, last in parts] or True
+
+
+def refuse_unknown_names(mechanism: Mechanism, options: Options, dimensions: list[Dimension] | bool) -> None:
+    """Raises UsageError for a name of ``draw`` that does not exist."""
+    from linkwright.kinematics.names import find_point, place_meant
+
+    refuse_unknown_marks(mechanism, options)
+    named = [] if isinstance(dimensions, bool) else dimensions
+    refuse_unknown(mechanism.link, "--dimensions", [each for each in named if isinstance(each, str)])
+    ends = [point for each in named if not isinstance(each, str) for point in each]
+    refuse_unknown(lambda name: find_point(mechanism, name), "--dimensions", ends)
+    word, _colon, output = options.overlay.partition(":")
+    if word == "limits" and output:
+        refuse_unknown(lambda name: place_meant(mechanism, name), "--overlay", [output])
 
 
 def refuse_unknown(find: Callable[[str], object], option: str, given: Sequence[str]) -> None:
@@ -129,8 +166,8 @@ def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
     return motion
 
 
-def told(path: Path, options: Options, session: Session) -> None:
-    """Says what was written; as data with ``--json``."""
+def report_written(path: Path, options: Options, session: Session) -> None:
+    """Names the file that was written; as data with ``--json``."""
     if options.json:
         session.show_data({"ok": True, "written": str(path)})
     else:

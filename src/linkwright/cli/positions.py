@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from linkwright.cli.errors import UsageError
 from linkwright.cli.usage import did_you_mean
+from linkwright.core.expressions import amount
 from linkwright.errors import LinkwrightError, RequestError, about
 from linkwright.events.position_list import known_outputs, of_text, values_of
 from linkwright.kinematics.positions import rotary
@@ -17,6 +19,42 @@ def quantities(text: str, dimension: str, option: str) -> list[float]:
     """SI values of a list of quantities and ranges, separated by commas; raises UsageError."""
     with about(option, UsageError, LinkwrightError):
         return values_of(text, dimension)
+
+
+def duration(text: str | None, option: str) -> float | None:
+    """One time, s; a bare number is in seconds. Raises UsageError."""
+    if text is None:
+        return None
+    try:
+        return float(text)
+    except ValueError:
+        return only(quantities(text, "time", option), text, option)
+
+
+def only(values: Sequence[float], text: str, option: str) -> float:
+    """The one value of an option; raises UsageError where there are more."""
+    if len(values) > 1:
+        raise UsageError(
+            _(
+                '{option}: "{text}" is more than one value; give one',
+                code="draw.one_position",
+                option=option,
+                text=text,
+            )
+        )
+    return values[0]
+
+
+def one_input(text: str | None, mechanism: Mechanism) -> dict[str, float] | None:
+    """One coordinate of every driver that ``--at`` names."""
+    if text is None:
+        return None
+    return {name: only(values, text, "--at") for name, values in inputs(text, mechanism).items()}
+
+
+def one_place(text: str | None, mechanism: Mechanism, dimension: str, option: str) -> float | None:
+    """One time or coordinate of the first driver."""
+    return None if text is None else only(places(text, mechanism, dimension, option), text, option)
 
 
 def joined(words: Sequence[str]) -> str:
@@ -76,3 +114,19 @@ def places(text: str, mechanism: Mechanism, dimension: str, option: str) -> list
         )
     with about(option, UsageError, RequestError):
         return listed.times(mechanism) if dimension == "time" else listed.inputs(mechanism)
+
+
+def zone_of(text: str, across: str) -> tuple[float, float]:
+    """The ends of a zone, rad or m, from ``-880..-1450 deg``; raises QuantityError."""
+    first, dots, last = (each.strip() for each in text.partition(".."))
+    if not dots:
+        raise UsageError(
+            _(
+                '--zone: "{text}" is no zone; write where it begins and ends, such as "90..210 deg"',
+                code="compensate.bad_zone",
+                text=text,
+            )
+        )
+    unit = re.sub(r"^[-+\d.eE]*", "", last).strip()
+    begin = first if re.search(r"[^-+\d.eE\s]", first) else f"{first} {unit}"
+    return amount(begin, across), amount(last, across)

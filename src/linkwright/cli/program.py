@@ -37,7 +37,7 @@ WELCOME = _(
     "  linkwright solve gallery:jaw_crusher_sixbar  motion, forces and drive torque\n"
     "\n"
     "Every command takes your own model file in place of gallery:NAME.\n"
-    "All commands: linkwright --help",
+    "All commands: linkwright --help"
 )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from rich.text import Text
 
@@ -18,6 +19,9 @@ from linkwright.topology.analysis import turned_against
 from linkwright.words import Say, _, language_of, pgettext
 from linkwright.words.characters import GAP, cells, padded
 from linkwright.words.sentence import in_language
+
+if TYPE_CHECKING:
+    from linkwright.worked_solutions.solution import Worked
 
 LINK = ("angle", "angular_velocity", "angular_acceleration")
 GUIDE = ("displacement", "velocity", "acceleration")
@@ -41,6 +45,15 @@ def report(solved: Solved, options: Options, session: Session) -> list[str | Tex
     ):
         lines += ["", *paragraph] if paragraph else []
     return lines
+
+
+def worked_pages(solved: Solved, options: Options, session: Session) -> list[Worked]:
+    """The worked solution of the positions that were named, or of the first one."""
+    from linkwright.worked_solutions.solution import worked
+
+    rows = solved.rows if options.at or options.times else solved.rows[:1]
+    source = solved.motion if solved.forces is None else solved.forces
+    return [worked(source, int(row), language=session.language) for row in rows]
 
 
 def _table(solved: Solved, options: Options, session: Session) -> tuple[list[Text], list[str]]:
@@ -72,11 +85,7 @@ def _chosen(solved: Solved, options: Options, session: Session) -> tuple[list[Co
 
 
 def _fitted(
-    solved: Solved,
-    columns: Mapping[str, Column],
-    first: list[Column],
-    options: Options,
-    session: Session,
+    solved: Solved, columns: Mapping[str, Column], first: list[Column], options: Options, session: Session
 ) -> tuple[list[Column], str]:
     """The points that were asked for or the first output, then efforts and links as the width allows."""
     last = efforts(solved, columns)

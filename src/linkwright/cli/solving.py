@@ -155,6 +155,11 @@ def chosen_motion(mechanism: Mechanism, options: Options, failures: Failures = "
     return None
 
 
+def with_forces(motion: Motion) -> Motion | Forces:
+    """The motion with its forces where there is anything to carry."""
+    return solve_forces(motion) if motion.mechanism.has_loads else motion
+
+
 def _motion(mechanism: Mechanism, options: Options) -> tuple[Motion, Indices, int]:
     """The motion, the rows that are shown, and of how many turns these are the first."""
     failures: Failures = "mark" if options.mark else "raise"

@@ -19,6 +19,7 @@ from linkwright.analysis.transmission_angle import TransmissionAngle
 from linkwright.core.arguments import integer, require
 from linkwright.core.attached import attached
 from linkwright.core.progress import Progress, current_progress
+from linkwright.core.quantity import number
 from linkwright.course.mistakes import Consequence, Sheet
 from linkwright.course.task import Question, Task, task
 from linkwright.designs.sampling import BAD_SEED
@@ -26,7 +27,7 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.model_file import load
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words import _
+from linkwright.words import Message, _
 
 FORMAT = 1
 #: Designs that are tried per variant, at most; digits of a changed dimension; positions of the cycle.
@@ -87,6 +88,21 @@ class Difficulty:
 
     transmission_angle: tuple[float, float] | None
     ratio: float
+
+    @property
+    def sentence(self) -> Message:
+        """The difficulty in one sentence."""
+        ratio = f"{self.ratio:.3g}"
+        if self.transmission_angle is None:
+            return _("difficulty: an answer's sizes differ by {ratio} times at most", ratio=ratio)
+        low, high = (number(each, "angle", 3) for each in self.transmission_angle)
+        return _(
+            "difficulty: smallest transmission angle {low}° to {high}°; an answer's sizes differ "
+            "by {ratio} times at most",
+            low=low,
+            high=high,
+            ratio=ratio,
+        )
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.designs.alternatives import Alternative
+from linkwright.units import si_unit
 
 
 @dataclass(frozen=True)
@@ -56,3 +58,30 @@ def _passed(alternative: Alternative) -> Floats:
     """How far the input has gone since the cycle began."""
     q = alternative.motion.input
     return np.asarray(np.abs(q - q[0]))
+
+
+def overlay_columns(overlays: Iterable[Overlay]) -> dict[str, Floats]:
+    """Curves as columns by name with unit, SI."""
+    columns: dict[str, Floats] = {}
+    for overlay in overlays:
+        unit = si_unit(overlay.dimension)
+        for label, (x, y) in overlay.lines.items():
+            if overlay.name == "hodograph":
+                columns[f"{label}: pivot_reaction.x [{unit}]"] = x
+                columns[f"{label}: pivot_reaction.y [{unit}]"] = y
+                continue
+            columns.setdefault(f"{label}: input", x)
+            columns[f"{label}: {overlay.name} [{unit}]"] = y
+    return columns
+
+
+def overlay_data(overlays: Iterable[Overlay]) -> list[dict[str, Any]]:
+    """Curves as plain data."""
+    return [
+        {
+            "name": overlay.name,
+            "unit": si_unit(overlay.dimension),
+            "lines": {label: {"x": x.tolist(), "y": y.tolist()} for label, (x, y) in overlay.lines.items()},
+        }
+        for overlay in overlays
+    ]

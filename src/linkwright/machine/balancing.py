@@ -15,6 +15,7 @@ from linkwright.core.read_only import Frozen
 from linkwright.core.table import PERCENT, ROUNDING, Amount, Cell, Table, Tabular
 from linkwright.cycle.summary import Summary
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.files.write import dump
 from linkwright.joints.base import Joint
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
@@ -94,6 +95,20 @@ class Balancing(Plotted, Tabular, Frozen):
                 for name, unit, without, having in self._peaks()
             },
         }
+
+    def model_text(self) -> str:
+        """The balanced model as a file; masses that were expressions become the new numbers."""
+        changed = tuple(
+            f"{weight.link}.{key}"
+            for weight in self.counterweights
+            for key in ("mass", "inertia", "mass_centre")
+        )
+        unchanged = {
+            address: each
+            for address, each in self.mechanism.expressions.items()
+            if not any(address == name or address.startswith(f"{name}.") for name in changed)
+        }
+        return dump(replace(self.mechanism, expressions=unchanged))
 
     def _peaks(self) -> Iterator[tuple[str, str, float, float]]:
         """Name, unit and peaks without and with, zero where they are but rounding."""

@@ -13,23 +13,23 @@ from linkwright.words import _
 if TYPE_CHECKING:
     from linkwright.file_check import Checked
 
-SUMMARY = _("find everything that is wrong with a model file")
-DESCRIPTION = _(
-    """\
+
+@command(
+    _("find everything that is wrong with a model file"),
+    _(
+        """\
 Reads model files and reports every finding at once, each with its place
 (file:line:column), the cause and what to do about it. A file that reads well is
 then analysed and turned through its cycle, so that a mechanism that cannot
 move, or cannot reach a position, is found as well."""
-)
-EXAMPLES = _(
-    """\
+    ),
+    _(
+        """\
 linkwright check crusher.yaml
 linkwright check *.yaml --strict      warnings count as errors
 linkwright check crusher.yaml --json  findings for an editor or a script"""
+    ),
 )
-
-
-@command(SUMMARY, DESCRIPTION, EXAMPLES)
 @argument("files", "FILE", help=_("model files, or gallery:NAME"), nargs=-1, required=True, model=True)
 @flag("--strict", help=_("warnings count as errors"))
 def run(options: Options, session: Session) -> int:

@@ -8,19 +8,20 @@ from linkwright.cli.session import Session
 from linkwright.words import _
 
 SHELLS = ("bash", "zsh", "fish")
-SUMMARY = _("shell completion: bash, zsh, fish")
-DESCRIPTION = _(
-    """\
+
+
+@command(
+    _("shell completion: bash, zsh, fish"),
+    _(
+        """\
 Prints the script with which a shell completes commands, options, their choices,
 files and the models of the gallery."""
-)
-EXAMPLES = """\
+    ),
+    """\
 linkwright completion bash >> ~/.bashrc
 linkwright completion zsh > ~/.zfunc/_linkwright
-linkwright completion fish > ~/.config/fish/completions/linkwright.fish"""
-
-
-@command(SUMMARY, DESCRIPTION, EXAMPLES)
+linkwright completion fish > ~/.config/fish/completions/linkwright.fish""",
+)
 @argument("shell", "|".join(SHELLS), choices=SHELLS, help=_("the shell"))
 def run(options: Options, session: Session) -> int:
     """Prints the script."""

@@ -2,44 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 from linkwright.cli.command import command
-from linkwright.cli.errors import UsageError
 from linkwright.cli.options import Options, count, flag, fonts, force, model, option, positions, switch
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
 from linkwright.fields.base import Number
 from linkwright.fields.tables import Integer
 from linkwright.words import _
-
-if TYPE_CHECKING:
-    from linkwright.kinematics.motion import Motion
-    from linkwright.kinetostatics.forces import Forces
-
-SUMMARY = _("write results for other programs: Excel, CSV, Parquet, DXF, MuJoCo, Modelica")
-DESCRIPTION = _(
-    """\
-Solves a mechanism over its cycle, with forces where it has masses or loads, and
-writes the results to a file; the file's ending chooses the format.
-  .csv .parquet   one wide table, SI units         .json   everything, with units
-  .xlsx           one sheet per subject            .dxf    drawing at true scale
-  .xml            MuJoCo model (MJCF)              .mo     Modelica model
-  .svg .png .pdf  kinematic drawing                .html   living page, works without a network
-  .md             table of the design numbers      .py     Python program that solves the machine"""
-)
-EXAMPLES = _(
-    """\
-linkwright export gallery:jaw_crusher_sixbar --output crusher.xlsx
-linkwright export crusher.yaml --at "0..-360deg:15" --output crusher.csv --degrees
-linkwright export conveyor.yaml --output conveyor.dxf --unit mm --paths C rod.F
-linkwright export conveyor.yaml --output conveyor.xml         MuJoCo
-linkwright export conveyor.yaml --output conveyor.mo          Modelica
-linkwright export conveyor.yaml --to conveyor.html            living page
-linkwright export conveyor.yaml --to solution.py              Python program"""
-)
 
 NAMES = (
     "csv", "dxf", "html", "json", "markdown", "mjcf", "modelica", "parquet", "pdf", "png", "python", "svg", "xlsx",
@@ -51,7 +22,30 @@ OPTIONS = (
 )  # fmt: skip
 
 
-@command(SUMMARY, DESCRIPTION, EXAMPLES, exclusive=[("steps", "at", "times")])
+@command(
+    _("write results for other programs: Excel, CSV, Parquet, DXF, MuJoCo, Modelica"),
+    _(
+        """\
+Solves a mechanism over its cycle, with forces where it has masses or loads, and
+writes the results to a file; the file's ending chooses the format.
+  .csv .parquet   one wide table, SI units         .json   everything, with units
+  .xlsx           one sheet per subject            .dxf    drawing at true scale
+  .xml            MuJoCo model (MJCF)              .mo     Modelica model
+  .svg .png .pdf  kinematic drawing                .html   living page, works without a network
+  .md             table of the design numbers      .py     Python program that solves the machine"""
+    ),
+    _(
+        """\
+linkwright export gallery:jaw_crusher_sixbar --output crusher.xlsx
+linkwright export crusher.yaml --at "0..-360deg:15" --output crusher.csv --degrees
+linkwright export conveyor.yaml --output conveyor.dxf --unit mm --paths C rod.F
+linkwright export conveyor.yaml --output conveyor.xml         MuJoCo
+linkwright export conveyor.yaml --output conveyor.mo          Modelica
+linkwright export conveyor.yaml --to conveyor.html            living page
+linkwright export conveyor.yaml --to solution.py              Python program"""
+    ),
+    exclusive=[("steps", "at", "times")],
+)
 @model
 @option("--output", "FILE", "--to", required=True, help=_("the file; its ending chooses the format"))
 @option(
@@ -73,9 +67,7 @@ OPTIONS = (
 @option(
     "--paths",
     "POINT",
-    help=_(
-        "dxf and pictures: points whose paths are drawn (default in dxf: all that move on curves)",
-    ),
+    help=_("dxf and pictures: points whose paths are drawn (default in dxf: all that move on curves)"),
     several=True,
 )
 @option("--curve", choices=("polyline", "spline"), help=_("paths in DXF as polylines or splines"))
@@ -93,72 +85,33 @@ OPTIONS = (
 @fonts
 @force
 def run(options: Options, session: Session) -> int:
-    """Solves a model and writes the file."""
+    """Solves a model and writes the file; 1 where a position is not reached."""
+    from linkwright.cli.exporting import checked, page_inputs, report_failures
     from linkwright.cli.files import refuse_existing
-    from linkwright.cli.solving import chosen_motion
+    from linkwright.cli.solving import chosen_motion, with_forces
     from linkwright.cli.source import read_model
     from linkwright.exporters.export import export
 
     path = Path(options.output)
-    chosen, form = _checked(path, options)
+    chosen, settings = checked(path, options, OPTIONS)
     refuse_existing(path, force=options.force)
-    mechanism, _unused = read_model(options.file, session)
+    mechanism, _findings = read_model(options.file, session)
     motion = chosen_motion(mechanism, options, "mark")
     if chosen == "html":
-        form |= _of_page(options.file, options.beside or ())
+        settings |= page_inputs(options.file, options.beside or ())
     if chosen == "python":
-        form["model"] = str(options.file)
+        settings["model"] = str(options.file)
     export(
-        mechanism if motion is None else _with_forces(motion),
+        mechanism if motion is None else with_forces(motion),
         path,
         format=chosen,
         force=options.force,
         steps=options.steps,
         language=session.language,
-        **form,
+        **settings,
     )
     if session.json:
         session.show_data({"ok": True, "path": str(path), "format": chosen})
     else:
         session.show_written(path)
-    return 0 if motion is None else _told(motion, session)
-
-
-def _with_forces(motion: Motion) -> Motion | Forces:
-    """The motion with its forces where there is anything to carry."""
-    from linkwright.kinetostatics.run import solve_forces
-
-    return solve_forces(motion) if motion.mechanism.has_loads else motion
-
-
-def _told(motion: Motion, session: Session) -> int:
-    """Says why positions have no numbers; 1 where there are some."""
-    from linkwright.cli.solve_remarks import input_text
-
-    for number, outcome in enumerate(motion.outcomes):
-        if not outcome.ok:
-            session.tell(f"{input_text(motion, number, degrees=True)}: {outcome.say(session.language)}")
-    return int(not motion.complete)
-
-
-def _of_page(file: str, beside: Sequence[str]) -> dict[str, Any]:
-    """The text of the file, which the page gives back changed, and the files of the machines beside it."""
-    from linkwright.files.model_file import read_document
-    from linkwright.files.source import read_source
-
-    return {"text": read_source(file)[0], "beside": [read_document(each) for each in beside]}
-
-
-def _checked(path: Path, options: Options) -> tuple[str, dict[str, Any]]:
-    """The format and its options; raises UsageError before any work is done."""
-    from linkwright.errors import LinkwrightError
-    from linkwright.exporters.export import FORMATS, check_options, chosen_format
-
-    given = {name: getattr(options, name) for name in OPTIONS}
-    form = {name: value for name, value in given.items() if value is not None}
-    try:
-        chosen = chosen_format(path, options.format)
-        check_options(chosen, FORMATS[chosen], form)
-    except LinkwrightError as error:
-        raise UsageError(error.sentence) from None
-    return chosen, form
+    return 0 if motion is None else report_failures(motion, session)

@@ -7,19 +7,19 @@ from linkwright.cli.options import Options, force, option
 from linkwright.cli.session import Session
 from linkwright.words import _
 
-SUMMARY = _("JSON Schema of models and calculations, for editors")
-DESCRIPTION = _(
-    """\
+
+@command(
+    _("JSON Schema of models and calculations, for editors"),
+    _(
+        """\
 Prints the JSON Schema of models and calculations (draft 2020-12), generated from the model itself.
 Editors complete keys and mark mistakes with it: write as the first line of a model
 # yaml-language-server: $schema=./linkwright.schema.json"""
-)
-EXAMPLES = """\
+    ),
+    """\
 linkwright schema --output linkwright.schema.json
-linkwright schema | less"""
-
-
-@command(SUMMARY, DESCRIPTION, EXAMPLES)
+linkwright schema | less""",
+)
 @option("--output", "FILE", help=_("write it to a file"))
 @force
 def run(options: Options, session: Session) -> int:

@@ -5,31 +5,30 @@ from __future__ import annotations
 from pathlib import Path
 
 from linkwright.cli.command import command
-from linkwright.cli.errors import UsageError
-from linkwright.cli.files import ENDING_SAYS
+from linkwright.cli.files import default_path, refuse_output
 from linkwright.cli.options import Options, fonts, force, model, option
 from linkwright.cli.session import Session
 from linkwright.fields.sheet import SIZES
 from linkwright.words import _
 
-SUMMARY = _("the drawing sheet, A0 to A4: mechanism, polygons, diagrams, tables, title block")
-DESCRIPTION = _(
-    """\
+ENDINGS = (".pdf", ".svg", ".dxf")
+
+
+@command(
+    _("the drawing sheet, A0 to A4: mechanism, polygons, diagrams, tables, title block"),
+    _(
+        """\
 Draws the sheet of a course design: the mechanism to a standard scale in one or two
 positions, velocity, acceleration and force polygons, diagrams over the cycle and
 tables, in a frame with a title block; for a cam, its profile. One millimetre on the
 sheet is one on paper. The section "sheet" of the file fills the title block and
 moves, scales or leaves out single panels."""
-)
-EXAMPLES = """\
+    ),
+    """\
 linkwright sheet gallery:shaper_quick_return
 linkwright sheet shaper.yaml --size A2 --output shaper.dxf
-linkwright sheet shaper.yaml --size A1 --lang zh"""
-
-ENDINGS = (".pdf", ".svg", ".dxf")
-
-
-@command(SUMMARY, DESCRIPTION, EXAMPLES)
+linkwright sheet shaper.yaml --size A1 --lang zh""",
+)
 @model
 @option(
     "--size",
@@ -45,22 +44,24 @@ ENDINGS = (".pdf", ".svg", ".dxf")
 @force
 def run(options: Options, session: Session) -> int:
     """Lays out the sheet and writes it."""
-    from linkwright.cli.files import refuse_existing
     from linkwright.sheets.sheet import sheet
 
-    path = Path(options.output or f"{Path(options.file.removeprefix('gallery:')).stem}-sheet.pdf")
-    if path.suffix.lower() not in ENDINGS:
-        raise UsageError(ENDING_SAYS.format(path=path, endings=ENDINGS))
-    refuse_existing(path, force=options.force)
-    found = sheet(
-        options.file, kind=options.kind, of=options.of, size=options.size, language=session.language
-    )
+    path = Path(options.output) if options.output else default_path(options.file, "-sheet.pdf")
+    refuse_output(path, ENDINGS, force=options.force)
+    settings = {name: getattr(options, name) for name in ("kind", "of", "size")}
+    found = sheet(options.file, language=session.language, **settings)
     found.save(path, force=options.force, fonts=options.fonts)
     if session.json:
-        session.show_data({
-            "ok": True, "file": str(path), "size": found.paper.size, "scale": found.scale,
-            "panels": list(found.panels), "notes": list(found.notes),
-        })  # fmt: skip
+        session.show_data(
+            {
+                "ok": True,
+                "file": str(path),
+                "size": found.paper.size,
+                "scale": found.scale,
+                "panels": [*found.panels],
+                "notes": [*found.notes],
+            }
+        )
         return 0
     for note in found.notes:
         session.tell(note)

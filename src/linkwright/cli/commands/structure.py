@@ -2,34 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from linkwright.cli.command import command
 from linkwright.cli.options import Options, flag, model
 from linkwright.cli.session import Session, bold
 from linkwright.core.table import Cell, Table
+from linkwright.formula.program import Program
 from linkwright.words import _
 
-if TYPE_CHECKING:
-    from linkwright.formula.program import Program
-    from linkwright.mechanism.mechanism import Mechanism
 
-SUMMARY = _("mobility and Assur groups in solving order")
-DESCRIPTION = _(
-    """\
+@command(
+    _("mobility and Assur groups in solving order"),
+    _(
+        """\
 Prints the structure analysis of a mechanism: how many links and pairs, its
 mobility by Grübler's formula and what special geometry changes about it, and the
 Assur groups in the order in which they are solved, with class and order."""
-)
-EXAMPLES = _(
-    """\
+    ),
+    _(
+        """\
 linkwright structure gallery:shaper_quick_return
 linkwright structure crusher.yaml --program       what is computed, line by line
 linkwright structure crusher.yaml --json"""
+    ),
 )
-
-
-@command(SUMMARY, DESCRIPTION, EXAMPLES)
 @model
 @flag("--program", help=_("print the straight-line program of the motion, with its operation counts"))
 @flag("--forces", help=_("print the program with the joint forces (implies --program)"))
@@ -38,42 +33,28 @@ def run(options: Options, session: Session) -> int:
     from linkwright.cli.source import read_model
     from linkwright.kinematics.rank_of_motion import rank_sentence
     from linkwright.kinematics.structure_with_rank import analysed
+    from linkwright.kinetostatics.whole_program import whole_program
 
-    mechanism, _unused = read_model(options.file, session)
-    built = analysed(mechanism)
+    mechanism, _findings = read_model(options.file, session)
+    structure = analysed(mechanism)
     rank = rank_sentence(mechanism, "en" if session.json else session.language)
-    program = _program(mechanism, options.forces) if options.program or options.forces else None
+    program = None
+    if options.program or options.forces:
+        program = whole_program(mechanism, forces=options.forces)
     if session.json:
-        data: dict[str, object] = {"ok": True, "name": mechanism.name, **built.data(), "rank": rank}
+        data: dict[str, object] = {"ok": True, "name": mechanism.name, **structure.data(), "rank": rank}
         if program is not None:
             data["program"] = {"operations": program.counts(), "lines": program.text().splitlines()}
         session.show_data(data)
         return 0
-    session.show(bold(mechanism.name))
-    session.show()
-    session.show(built.text(session.language))
+    session.show(bold(mechanism.name), "")
+    session.show_tables(structure)
     if rank:
         session.show(session.say(_("{sentence}.", sentence=rank)))
     if program is not None:
-        session.show()
-        session.show("\n".join(_counts(program).lines(session.language)))
-        session.show()
+        session.show("", *_counts(program).lines(session.language), "")
         session.show_as_is(program.text())
     return 0
-
-
-def _program(mechanism: Mechanism, forces: bool) -> Program:
-    """The program of everything that a result holds."""
-    from linkwright.kinematics.solver import MotionSolver
-
-    solver = MotionSolver(mechanism)
-    names = solver.outputs.standard
-    if not forces:
-        return solver.program(names).program
-    from linkwright.kinetostatics.solver import ForceSolver
-
-    whole = ForceSolver(solver)
-    return whole.program((*names[:-1], *whole.outputs.standard)).program
 
 
 def _counts(program: Program) -> Table:

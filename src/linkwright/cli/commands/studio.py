@@ -8,27 +8,28 @@ from linkwright.cli.session import Session
 from linkwright.words import _
 from linkwright.words.sentence import reason_of
 
-SUMMARY = _("draw, change and solve a machine in the browser, its file beside it")
-DESCRIPTION = _(
-    """\
-Opens the studio in the browser: the machine as on a living page, the text of its file beside it, both
-ways in step, findings at their lines, and tools that draw a mechanism from nothing. The server answers
-this machine only and reads and writes model files below the folder it is started in. Every change is
-kept at once; what was not saved is there again after a crash."""
-)
-EXAMPLES = """\
-linkwright studio
-linkwright studio crusher.yaml"""
-
 LAST_PORT = 65535
+OUTSIDE = _("{name} is no model file below the folder in which the studio was started", code="studio.outside")
 
 
-_PORT = _(
+NO_PORT = _(
     "port {port} cannot be used: {reason}; choose another one, or none for a free one", code="studio.no_port"
 )
 
 
-@command(SUMMARY, DESCRIPTION, EXAMPLES)
+@command(
+    _("draw, change and solve a machine in the browser, its file beside it"),
+    _(
+        """\
+Opens the studio in the browser: the machine as on a living page, the text of its file beside it, both
+ways in step, findings at their lines, and tools that draw a mechanism from nothing. The server answers
+this machine only and reads and writes model files below the folder it is started in. Every change is
+kept at once; what was not saved is there again after a crash."""
+    ),
+    """\
+linkwright studio
+linkwright studio crusher.yaml""",
+)
 @argument(
     "file",
     "FILE",
@@ -41,40 +42,25 @@ _PORT = _(
 def run(options: Options, session: Session) -> int:
     """Serves the folder that it is started in until it is interrupted."""
     import webbrowser
-    from contextlib import suppress
     from pathlib import Path
 
     from linkwright.cli.errors import UsageError
-    from linkwright.server.address import Address, recalled, remember
-    from linkwright.server.web import Studio
+    from linkwright.server.start import started
 
-    folder = Path.cwd()
-    name = None
+    folder, name = Path.cwd().resolve(), None
     if options.file is not None:
         path = (folder / options.file).resolve()
-        if not path.is_relative_to(folder.resolve()):
-            raise UsageError(
-                _(
-                    "{name} is no model file below the folder in which the studio was started",
-                    code="studio.outside",
-                    name=options.file,
-                )
-            )
-        name = path.relative_to(folder.resolve()).as_posix()
+        if not path.is_relative_to(folder):
+            raise UsageError(OUTSIDE.format(name=options.file))
+        name = path.relative_to(folder).as_posix()
     if not 0 <= options.port <= LAST_PORT:
         raise UsageError(
-            _PORT.format(port=options.port, reason=_("ports go from 0 to {last}", last=LAST_PORT))
+            NO_PORT.format(port=options.port, reason=_("ports go from 0 to {last}", last=LAST_PORT))
         )
-    known = recalled(folder)
-    studio = None
-    if known is not None and options.port in (0, known.port):
-        with suppress(OSError):
-            studio = Studio(folder, name, port=known.port, language=session.language, token=known.token)
     try:
-        studio = studio or Studio(folder, name, port=options.port, language=session.language)
+        studio = started(folder, name, port=options.port, language=session.language)
     except OSError as problem:
-        raise UsageError(_PORT.format(port=options.port, reason=reason_of(problem))) from None
-    remember(folder, Address(studio.server_port, studio.token))
+        raise UsageError(NO_PORT.format(port=options.port, reason=reason_of(problem))) from None
     with studio:
         if name is not None:
             studio.work.foresee(name, session.language)

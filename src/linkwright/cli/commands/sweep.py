@@ -2,34 +2,28 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from linkwright.cli.command import command
-from linkwright.cli.commands.study import sampling, vary
-from linkwright.cli.options import Options, cluster, count, model, option
+from linkwright.cli.options import Options, cluster, count, model, option, sampling, vary
 from linkwright.cli.session import Session
 from linkwright.words import _
 
-if TYPE_CHECKING:
-    from linkwright.exporters.sweep_parts import SweepParts
 
-SUMMARY = _("numbers of very many designs, part by part, also on a cluster")
-DESCRIPTION = _(
-    """\
+@command(
+    _("numbers of very many designs, part by part, also on a cluster"),
+    _(
+        """\
 Computes summaries and design numbers of every combination of ranges, or of a
 Sobol sequence, part by part into a folder of Parquet files. Files are written
 whole; run again after an interruption, it goes on with the missing parts. Memory
 does not grow with the designs. With --cluster the parts are computed by the
 workers of a Dask scheduler, to the same bits; workers may die."""
-)
-EXAMPLES = """\
+    ),
+    """\
 linkwright sweep gallery:crank_rocker --vary coupler.length=3..4m:300 rocker.length=2..3m:300 \\
     --numbers "rocker.angle range" transmission_angle --folder designs
 linkwright sweep crusher.yaml --vary pitman.length=1.1..1.4m --sampling sobol --samples 1000000 \\
-    --numbers peak_input_torque --folder torques --best peak_input_torque --cluster tcp://10.0.0.1:8786"""
-
-
-@command(SUMMARY, DESCRIPTION, EXAMPLES)
+    --numbers peak_input_torque --folder torques --best peak_input_torque --cluster tcp://10.0.0.1:8786""",
+)
 @model
 @vary
 @option(
@@ -43,9 +37,7 @@ linkwright sweep crusher.yaml --vary pitman.length=1.1..1.4m --sampling sobol --
     "--folder",
     "FOLDER",
     required=True,
-    help=_(
-        "folder of the Parquet files; made where it does not exist, gone on with where it does",
-    ),
+    help=_("folder of the Parquet files; made where it does not exist, gone on with where it does"),
 )
 @sampling(65536)
 @count(
@@ -61,7 +53,7 @@ linkwright sweep crusher.yaml --vary pitman.length=1.1..1.4m --sampling sobol --
     "NUMBER",
     help=_(
         "also the ten designs best in this number: the greatest where more is better, as of "
-        "a transmission angle, else the least",
+        "a transmission angle, else the least"
     ),
 )
 def run(options: Options, session: Session) -> int:
@@ -70,21 +62,22 @@ def run(options: Options, session: Session) -> int:
     from linkwright.cli.source import read_model
     from linkwright.exporters.sweep_parts import sweep_parts
 
-    mechanism, _unused = read_model(options.file, session)
+    mechanism, _findings = read_model(options.file, session)
+    settings = {name: getattr(options, name) for name in ("sampling", "samples", "seed", "steps", "part")}
     with progress(session, _("designs")) as report:
         found = sweep_parts(
-            mechanism, options.vary, options.folder, outputs=options.numbers, sampling=options.sampling,
-            samples=options.samples, seed=options.seed, steps=options.steps, part=options.part,
-            client=options.cluster, progress=report,
-        )  # fmt: skip
-    _show(found, options, session)
-    return 0
-
-
-def _show(found: SweepParts, options: Options, session: Session) -> None:
+            mechanism,
+            options.vary,
+            options.folder,
+            outputs=options.numbers,
+            client=options.cluster,
+            progress=report,
+            **settings,
+        )
     if session.json:
         best = found.best(options.best) if options.best is not None else {}
         data = found.data(session.language) | {"best": {name: each.tolist() for name, each in best.items()}}
         session.show_data({"ok": True, **data})
-        return
-    session.show(found.text(session.language, best=options.best))
+    else:
+        session.show_tables(found, best=options.best)
+    return 0

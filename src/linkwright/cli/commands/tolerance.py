@@ -7,25 +7,12 @@ from typing import TYPE_CHECKING, cast
 
 from linkwright.cli.command import command
 from linkwright.cli.options import Options, cluster, state
-from linkwright.cli.part import part_options, read, refuse_outputs, show
+from linkwright.cli.part import part_options, read, show
 from linkwright.cli.session import Session
 from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.designs.tolerance.study import ToleranceStudy
-
-SUMMARY = _("what tolerances and clearances do to a mechanism's numbers")
-DESCRIPTION = _(
-    """\
-Finds the spread of design numbers and curves of a mechanism from tolerances of its
-dimensions and clearances of its pins: linear with exact derivatives, and by Monte
-Carlo; what contributes most; the share of machines within limits. A clearance is
-free, or its pin follows the joint's own reaction."""
-)
-EXAMPLES = """\
-linkwright tolerance gallery:crank_rocker_tolerance
-linkwright tolerance gallery:pressed_pins --plot pins.svg
-linkwright tolerance study.yaml --output machines.csv"""
 
 
 def hint(word: str) -> str:
@@ -41,7 +28,21 @@ def hint(word: str) -> str:
     )
 
 
-@command(SUMMARY, DESCRIPTION, EXAMPLES, hint=hint)
+@command(
+    _("what tolerances and clearances do to a mechanism's numbers"),
+    _(
+        """\
+Finds the spread of design numbers and curves of a mechanism from tolerances of its
+dimensions and clearances of its pins: linear with exact derivatives, and by Monte
+Carlo; what contributes most; the share of machines within limits. A clearance is
+free, or its pin follows the joint's own reaction."""
+    ),
+    """\
+linkwright tolerance gallery:crank_rocker_tolerance
+linkwright tolerance gallery:pressed_pins --plot pins.svg
+linkwright tolerance study.yaml --output machines.csv""",
+    hint=hint,
+)
 @part_options
 @cluster
 @state
@@ -51,14 +52,13 @@ def run(options: Options, session: Session) -> int:
     from linkwright.designs.cluster import on_cluster
     from linkwright.parts.file import solve
 
-    refuse_outputs(options, session)
     problem = cast("ToleranceStudy", read(options.file, "tolerance", session))
-    with resumable(options.state, problem.name, asked(problem), session), on_cluster(options.cluster):
+    with resumable(options.state, problem.name, inputs_of(problem), session), on_cluster(options.cluster):
         show(solve(problem, options.file), options, session)
     return 0
 
 
-def asked(problem: ToleranceStudy) -> tuple[object, ...]:
+def inputs_of(problem: ToleranceStudy) -> tuple[object, ...]:
     """All that the numbers of a problem depend on."""
     from linkwright.files.write import dump
 

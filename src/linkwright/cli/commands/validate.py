@@ -8,21 +8,21 @@ from linkwright.cli.options import Options, flag, option
 from linkwright.cli.session import Session
 from linkwright.words import _
 
-SUMMARY = _("reference numbers and ours: source, digits given, difference")
-DESCRIPTION = _(
-    """\
+
+@command(
+    _("reference numbers and ours: source, digits given, difference"),
+    _(
+        """\
 Compares every reference number that the package has with what it finds itself, to the
 digits given. A number is printed by its source (course report, textbook, handbook,
 certified data) or derived from what the source gives (by hand, in closed form, by an
 independent solution). Where a source is wrong, the right number and the reason are shown."""
-)
-EXAMPLES = """\
+    ),
+    """\
 linkwright validate
 linkwright validate --case crusher --every
-linkwright validate --json"""
-
-
-@command(SUMMARY, DESCRIPTION, EXAMPLES)
+linkwright validate --json""",
+)
 @option("--case", "TEXT", default="", help=_("only cases whose name or source contains this"))
 @flag("--every", help=_("a line for every number"))
 def run(options: Options, session: Session) -> int:

@@ -4,36 +4,38 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
+from linkwright.cli.files import default_path
 from linkwright.cli.options import Options, count, force, model, option
 from linkwright.cli.session import Session
-from linkwright.core.quantity import number
 from linkwright.fields.tables import Integer
 from linkwright.words import _
 
-if TYPE_CHECKING:
-    from linkwright.course.variants import Variants
+COUNT = 30
+NO_FORM = _('there is no form "{name}"; the forms are {forms}', code="course.no_form")
+FOLDER_EXISTS = _(
+    "{path}: the folder is there already; name another with --output, or replace its files with --force",
+    code="variants.folder_exists",
+)
+WRITTEN = _("{count} variants with {questions} questions written: {path}")
 
-SUMMARY = _("variants of a task for a course: sheets, answer key, PrairieLearn, Moodle, QTI")
-DESCRIPTION = _(
-    """\
+
+@command(
+    _("variants of a task for a course: sheets, answer key, PrairieLearn, Moodle, QTI"),
+    _(
+        """\
 Changes a model's dimensions within limits and writes a sheet per variant, the
 answer key with the numbers that usual mistakes lead to, and questions for
 PrairieLearn, Moodle and QTI. Every variant passes its cycle, transmits as well as
 the model and is as hard. The section "course" of the model says what changes, what
 is asked, and where; without it all lengths change by 8 %."""
-)
-EXAMPLES = """\
+    ),
+    """\
 linkwright variants gallery:jaw_crusher_fourbar --count 3 --seed 7
-linkwright variants crusher.yaml --count 30 --to sheets key moodle --output exercise"""
-
-COUNT = 30
-
-
-@command(SUMMARY, DESCRIPTION, EXAMPLES)
+linkwright variants crusher.yaml --count 30 --to sheets key moodle --output exercise""",
+)
 @model
 @count("--count", COUNT, help=_("how many (default 30)"))
 @option(
@@ -63,51 +65,18 @@ def run(options: Options, session: Session) -> int:
 
     unknown = next((form for form in options.to if form not in FORMS), None)
     if unknown is not None:
-        raise UsageError(
-            _(
-                'there is no form "{name}"; the forms are {forms}',
-                code="course.no_form",
-                name=unknown,
-                forms=tuple(FORMS),
-            )
-        )
-    folder = Path(options.output or f"{Path(options.file.removeprefix('gallery:')).stem}-variants")
+        raise UsageError(NO_FORM.format(name=unknown, forms=tuple(FORMS)))
+    folder = Path(options.output) if options.output else default_path(options.file, "-variants")
     if os.path.exists(folder) and not options.force:
-        raise UsageError(
-            _(
-                "{path}: the folder is there already; name another with --output, or replace its "
-                "files with --force",
-                code="variants.folder_exists",
-                path=folder,
-            )
-        )
-    mechanism, _unused = read_model(options.file, session)
-    with progress(session, _("variants")) as told:
-        found = variants(mechanism, options.count, seed=options.seed, progress=told)
+        raise UsageError(FOLDER_EXISTS.format(path=folder))
+    mechanism, _findings = read_model(options.file, session)
+    with progress(session, _("variants")) as report:
+        found = variants(mechanism, options.count, seed=options.seed, progress=report)
         files = found.save(folder, options.to, session.language, force=True)
     if session.json:
         session.show_data({"ok": True, "files": [str(path) for path in files], "key": found.key()})
     else:
-        _show(found, folder, session)
+        count, questions = len(found.variants), len(found.task.questions)
+        written = WRITTEN.format(count=count, questions=questions, path=folder)
+        session.show(session.say(written), session.say(found.difficulty.sentence))
     return 0
-
-
-def _show(found: Variants, folder: Path, session: Session) -> None:
-    written = _(
-        "{count} variants with {questions} questions written: {path}",
-        count=len(found.variants),
-        questions=len(found.task.questions),
-        path=folder,
-    )
-    angles, ratio = found.difficulty.transmission_angle, f"{found.difficulty.ratio:.3g}"
-    hard = _("difficulty: an answer's sizes differ by {ratio} times at most", ratio=ratio)
-    if angles is not None:
-        low, high = (number(each, "angle", 3) for each in angles)
-        hard = _(
-            "difficulty: smallest transmission angle {low}° to {high}°; an answer's sizes differ "
-            "by {ratio} times at most",
-            low=low,
-            high=high,
-            ratio=ratio,
-        )
-    session.show("\n".join(map(session.say, (written, hard))))
