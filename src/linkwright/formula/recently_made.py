@@ -15,7 +15,7 @@ class Recent(Generic[Owner, Made]):
     """The last ``limit`` results, by the identity of their owner and a key.
 
     Owners are compared by identity, so that a large one is not hashed; it stays alive as long
-    as its result. Safe among threads; a result may be made twice, never half. A copy begins empty.
+    as its result. Safe among threads; a result may be made twice, and all get the first. A copy begins empty.
     """
 
     def __init__(self, limit: int) -> None:
@@ -35,7 +35,7 @@ class Recent(Generic[Owner, Made]):
                 return self._entries[place][1]
         made = make()
         with self._lock:
-            self._entries[place] = (owner, made)
+            made = self._entries.setdefault(place, (owner, made))[1]
             while len(self._entries) > self._limit:
                 self._entries.popitem(last=False)
         return made

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from typing import Any, Generic, TypeVar, overload
 
 from linkwright.core.outputs import Output
 from linkwright.formula.numpy_backend import NumpyProgram
@@ -31,6 +31,33 @@ class Manner:
 
 
 AS_IT_IS = Manner()
+T = TypeVar("T")
+
+
+class locked_property(Generic[T]):
+    """A cached property, found under the ``lock`` of its object: all threads share the traced values of the first.
+
+    ``functools.cached_property`` locks the descriptor before the object on Python 3.11, and nothing since 3.12.
+    """
+
+    def __init__(self, find: Callable[[Any], T]) -> None:
+        self.find = find
+        self.__doc__ = find.__doc__
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> locked_property[T]: ...
+    @overload
+    def __get__(self, instance: Any, owner: type) -> T: ...
+    def __get__(self, instance: Any, owner: type) -> T | locked_property[T]:
+        if instance is None:
+            return self
+        with instance.lock:
+            if self.name not in instance.__dict__:
+                instance.__dict__[self.name] = self.find(instance)
+            return instance.__dict__[self.name]  # type: ignore[no-any-return]
 
 
 class MotionPrograms:
@@ -49,20 +76,19 @@ class MotionPrograms:
     def __reduce__(self) -> tuple[Callable[..., MotionPrograms], tuple[Mechanism, Manner]]:
         return motion_programs, (self.mechanism, self.manner)
 
-    @cached_property
+    @locked_property
     def motion(self) -> MotionTrace:
         """Every link's state as traced values."""
         manner = self.manner
-        with self.lock:
-            return trace_motion(
-                self.mechanism,
-                self.structure,
-                free=manner.free,
-                modes_vary=manner.flipping,
-                iterations=manner.iterations,
-            )
+        return trace_motion(
+            self.mechanism,
+            self.structure,
+            free=manner.free,
+            modes_vary=manner.flipping,
+            iterations=manner.iterations,
+        )
 
-    @cached_property
+    @locked_property
     def outputs(self) -> MotionOutputs:
         """The motion's outputs by name."""
         return MotionOutputs(self.motion)

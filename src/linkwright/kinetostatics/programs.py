@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING, NoReturn
 
 from linkwright.core.outputs import Output
@@ -10,7 +9,7 @@ from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.trace import Scalar
-from linkwright.kinematics.programs import MotionPrograms
+from linkwright.kinematics.programs import MotionPrograms, locked_property
 from linkwright.kinetostatics.friction import FrictionTerms
 from linkwright.kinetostatics.named_outputs import Named
 from linkwright.kinetostatics.outputs import ForceOutputs
@@ -54,30 +53,29 @@ class ForcePrograms:
         self, motion: MotionPrograms, inertia: bool, along_input: frozenset[str], rubbing: bool
     ) -> None:
         self.motion = motion
+        self.lock = motion.lock
         self.inertia = inertia
         self.along_input = along_input
         self.rubbing = rubbing
         self._programs: dict[tuple[str, ...], NumpyProgram] = {}
 
-    @cached_property
+    @locked_property
     def forces(self) -> ForceTrace:
         """Reactions and efforts as traced values."""
-        with self.motion.lock:
-            solved = self.friction
-            wrenches = self._terms.wrenches(None if solved is None else solved.sizes)
-            return self._under(wrenches)
+        solved = self.friction
+        wrenches = self._terms.wrenches(None if solved is None else solved.sizes)
+        return self._under(wrenches)
 
-    @cached_property
+    @locked_property
     def friction(self) -> SolvedFriction | None:
         """The friction where it is traced; None where it is an input, or there is none."""
         if not self.rubbing or not self._terms.terms:
             return None
         from linkwright.kinetostatics.friction_stage import solved_friction
 
-        with self.motion.lock:
-            return solved_friction(self._terms, self._under)
+        return solved_friction(self._terms, self._under)
 
-    @cached_property
+    @locked_property
     def signed(self) -> dict[str, Scalar]:
         """Forces, N, by name, with whose sizes others go, which so bend where these are zero: those that press guides
         with friction, and those between teeth or in strands that press on pins."""
@@ -85,11 +83,10 @@ class ForcePrograms:
             return self.forces.between
         from linkwright.kinetostatics.friction_stage import pressing
 
-        with self.motion.lock:
-            sliding = (term for term in self._terms.terms if term.slides)
-            return {term.field: pressing(self.forces, term).x for term in sliding} | self.forces.between
+        sliding = (term for term in self._terms.terms if term.slides)
+        return {term.field: pressing(self.forces, term).x for term in sliding} | self.forces.between
 
-    @cached_property
+    @locked_property
     def _terms(self) -> FrictionTerms:
         return FrictionTerms.of(self.motion.mechanism, self.motion.motion)
 
@@ -99,25 +96,25 @@ class ForcePrograms:
             self.motion.motion, inertia=self.inertia, extra=wrenches, along_input=self.along_input, **teeth
         )
 
-    @cached_property
+    @locked_property
     def outputs(self) -> ForceOutputs:
         """The forces' outputs by name."""
         return ForceOutputs(self.forces)
 
-    @cached_property
+    @locked_property
     def checks(self) -> ForceChecks:
         """What of them is checked."""
         return ForceChecks(self.outputs, self.motion.outputs, self.motion.mechanism.size)
 
     def program(self, names: tuple[str, ...]) -> NumpyProgram:
         """The program for some outputs, of the forces or of the motion."""
-        with self.motion.lock:
+        with self.lock:
             if names not in self._programs:
                 values = {name: self._value(name) for name in names}
                 self._programs[names] = NumpyProgram(Program.of(self.motion.motion.trace, values))
             return self._programs[names]
 
-    @cached_property
+    @locked_property
     def named(self) -> Named:
         """Outputs in the user's words."""
         return Named(self, _no_angle, _no_angle)
