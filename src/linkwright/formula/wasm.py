@@ -62,7 +62,8 @@ def _machines() -> dict[int, Any]:
         raise RequestError(
             _(
                 "living pages need WebAssembly, which the LLVM of this llvmlite cannot make; "
-                "install the llvmlite of the package index"
+                "install the llvmlite of the package index",
+                code="export.no_webassembly",
             )
         ) from None
     return {
