@@ -198,7 +198,10 @@ class Kernels:
     def _code(self) -> machine_code.Loaded:
         if not machine_code.available():
             raise RequestError(
-                _("llvmlite cannot be loaded, and this runs in compiled code only; install it again")
+                _(
+                    "llvmlite cannot be loaded, and this runs in compiled code only; install it again",
+                    code="synthesize.no_llvmlite",
+                )
             )
         digest = hashlib.blake2b(digest_size=16)
         for name, tree in self.trees.items():

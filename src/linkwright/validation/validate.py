@@ -122,7 +122,7 @@ def line(each: Checked, language: str) -> str:
     words = {
         "case": f"{in_language(each.case.case, language)} {each.case.place}".rstrip(),
         "what": each.reference.what,
-        "given": say(
+        "inputs": say(
             (_("printed {number}") if each.reference.printed else _("derived {number}")).format(number=number)
         ),
     }
