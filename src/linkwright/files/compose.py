@@ -1,31 +1,43 @@
-"""From text to nodes: the events of the YAML parser composed into a tree, no deeper than a model can be."""
+"""From text to nodes: the tree that PyYAML composes, with the place of every value, no deeper than a model can be."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from typing import Any
 
+from yaml.composer import ComposerError
 from yaml.error import YAMLError
-from yaml.events import (
-    AliasEvent,
-    DocumentStartEvent,
-    MappingEndEvent,
-    ScalarEvent,
-    SequenceEndEvent,
-    SequenceStartEvent,
-    StreamEndEvent,
-)
+from yaml.nodes import MappingNode, ScalarNode, SequenceNode
 
-from linkwright.fields.nodes import MAX_DEPTH, MAX_NODES, Entry, Mapping, Node, Remark, Scalar, Sequence
-from linkwright.files.events import Source, event_reader
+from linkwright.fields.nodes import Entry, Mapping, Node, Remark, Scalar, Sequence
 from linkwright.files.syntax import accident_remarks, explain, tab_remarks, wide_remarks
+from linkwright.files.yaml_source import Refused, Source, check_count, root_node
 from linkwright.words import Message, _
 from linkwright.words.characters import UNFIT
 
-_KINDS = ("str", "int", "float", "map", "seq", "null")
-_HARMLESS_TAGS = frozenset(("!", *(f"tag:yaml.org,2002:{kind}" for kind in _KINDS)))
+_HARMLESS_TAGS = frozenset(
+    f"tag:yaml.org,2002:{kind}" for kind in ("str", "int", "float", "map", "seq", "null")
+)
 _INNER_TAB = re.compile(r"(?<=\S)\t|(?<=\S )\t")
+_NAME = re.compile(r"[&*]([^\s,\[\]{}]*)")
+#: What the composer refuses, by a part of its complaint.
+_REFUSED = {
+    "another document": (
+        _("a second document begins here"),
+        _("one file holds one model: remove the --- and what follows"),
+        "documents",
+    ),
+    "undefined alias": (
+        _('the alias "*{name}" has no anchor "&{name}" before it'),
+        _("write the value itself"),
+        "alias",
+    ),
+    "second occurrence": (
+        _('the anchor "&{name}" is given twice'),
+        _("give every anchor a name of its own"),
+        "alias",
+    ),
+}
 
 
 def compose(text: str) -> tuple[Node | None, list[Remark]]:
@@ -41,24 +53,24 @@ def compose(text: str) -> tuple[Node | None, list[Remark]]:
         plain = text.replace("\t", " ") if flow else _INNER_TAB.sub(" ", text)
     source = Source(plain)
     while True:
-        composer = _Composer()
+        converter = _Converter(source.text)
         try:
-            composer.documents(event_reader(source.text))
-        except _Stop:
-            return None, composer.remarks
+            found = root_node(source.text)
+            root = None if found is None else converter.node(found)
+        except Refused as error:
+            return None, [*converter.remarks, error.remark]
+        except ComposerError as error:
+            return None, [_refused(error, source.text)]
         except YAMLError as error:
             mark = getattr(error, "problem_mark", None)
             if mark is not None and source.part(mark.index):
                 continue
-            return None, [
-                *composer.remarks,
-                *(tab_remarks(text) or wide_remarks(text) or [explain(error, text)]),
-            ]
+            return None, tab_remarks(text) or wide_remarks(text) or [explain(error, text)]
         except (ValueError, OverflowError) as error:
             return None, [_unreadable(error)]
-        if composer.root is not None:
-            source.restore(composer.root)
-        return composer.root, composer.remarks
+        if root is not None:
+            source.restore(root)
+        return root, converter.remarks
 
 
 def _unreadable(error: Exception) -> Remark:
@@ -66,116 +78,67 @@ def _unreadable(error: Exception) -> Remark:
     return Remark(0, 0, message, _("check quotes, brackets and escapes"), "syntax")
 
 
-class _Stop(Exception):
-    """Reading further makes no sense."""
+def _refused(error: ComposerError, text: str) -> Remark:
+    """The remark about what is YAML but makes no tree."""
+    mark = error.problem_mark
+    message, remedy, code = next(each for sign, each in _REFUSED.items() if sign in error.problem)
+    return Remark(mark.line, mark.column, message.format(name=_name(text, mark)), remedy.format(), code)
 
 
-class _Composer:
-    """Makes nodes of events; what is wrong with the text becomes remarks."""
+def _name(text: str, mark: Any) -> str:
+    """The name of the anchor or alias at a place."""
+    found = _NAME.search(text, mark.index)
+    return found[1] if found else ""
 
-    def __init__(self) -> None:
-        self.next: Callable[[], Any]
+
+class _Converter:
+    """Makes our nodes of PyYAML's; what is wrong becomes remarks."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
         self.remarks: list[Remark] = []
-        self.root: Node | None = None
-        self.anchors: dict[str, tuple[Node, int]] = {}
-        self.open: list[str] = []
+        self.made: dict[int, tuple[Node, int]] = {}
+        self.open: set[int] = set()
         self.total = 0
         self.path: list[str] = []
 
-    def remark(self, mark: Any, message: Message, remedy: Message, code: str, **values: object) -> None:
+    def remark(self, place: Any, message: Message, remedy: Message, code: str, **values: object) -> None:
         """Note a remark with the values of its texts."""
-        text, what_to_do = message.format(**values), remedy.format(**values)
-        self.remarks.append(Remark(mark.line, mark.column, text, what_to_do, code, ".".join(self.path)))
+        texts = message.format(**values), remedy.format(**values)
+        self.remarks.append(Remark(place.line, place.column, *texts, code, ".".join(self.path)))
 
-    def documents(self, next_event: Callable[[], Any]) -> None:
-        self.next, count = next_event, 0
-        while not isinstance(event := self.next(), StreamEndEvent):
-            if isinstance(event, DocumentStartEvent):
-                count += 1
-                if count > 1:
-                    self.remark(
-                        event.start_mark,
-                        _("a second document begins here"),
-                        _("one file holds one model: remove the --- and what follows"),
-                        "documents",
-                    )
-                    raise _Stop
-                self.root = self.node(self.next(), 0)
-
-    def node(self, event: Any, depth: int) -> Node:
-        kind = type(event)
-        if kind is ScalarEvent and event.anchor is None and event.tag is None and depth <= MAX_DEPTH:
-            return self.scalar(event)
-        if kind is AliasEvent:
-            return self.alias(event)
-        if depth > MAX_DEPTH:
+    def node(self, found: Any) -> Node:
+        own, start = id(found), found.start_mark
+        if own in self.made:
+            node, size = self.made[own]
+            self.total += size
+            check_count(self.total, start)
+            return node
+        if own in self.open:
             self.remark(
-                event.start_mark,
-                _("nested deeper than {most} levels"),
-                _("a model needs at most ten"),
-                "depth",
-                most=MAX_DEPTH,
+                start,
+                _('the alias "*{name}" is inside its own anchor'),
+                _("write the value itself"),
+                "alias",
+                name=_name(self.text, start),
             )
-            raise _Stop
-        if event.tag is not None:
-            self.tag(event)
-        anchor = event.anchor
-        if anchor is None:
-            return self.content(kind, event, depth)
+            return Scalar(start.line, start.column, start.index, start.index, "")
+        if found.tag not in _HARMLESS_TAGS:
+            shown = found.tag.replace("tag:yaml.org,2002:", "!!")
+            self.remark(
+                start, _('the tag "{shown}" is not supported'), _("remove the tag"), "tag", shown=shown
+            )
         before = self.total
-        self.open.append(anchor)
-        node = self.content(kind, event, depth)
-        self.open.remove(anchor)
-        self.anchors[anchor] = node, self.total - before
+        self.total += 1
+        self.open.add(own)
+        kinds = {ScalarNode: self.scalar, SequenceNode: self.sequence, MappingNode: self.mapping}
+        node = kinds[type(found)](found)
+        self.open.remove(own)
+        self.made[own] = node, self.total - before
         return node
 
-    def content(self, kind: type, event: Any, depth: int) -> Node:
-        if kind is ScalarEvent:
-            return self.scalar(event)
-        self.grow(event.start_mark, 1)
-        return self.sequence(event, depth) if kind is SequenceStartEvent else self.mapping(event, depth)
-
-    def tag(self, event: Any) -> None:
-        if event.tag not in _HARMLESS_TAGS and event.implicit is not True:
-            shown = event.tag.replace("tag:yaml.org,2002:", "!!")
-            self.remark(
-                event.start_mark,
-                _('the tag "{shown}" is not supported'),
-                _("remove the tag"),
-                "tag",
-                shown=shown,
-            )
-
-    def alias(self, event: Any) -> Node:
-        name, start, end = event.anchor, event.start_mark, event.end_mark
-        if name in self.anchors:
-            node, size = self.anchors[name]
-            self.grow(start, size)
-            return node
-        problem = (
-            _('the alias "*{name}" is inside its own anchor')
-            if name in self.open
-            else _('the alias "*{name}" has no anchor "&{name}" before it')
-        )
-        self.remark(start, problem, _("write the value itself"), "alias", name=name)
-        return Scalar(start.line, start.column, start.index, end.index, "")
-
-    def grow(self, mark: Any, size: int) -> None:
-        self.total += size
-        if self.total > MAX_NODES:
-            self.remark(
-                mark,
-                _("the file holds too many values"),
-                _("a model needs far fewer; remove aliases"),
-                "size",
-            )
-            raise _Stop
-
-    def scalar(self, event: Any) -> Scalar:
-        start, text = event.start_mark, event.value
-        self.total += 1
-        if self.total > MAX_NODES:
-            self.grow(start, 0)
+    def scalar(self, found: ScalarNode) -> Scalar:
+        start, text = found.start_mark, found.value
         if unfit := UNFIT.search(text):
             shown = f"U+{ord(unfit[0]):04X}"
             self.remark(
@@ -186,34 +149,33 @@ class _Composer:
                 shown=shown,
             )
             text = UNFIT.sub("\ufffd", text)
-        return Scalar(start.line, start.column, start.index, event.end_mark.index, text, not event.style)
+        return Scalar(start.line, start.column, start.index, found.end_mark.index, text, not found.style)
 
-    def sequence(self, event: Any, depth: int) -> Sequence:
-        start, items, path = event.start_mark, list[Node](), self.path
-        while type(inner := self.next()) is not SequenceEndEvent:
-            path.append(str(len(items)))
-            items.append(self.node(inner, depth + 1))
-            path.pop()
-        return Sequence(start.line, start.column, start.index, inner.end_mark.index, items, event.flow_style)
+    def sequence(self, found: SequenceNode) -> Sequence:
+        start, items = found.start_mark, list[Node]()
+        for number, item in enumerate(found.value):
+            self.path.append(str(number))
+            items.append(self.node(item))
+            self.path.pop()
+        return Sequence(start.line, start.column, start.index, found.end_mark.index, items, found.flow_style)
 
-    def mapping(self, event: Any, depth: int) -> Mapping:
-        start = event.start_mark
-        found = Mapping(start.line, start.column, start.index, start.index, [], event.flow_style)
-        first: dict[str, Entry] = {}
+    def mapping(self, found: MappingNode) -> Mapping:
+        start = found.start_mark
+        made = Mapping(start.line, start.column, start.index, found.end_mark.index, [], found.flow_style)
+        seen: dict[str, Entry] = {}
         merged: list[Node] = []
-        while type(inner := self.next()) is not MappingEndEvent:
-            key = self.node(inner, depth + 1)
+        for key_node, value_node in found.value:
+            key = self.node(key_node)
             self.path.append(key.text if isinstance(key, Scalar) else "?")
-            value = self.node(self.next(), depth + 1)
+            value = self.node(value_node)
             if isinstance(key, Scalar) and key.text == "<<" and key.plain:
                 merged.append(value)
             else:
-                self.entry(found, key, value, first)
+                self.entry(made, key, value, seen)
             self.path.pop()
-        found.end = inner.end_mark.index
         for value in merged:
-            self.merge(found, value)
-        return found
+            self.merge(made, value)
+        return made
 
     def entry(self, found: Mapping, key: Node, value: Node, known: dict[str, Entry]) -> None:
         nothing = isinstance(value, Scalar) and value.empty

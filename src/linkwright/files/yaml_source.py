@@ -1,55 +1,64 @@
-"""The events of a YAML text with their places, from libyaml where its parser in C is there.
+"""The tree of a YAML text with its places, by libyaml where its parser in C is there, and the text as it wants it.
 
-Only the parser is used: what a scalar means is decided here by the rules of YAML 1.2, and no tag makes an object.
+``BaseLoader`` leaves every scalar a text: what it means is decided by the rules of YAML 1.2; no tag makes an object.
 """
 
 from __future__ import annotations
 
 import re
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable
-from functools import cache
 from itertools import accumulate
 from typing import Any
 
-from linkwright.fields.nodes import Mapping, Node, Sequence
+import yaml
+
+from linkwright.fields.nodes import MAX_DEPTH, MAX_NODES, Mapping, Node, Remark, Sequence
+from linkwright.words import Message, _
 
 #: What libyaml takes for the end of a line, and YAML 1.2 does not.
 _OLD_BREAKS = re.compile("[\x85\u2028\u2029]")
 #: Colons without a space that are put right in one text, at most.
 MOST_SHIFTS = 20
 _PAIR = re.compile(r"(?<!\\)(?:\\\\)*(\\u[dD][89abAB][0-9a-fA-F]{2})(\\u[dD][c-fC-F][0-9a-fA-F]{2})")
+_BASE: Any = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
 
-def event_reader(text: str) -> Callable[[], Any]:
-    """A function that gives the next event of a text; raises yaml.YAMLError where the text is no YAML."""
-    get_event: Callable[[], Any] = _parser()(_OLD_BREAKS.sub(" ", text)).get_event
-    return get_event
+class Refused(Exception):
+    """A text that no tree is made of, with the remark that says why."""
+
+    def __init__(self, mark: Any, message: str, remedy: Message, code: str) -> None:
+        self.remark = Remark(mark.line, mark.column, message, remedy.format(), code)
 
 
-@cache
-def _parser() -> Callable[[str], Any]:
-    try:
-        from yaml._yaml import CParser
-    except ImportError:
-        return _pure_parser()
-    parser: Callable[[str], Any] = CParser
-    return parser
+def check_count(count: int, mark: Any) -> None:
+    """Refuse more values than a model can have."""
+    if count > MAX_NODES:
+        message, remedy = _("the file holds too many values"), _("a model needs far fewer; remove aliases")
+        raise Refused(mark, message.format(), remedy, "size")
 
 
-def _pure_parser() -> Callable[[str], Any]:
-    """The parser in Python of the same package; it gives the same events, more slowly."""
-    from yaml.parser import Parser
-    from yaml.reader import Reader
-    from yaml.scanner import Scanner
+class _Loader(_BASE):  # type: ignore[misc]
+    """Ends where a text is too deep or too long for a model: libyaml's composer has no bounds of its own."""
 
-    class PureParser(Reader, Scanner, Parser):  # type: ignore[misc]
-        def __init__(self, text: str) -> None:
-            Reader.__init__(self, text)
-            Scanner.__init__(self)
-            Parser.__init__(self)
+    depth = count = 0
 
-    return PureParser
+    def descend_resolver(self, parent: Any, index: Any) -> None:
+        """Called before every value."""
+        self.depth, self.count = self.depth + 1, self.count + 1
+        if self.depth > MAX_DEPTH + 1:
+            message = _("nested deeper than {most} levels", most=MAX_DEPTH)
+            raise Refused(parent.start_mark, message, _("a model needs at most ten"), "depth")
+        if parent is not None:
+            check_count(self.count, parent.start_mark)
+
+    def ascend_resolver(self) -> None:
+        """Called after every value."""
+        self.depth -= 1
+
+
+def root_node(text: str) -> Any:
+    """PyYAML's node of a text's document, None where there is none; raises YAMLError and Refused."""
+    return yaml.compose(_OLD_BREAKS.sub(" ", text), Loader=_Loader)
 
 
 class Source:

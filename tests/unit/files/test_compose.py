@@ -1,16 +1,17 @@
-"""Reading YAML: places of nodes, YAML 1.2's scalars, JSON's escapes, the parser in Python, bad texts."""
+"""Composing YAML: places of nodes, YAML 1.2's scalars, JSON's escapes, the parser in Python, bad texts."""
 
 import json
 from dataclasses import replace
 
 import pytest
+import yaml
 
 from linkwright.fields.nodes import Mapping, Node, Scalar
-from linkwright.files import events
+from linkwright.files import yaml_source
 from linkwright.files.compose import compose
-from linkwright.files.events import _below
 from linkwright.files.model_file import gallery_names, loads
 from linkwright.files.source import read_source
+from linkwright.files.yaml_source import _below
 
 
 def texts_at(text: str) -> list[str]:
@@ -28,7 +29,15 @@ def scalars(node: Node) -> list[str]:
 def test_both_parsers_give_the_same_nodes(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     text, _ = read_source(f"gallery:{name}")
     fast = compose(text)
-    monkeypatch.setattr(events, "_parser", events._pure_parser)
+
+    class Pure(yaml.BaseLoader):
+        descend_resolver, ascend_resolver = (
+            yaml_source._Loader.descend_resolver,
+            yaml_source._Loader.ascend_resolver,
+        )
+        depth = count = 0
+
+    monkeypatch.setattr(yaml_source, "_Loader", Pure)
     assert compose(text) == fast
 
 
@@ -86,6 +95,14 @@ def test_a_control_character_in_a_text_is_a_finding_and_never_passes(code: str) 
     root, remarks = compose(f'name: "a{code}b"')
     assert [each.code for each in remarks] == ["control-character"]
     assert root is not None and "a\ufffdb" in scalars(root)
+
+
+@pytest.mark.parametrize(
+    "text", ["a: &x 1\nb: &x 2", "a: 1\nb: *x", "a: 1\n---\nb: 1", "a: 1\nb: " + "[" * 10**6]
+)
+def test_what_makes_no_tree_is_refused_where_it_is(text: str) -> None:
+    root, (remark,) = compose(text)
+    assert root is None and remark.line == 1 and remark.code in {"alias", "documents", "depth"}
 
 
 def test_an_empty_value_is_placed_behind_its_key_and_can_be_filled() -> None:
