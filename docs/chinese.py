@@ -104,7 +104,7 @@ NAMES = {
     "structure": "自由度、基本杆组、级别",
     "on_cluster": "把批量计算交给集群",
     "Interrupted": "计算被中断，并指出可从中继续的文件",
-    "kept_in": "把已完成的部分保存在文件中，中断后接着算",
+    "checkpointing": "把已完成的部分保存在文件中，中断后接着算",
     "Comparison": "几个方案的比较、排序与评价",
     "compare": "比较几个方案",
     "Sweep": "批量计算的结果",

@@ -27,13 +27,13 @@ from .course.grade import Grades as Grades
 from .course.grade import grade as grade
 from .course.variants import Variants as Variants
 from .course.variants import variants as variants
+from .designs.checkpoints import Interrupted as Interrupted
+from .designs.checkpoints import checkpointing as checkpointing
 from .designs.cluster import on_cluster as on_cluster
 from .designs.compare import Comparison as Comparison
 from .designs.compare import compare as compare
 from .designs.designs import Sweep as Sweep
 from .designs.designs import sweep as sweep
-from .designs.finished_parts import Interrupted as Interrupted
-from .designs.finished_parts import kept_in as kept_in
 from .designs.objective import Objective as Objective
 from .designs.objective import objective as objective
 from .designs.objective_terms import PathError as PathError

@@ -63,7 +63,7 @@ def test_a_demand_that_fails_shows_the_nearest() -> None:
     asked = ["synthesize", "slider_crank", "stroke=40 mm", "rod_ratio=1.1", "offset_ratio=0.3"]
     ended = run(*asked)
     assert ended.code == 1 and ended.told is not None
-    assert (ended.told.code, ended.told.values["given"], ended.told.values["least"]) == (
+    assert (ended.told.code, ended.told.values["value"], ended.told.values["minimum"]) == (
         "synthesize.slider_crank.ratio", "1.1", "1.3",
     )  # fmt: skip
     assert rows(ended.out)[-1][-3:] == ["0.00°", "1.3", "22.8 mm"]
@@ -100,7 +100,7 @@ def test_folders_are_made_where_candidates_are_found(tmp_path: Path) -> None:
     models = sorted(folder.iterdir())
     assert models and all(lw.check(model) == [] for model in models)
     unmet = ["synthesize", "slider_crank", "stroke=1 m", "--output", str(tmp_path / "none")]
-    is_refused(unmet, "synthesize.slider_crank.demands", ends=1, given="stroke")
+    is_refused(unmet, "synthesize.slider_crank.demands", ends=1, value="stroke")
     assert not (tmp_path / "none").exists()
 
 

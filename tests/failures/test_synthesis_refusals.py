@@ -23,7 +23,7 @@ def findings(text: str, folder: Path) -> tuple[lw.Finding, ...]:
 
 def test_points_apart_at_one_crank_angle() -> None:
     with refused(
-        "synthesize.path.same_angle", lw.SynthesisError, first=1, second=3, apart="1.414", least="1"
+        "synthesize.path.same_angle", lw.SynthesisError, first=1, second=3, distance="1.414", minimum="1"
     ) as caught:
         lw.path_generation(CORNERS, angles=[1.0, 2.0, 1.0, 4.0])
     assert caught.value.nearest is not None and caught.value.nearest.best.error >= 1 - 1e-9
@@ -46,7 +46,7 @@ def test_poses_without_turn_need_a_circle() -> None:
 
 
 def test_a_crank_that_cannot_turn() -> None:
-    with refused("synthesize.slider_crank.ratio", lw.SynthesisError, given="1.2", least="1.305") as caught:
+    with refused("synthesize.slider_crank.ratio", lw.SynthesisError, value="1.2", minimum="1.305") as caught:
         lw.synthesize("slider_crank", stroke=0.3975, rod_ratio=1.2, offset_ratio=0.305)
     nearest = caught.value.nearest
     assert nearest is not None
@@ -55,7 +55,7 @@ def test_a_crank_that_cannot_turn() -> None:
 
 def test_a_quick_return_that_the_offset_does_not_allow() -> None:
     with refused(
-        "synthesize.slider_crank.quick_return", lw.SynthesisError, given="2.9", most="1.46053"
+        "synthesize.slider_crank.quick_return", lw.SynthesisError, value="2.9", most="1.46053"
     ) as caught:
         lw.synthesize("slider_crank", stroke=0.2, quick_return_ratio=2.9, offset=0.3)
     nearest = caught.value.nearest
@@ -101,7 +101,7 @@ def test_the_largest_quick_return_ratio_of_a_crank_rocker(swing: float) -> None:
             "drag_link",
             {"quick_return_ratio": 2.0, "frame": 0.1, "link_ratio": 1.0},
             "synthesize.drag_link.links",
-            {"ratio": "1", "least": "1.2"},
+            {"ratio": "1", "minimum": "1.2"},
         ),
         (
             "quick_return",
@@ -113,13 +113,13 @@ def test_the_largest_quick_return_ratio_of_a_crank_rocker(swing: float) -> None:
             "quick_return",
             {"quick_return_ratio": 2.0, "frame": 1.0, "stroke": 1.0, "rod": 0.01},
             "synthesize.quick_return.rod",
-            {"least": "0.0773503"},
+            {"minimum": "0.0773503"},
         ),
         (
             "slider_crank",
             {"stroke": 1.0, "quick_return_ratio": 1.0, "offset": 0.1},
             "synthesize.slider_crank.no_quick_return",
-            {"given": "1", "near": "1.02"},
+            {"value": "1", "near": "1.02"},
         ),
         (
             "toggle",
@@ -131,7 +131,7 @@ def test_the_largest_quick_return_ratio_of_a_crank_rocker(swing: float) -> None:
             "straight_line",
             {"length": 1.0, "deviation": 1e-9, "kind": "watt"},
             "synthesize.straight_line.none",
-            {"kind": "watt", "given": "1e-09", "least": "1.379e-09"},
+            {"kind": "watt", "allowed": "1e-09", "minimum": "1.379e-09"},
         ),
         (
             "dwell",
@@ -191,7 +191,7 @@ def test_five_poses_without_two_real_dyads_give_the_nearest_linkage() -> None:
             "task: path\n  points: 3 mm",
             "synthesis.points",
             "type",
-            {"demand": "points", "given": "3 mm"},
+            {"demand": "points", "value": "3 mm"},
         ),
         (
             "task: function\n  linkage: slider_crank\n  inputs: [0 deg, 20 deg, 40 deg]\n"
@@ -245,20 +245,20 @@ def test_all_findings_at_once(tmp_path: Path) -> None:
             "path",
             {"points": CORNERS, "bound": 0.0},
             "synthesize.not_positive",
-            {"name": "bound", "given": "0"},
+            {"name": "bound", "value": "0"},
         ),
         (
             "path",
             {"points": CORNERS, "count": 0},
             "synthesize.not_whole",
-            {"name": "count", "given": "0", "least": 1},
+            {"name": "count", "value": "0", "minimum": 1},
         ),
-        ("path", {"points": CORNERS, "seed": -1}, "synthesize.not_whole", {"name": "seed", "given": "-1"}),
+        ("path", {"points": CORNERS, "seed": -1}, "synthesize.not_whole", {"name": "seed", "value": "-1"}),
         (
             "path",
             {"points": CORNERS, "transmission_angle": math.pi / 2},
             "synthesize.transmission",
-            {"given": "90"},
+            {"value": "90"},
         ),
         (
             "exact_path",
@@ -270,7 +270,7 @@ def test_all_findings_at_once(tmp_path: Path) -> None:
             "function",
             {"inputs": [0.1, 0.1, 0.5], "outputs": [0.2, 0.4, 0.5]},
             "synthesize.function.repeated",
-            {"second": 2, "apart": "0.2"},
+            {"second": 2, "difference": "0.2"},
         ),
         (
             "function",
@@ -296,19 +296,19 @@ def test_all_findings_at_once(tmp_path: Path) -> None:
             "crank_rocker",
             {"swing_angle": 1.0, "quick_return_ratio": 0.5, "frame": 1.0},
             "synthesize.quick_return_below_one",
-            {"given": "0.5", "inverse": "2"},
+            {"value": "0.5", "inverse": "2"},
         ),
         (
             "quick_return",
             {"quick_return_ratio": 1e308, "frame": 0.3},
             "synthesize.quick_return.most",
-            {"given": "1e+308", "near": "1000"},
+            {"value": "1e+308", "near": "1000"},
         ),
         (
             "toggle",
             {"force_ratio": -1.0, "distance": 1.0, "stroke": 2.0},
             "synthesize.not_positive",
-            {"name": "force_ratio", "given": "-1"},
+            {"name": "force_ratio", "value": "-1"},
         ),
         ("toggle", {"force_ratio": 1.0}, "synthesize.task.missing", {"demand": "distance"}),
         ("nothing", {}, "synthesize.task", {"task": "nothing", "known": "motion"}),
@@ -346,44 +346,44 @@ def test_a_slider_crank_has_no_cognates() -> None:
     ("demands", "code", "values"),
     [
         ({}, "synthesize.free_curve.no_curve", {}),
-        ({"points": [(0, 0), (1, 1)], "joints": 14}, "synthesize.free_curve.joints", {"given": 14}),
+        ({"points": [(0, 0), (1, 1)], "joints": 14}, "synthesize.free_curve.joints", {"value": 14}),
         ({"points": [(0, 0), (0, 0)]}, "synthesize.path.one_place", {}),
         (
             {"points": [(0, 0), (1, 1)], "transmission_angle": 2.0},
             "synthesize.transmission_range",
-            {"given": "114.592"},
+            {"value": "114.592"},
         ),
         (
             {"points": [(0, 0), (1, 1)], "seconds": 0.0},
             "synthesize.not_positive",
-            {"name": "seconds", "given": "0"},
+            {"name": "seconds", "value": "0"},
         ),
         ({"points": []}, "synthesize.free_curve.no_curve", {}),
         ({"points": [(0, 0), (math.nan, 1)]}, "synthesize.points", {}),
         ({"points": [("a", "b"), ("c", "d")]}, "synthesize.points", {}),
         ({"points": [(0, 0), (1,)]}, "synthesize.points", {}),
-        ({"points": [(0, 0), (1e300, 1)]}, "synthesize.free_curve.far", {"given": "1e+300", "most": "1e+09"}),
+        ({"points": [(0, 0), (1e300, 1)]}, "synthesize.free_curve.far", {"value": "1e+300", "most": "1e+09"}),
         ({"points": [(0, 0), (1e-200, 0)]}, "synthesize.path.one_place", {}),
         (
             {"points": [(0, 0), (1, 1)], "joints": 7.5},
             "synthesize.not_whole",
-            {"name": "joints", "given": "7.5", "least": 5},
+            {"name": "joints", "value": "7.5", "minimum": 5},
         ),
         (
             {"points": [(0, 0), (1, 1)], "count": 2.5},
             "synthesize.not_whole",
-            {"name": "count", "given": "2.5"},
+            {"name": "count", "value": "2.5"},
         ),
-        ({"points": [(0, 0), (1, 1)], "seed": -1}, "synthesize.not_whole", {"name": "seed", "given": "-1"}),
+        ({"points": [(0, 0), (1, 1)], "seed": -1}, "synthesize.not_whole", {"name": "seed", "value": "-1"}),
         (
             {"points": [(0, 0), (1, 1)], "error": math.nan},
             "synthesize.negative",
-            {"name": "error", "given": "nan"},
+            {"name": "error", "value": "nan"},
         ),
         (
             {"points": [(0, 0), (1, 1)], "size": math.inf},
             "synthesize.not_positive",
-            {"name": "size", "given": "inf"},
+            {"name": "size", "value": "inf"},
         ),
         ({"file": "missing.svg"}, "synthesize.free_curve.file", {"path": "missing.svg"}),
     ],
@@ -406,7 +406,7 @@ def test_a_file_without_a_curve(tmp_path: Path) -> None:
 
 @pytest.mark.rotating
 def test_a_curve_that_no_four_bar_draws_closely_enough() -> None:
-    with refused("synthesize.free_curve.error", lw.SynthesisError, given="0.001") as caught:
+    with refused("synthesize.free_curve.error", lw.SynthesisError, value="0.001") as caught:
         lw.free_curve([(0.9, 0), (0.9, 1.7), (0, 0.6), (1.3, 0.6)], joints=5, error=0.001, seconds=1.0)
     assert caught.value.nearest is not None
     assert caught.value.nearest.best.error < 0.25

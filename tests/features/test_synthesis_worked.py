@@ -305,7 +305,7 @@ def test_rounded_lengths_have_the_error_that_is_shown() -> None:
 
 
 def test_rounding_that_loses_the_linkage_is_refused() -> None:
-    with refused("synthesize.rounding", lw.SynthesisError, given="500") as caught:
+    with refused("synthesize.rounding", lw.SynthesisError, value="500") as caught:
         lw.synthesize("slider_crank", stroke=0.3975, rod_ratio=3.55, rounding=0.5)
     nearest = caught.value.nearest
     assert nearest.best.values["rod [m]"] == pytest.approx(3.55 * 0.3975 / 2)

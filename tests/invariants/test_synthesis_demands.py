@@ -177,17 +177,17 @@ def test_links_of_a_demanded_ratio() -> None:
     for each in every(lw.synthesize("crank_rocker", **demands, link_ratio=3.0)):
         lengths = each.linkage.lengths().values()
         assert max(lengths) <= 3 * min(lengths) * (1 + 1e-9)
-    with refused("synthesize.link_ratio_unmet", lw.SynthesisError, given="2", least="2.917") as caught:
+    with refused("synthesize.link_ratio_unmet", lw.SynthesisError, value="2", minimum="2.917") as caught:
         lw.synthesize("crank_rocker", **demands, link_ratio=2.0)
     assert caught.value.nearest is not None
     assert lw.synthesize("crank_rocker", **demands, link_ratio=2.917).best.link_ratio <= 2.917
-    with refused("synthesize.link_ratio_unmet", lw.SynthesisError, given="3", least="4.443"):
+    with refused("synthesize.link_ratio_unmet", lw.SynthesisError, value="3", minimum="4.443"):
         lw.synthesize(
             "crank_rocker", swing_angle=0.711, quick_return_ratio=1.5, frame=0.1, rocker=0.075, link_ratio=3.0
         )
     for each in every(lw.motion_generation(POSES, link_ratio=2.5)):
         assert each.link_ratio <= 2.5
-    with refused("synthesize.link_ratio_unmet", lw.SynthesisError, given="1.01"):
+    with refused("synthesize.link_ratio_unmet", lw.SynthesisError, value="1.01"):
         lw.motion_generation(POSES, link_ratio=1.01)
 
 

@@ -39,12 +39,12 @@ def resumable(
     state: str | None, name: str, inputs: Iterable[object], session: Session
 ) -> Iterator[Progress | None]:
     """Work with a bar whose finished parts are stored in ``state``; an interruption names the file to resume from."""
-    from linkwright.designs.finished_parts import RESUME, Interrupted, kept_in
+    from linkwright.designs.checkpoints import RESUME, Interrupted, checkpointing
 
     try:
         with (
             progress(session, _("computing designs")) as report,
-            kept_in(state, name, *inputs, progress=report),
+            checkpointing(state, name, *inputs, progress=report),
         ):
             yield report
     except Interrupted as stopped:

@@ -27,7 +27,7 @@ class Line:
     output: Output | None
 
     @property
-    def given(self) -> bool:
+    def is_given(self) -> bool:
         """Whether it is only told, not reckoned."""
         return self.formula is self.result
 
@@ -57,7 +57,7 @@ class Calculation:
         self,
         change: Change | None = None,
         functions: Mapping[str, Function] | None = None,
-        given: Mapping[str, float] | None = None,
+        data: Mapping[str, float] | None = None,
     ) -> Values:
         """Results by output (angles in degrees), every line reckoned from those before it.
 
@@ -65,21 +65,21 @@ class Calculation:
         ``given``: other values of symbols that are only told. A value that a formula does not have (a root of a
         negative number) is NaN, and so is what follows from it.
         """
-        every = self._reckoned(change, functions, given)
+        every = self._evaluated(change, functions, data)
         return {line.output: value for line, value in zip(self.lines, every, strict=True) if line.output}
 
     @cached_property
     def _right(self) -> list[float]:
-        return self._reckoned(functions={})
+        return self._evaluated(functions={})
 
-    def _reckoned(
+    def _evaluated(
         self,
         change: Change | None = None,
         functions: Mapping[str, Function] | None = None,
-        given: Mapping[str, float] | None = None,
+        data: Mapping[str, float] | None = None,
     ) -> list[float]:
         """Values of all lines; where functions mean what they do, only what a change reaches is reckoned anew."""
-        known, moved, found = dict(given or {}), set(given or ()), list[float]()
+        known, moved, found = dict(data or {}), set(data or ()), list[float]()
         right = self._right if functions is None else [math.nan] * len(self.lines)
         apply = {**APPLY, **(functions or {})}
 
@@ -88,7 +88,7 @@ class Calculation:
 
         for number, (line, value) in enumerate(zip(self.lines, right, strict=True)):
             formula = line.formula if change is None else change(number, line.result, line.formula)
-            if line.given:
+            if line.is_given:
                 value = leaf(line.result)
             elif functions is not None or formula is not line.formula or not moved.isdisjoint(line.symbols):
                 value = formula.evaluate(leaf, apply)

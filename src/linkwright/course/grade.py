@@ -93,14 +93,14 @@ class Grades(Tabular, Sequence[Grade]):
                 continue
             wrong = [name for name, ok in zip(self.questions, each.right, strict=True) if ok is False]
             open_ = [name for name, ok in zip(self.questions, each.right, strict=True) if ok is None]
-            said = say(_(" or ")).join(say(MISTAKE_NAMES[name]) for name in each.mistakes)
-            if wrong and not said:
-                said = say(_("none of the usual ones"))
-            if each.where and said:
-                said = f"{said} ({each.where})"
+            mistakes = say(_(" or ")).join(say(MISTAKE_NAMES[name]) for name in each.mistakes)
+            if wrong and not mistakes:
+                mistakes = say(_("none of the usual ones"))
+            if each.where and mistakes:
+                mistakes = f"{mistakes} ({each.where})"
             shown = ", ".join([*wrong, *(say(_("{name} (open)", name=name)) for name in open_)])
             score = Amount(round(each.score, 2), scale=PERCENT)
-            rows.append([each.student, each.variant, score, shown, said])
+            rows.append([each.student, each.variant, score, shown, mistakes])
         return (Table(heads, rows, "<>><<"),)
 
     def data(self) -> dict[str, Any]:
@@ -143,13 +143,13 @@ def _student(row: Mapping[str, str], line: int) -> str:
 
 
 def _rows(
-    given: str | Path | Sequence[Mapping[str, str]], names: Sequence[str]
+    answers: str | Path | Sequence[Mapping[str, str]], names: Sequence[str]
 ) -> list[tuple[int, Mapping[str, str]]]:
     """Rows with the number of the line on which each ends."""
-    if not isinstance(given, str | Path):
-        return list(enumerate(given, 2))
+    if not isinstance(answers, str | Path):
+        return list(enumerate(answers, 2))
     try:
-        text = Path(given).read_text("utf-8-sig")
+        text = Path(answers).read_text("utf-8-sig")
         first = text.partition("\n")[0]
         separator = max(",;\t", key=first.count)
         found = csv.DictReader(io.StringIO(text), delimiter=separator)
@@ -160,7 +160,7 @@ def _rows(
             _(
                 "{path}: the answers cannot be read: {why}",
                 code="course.bad_answers",
-                path=given,
+                path=answers,
                 why=reason_of(error),
             )
         ) from None
@@ -195,16 +195,16 @@ def _graded(key: Mapping[str, Any], row: Mapping[str, str], line: int) -> Grade:
     missing = [each["name"] for each in questions if each["name"] not in row]
     if missing:
         raise RequestError(_NO_COLUMN.format(name=missing[0]))
-    given = [_number(row[each["name"]], line, each["name"]) for each in questions]
+    answers = [_number(row[each["name"]], line, each["name"]) for each in questions]
     units = [each["unit"] for each in questions]
     right = tuple(
         None if a is None else close(a, b, tolerance, u)
-        for a, b, u in zip(given, variant["answers"], units, strict=True)
+        for a, b, u in zip(answers, variant["answers"], units, strict=True)
     )
     student = _student(row, line)
     if False not in right:
         return Grade(student, variant["number"], right)
-    found = _explained(variant, given, units, tolerance)
+    found = _explained(variant, answers, units, tolerance)
     return Grade(
         student,
         variant["number"],
@@ -215,7 +215,7 @@ def _graded(key: Mapping[str, Any], row: Mapping[str, str], line: int) -> Grade:
 
 
 def _explained(
-    variant: Mapping[str, Any], given: Sequence[float | None], units: Sequence[str], tolerance: float
+    variant: Mapping[str, Any], answers: Sequence[float | None], units: Sequence[str], tolerance: float
 ) -> list[tuple[str, str]]:
     """Mistakes that explain every wrong answer, those first that explain the right ones as well, then the nearest.
 
@@ -224,7 +224,7 @@ def _explained(
     found = []
     for each in variant["mistakes"]:
         escaped, gap = 0, 0.0
-        for a, b, right, unit in zip(given, each["answers"], variant["answers"], units, strict=True):
+        for a, b, right, unit in zip(answers, each["answers"], variant["answers"], units, strict=True):
             if a is None:
                 continue
             if b is not None and close(a, b, tolerance, unit):
@@ -235,8 +235,8 @@ def _explained(
                 break
         else:
             found.append((escaped, gap, each["mistake"], each["where"]))
-    least = min((each[0] for each in found), default=0)
-    nearest = sorted((each for each in found if each[0] == least), key=lambda each: each[1])
+    smallest = min((each[0] for each in found), default=0)
+    nearest = sorted((each for each in found if each[0] == smallest), key=lambda each: each[1])
     return [(mistake, where) for _unused, _unused2, mistake, where in nearest]
 
 

@@ -24,9 +24,9 @@ _NO_KEY = _(
 )
 
 
-def read_key(given: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
+def read_key(key: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
     """A key from its data or its path; raises RequestError where it cannot be read or is not whole."""
-    found, path = (given, "key") if isinstance(given, Mapping) else (_read(given), str(given))
+    found, path = (key, "key") if isinstance(key, Mapping) else (_read(key), str(key))
     if not isinstance(found, Mapping) or found.get("format") != FORMAT or "variants" not in found:
         raise RequestError(_NO_KEY.format(path=path))
     place = next(_faults(found), None)
@@ -95,13 +95,13 @@ def _faults_of(variant: Any, count: int) -> Iterator[str]:
             yield f".mistakes[{i}].answers"
 
 
-def _numbers(given: Any, count: int, *, open_too: bool = False) -> bool:
+def _numbers(values: Any, count: int, *, open_too: bool = False) -> bool:
     return (
-        isinstance(given, list | tuple)
-        and len(given) == count
-        and all((open_too and each is None) or _number(each) for each in given)
+        isinstance(values, list | tuple)
+        and len(values) == count
+        and all((open_too and each is None) or _number(each) for each in values)
     )
 
 
-def _number(given: Any) -> bool:
-    return isinstance(given, int | float) and not isinstance(given, bool) and abs(given) < LARGEST
+def _number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < LARGEST

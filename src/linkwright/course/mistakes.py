@@ -71,7 +71,7 @@ def degrees_for_radians(sheet: Sheet) -> Made:
     """The input's degrees are put into the functions as radians; or an angle is answered in radians."""
     q = next((line.result for line in sheet.lines if line.result.plain == "q"), None)
     if q is not None and q.degrees:
-        yield "q", sheet.reckoned(given={"q": math.degrees(q.amount)})
+        yield "q", sheet.reckoned(data={"q": math.degrees(q.amount)})
     radians = {
         each: math.radians(value) if each.dimension == "angle" else value
         for each, value in sheet.values.items()
@@ -84,7 +84,7 @@ def rpm_for_radians(sheet: Sheet) -> Made:
     driver = next(iter(sheet.mechanism.drivers.values()))
     if sheet.mechanism.joints[driver.joint].coordinate == "turn":
         rate = next((line.result.amount for line in sheet.lines if line.result.plain == "q'"), 0.0)
-        yield "q'", sheet.reckoned(given={"q'": rate / RPM})
+        yield "q'", sheet.reckoned(data={"q'": rate / RPM})
 
 
 def wrong_assembly_mode(sheet: Sheet) -> Made:
@@ -195,7 +195,7 @@ def arctangent_quadrant(sheet: Sheet) -> Made:
 def inertia_couple_sign(sheet: Sheet) -> Made:
     """The inertia couples are taken along the angular accelerations: of all links, or of one."""
     places = [
-        i for i, line in enumerate(sheet.lines) if line.result.plain.startswith("M_J") and not line.given
+        i for i, line in enumerate(sheet.lines) if line.result.plain.startswith("M_J") and not line.is_given
     ]
 
     for chosen in dict.fromkeys((tuple(places), *((place,) for place in places))):

@@ -69,7 +69,7 @@ def drawing(found: Variants, each: Variant, language: str, diagonal: float = DIA
 
 def data_rows(found: Variants, each: Variant, say: Say) -> list[tuple[str, str]]:
     """What a variant gives: every dimension of links and frame, loads, input and its rate."""
-    from linkwright.reports.sections.task import given, kind_of
+    from linkwright.reports.sections.task import element_data, kind_of
 
     model, rows = each.mechanism, []
     for name, (x, y) in model.frame.points.items():
@@ -82,8 +82,8 @@ def data_rows(found: Variants, each: Variant, say: Say) -> list[tuple[str, str]]
     for driver in model.drivers.values():
         rows.append((f"{driver.link} ({driver.joint})", _speed(driver.law)))
     data = to_data(model)
-    for name, told in [*data.get("joints", {}).items(), *data.get("loads", {}).items()]:
-        rows.append((name, say(_("; ")).join([kind_of(told, say), given(told, say)])))
+    for name, data_text in [*data.get("joints", {}).items(), *data.get("loads", {}).items()]:
+        rows.append((name, say(_("; ")).join([kind_of(data_text, say), element_data(data_text, say)])))
     if any(model.gravity):
         rows.append(("g", f"({model.gravity[0]:g}; {model.gravity[1]:g}) m/s²"))
     return rows

@@ -36,12 +36,12 @@ class ShareOfAnswer(Value):
         found = None if value is None else _share(value)
         if found is None or 0.0 < found <= 0.2:
             return found
-        told = _(
+        message = _(
             '"{text}" is no tolerance; give a share up to 0.2, such as 0.01 or 1 %',
             code="course.bad_tolerance",
             text=flow(value),
         )
-        reader.error(node, place, told, "", "bad-tolerance")
+        reader.error(node, place, message, "", "bad-tolerance")
         return None
 
 
@@ -121,8 +121,8 @@ def task(mechanism: Mechanism) -> Task:
 class _Reading(SectionReading):
     """The settings for a mechanism."""
 
-    def __init__(self, mechanism: Mechanism, given: Mapping[str, Any]) -> None:
-        super().__init__(SECTION, "course", given)
+    def __init__(self, mechanism: Mechanism, section: Mapping[str, Any]) -> None:
+        super().__init__(SECTION, "course", section)
         self.mechanism = mechanism
         self.given = {key: each for key, each in (self.values or {}).items() if each is not None}
 
@@ -139,21 +139,21 @@ class _Reading(SectionReading):
         assert at is not None
         return Task(self.mechanism, ranges, questions, at, tolerance)
 
-    def _quantity(self, key: str, given: Any, dimension: str) -> float | None:
+    def _quantity(self, key: str, value: Any, dimension: str) -> float | None:
         try:
-            return amount(str(given), dimension)
+            return amount(str(value), dimension)
         except QuantityError as error:
             self.note(key, error)
             return None
 
     def _ranges(self) -> dict[str, tuple[float, float]]:
         """Limits of the dimensions that change; the sizes of all links by a share where nothing is said."""
-        given = self.given.get("vary")
-        if given is None:
+        section = self.given.get("vary")
+        if section is None:
             sizes = {name: self.mechanism.dimension(name) for name in _usual_sizes(self.mechanism)}
             return {name: _by(SHARE, value) for name, value in sizes.items()}
         found = {}
-        for address, limits in given.items():
+        for address, limits in section.items():
             try:
                 value = self.mechanism.dimension(address)
             except LinkwrightError as error:
@@ -163,43 +163,43 @@ class _Reading(SectionReading):
                 found[address] = between
         return found
 
-    def _limits(self, address: str, value: float, given: Any) -> tuple[float, float] | None:
+    def _limits(self, address: str, value: float, limits: Any) -> tuple[float, float] | None:
         key = f"vary.{address}"
-        if isinstance(given, tuple) and len(given) == 2:
+        if isinstance(limits, tuple) and len(limits) == 2:
             kind = dimension_of(self.mechanism, address)
             dimension = next((name for name, each in DIMENSIONS.items() if each == kind), "dimensionless")
-            low, high = (self._quantity(key, each, dimension) for each in given)
+            low, high = (self._quantity(key, each, dimension) for each in limits)
             if low is None or high is None:
                 return None
         else:
-            share = _share(given, bare=0.01)
+            share = _share(limits, bare=0.01)
             low, high = _by(share, value)
         if -math.inf < low < high < math.inf:
             return low, high
         self.note(
             key,
-            _NO_RANGE.format(text=flow(given)),
+            _NO_RANGE.format(text=flow(limits)),
             "bad-range",
         )
         return None
 
     def _questions(self, sheet: Sheet) -> tuple[Question, ...]:
         """The numbers asked for; those of the last group, and of what drives, where nothing is said."""
-        given = self.given.get("ask")
-        if given is None:
+        section = self.given.get("ask")
+        if section is None:
             return _usual_questions(sheet)
         names = {output.column: output for output in sheet.values}
-        if not given:
-            told = _(
+        if not section:
+            message = _(
                 '"{given}" is no list of results; {hint}',
                 code="course.no_list",
                 given="[]",
                 hint=offered("", names),
             )
-            self.note("ask", told, "no-list")
+            self.note("ask", message, "no-list")
             return ()
         found = []
-        for i, name in enumerate(given):
+        for i, name in enumerate(section):
             if name is None:
                 continue
             with suppress(RequestError):
@@ -207,13 +207,13 @@ class _Reading(SectionReading):
                 if meant in sheet.values:
                     found.append(Question(meant))
                     continue
-            told = _(
+            message = _(
                 'there is no result "{name}" at this position; {hint}',
                 code="course.no_number",
                 name=name,
                 hint=offered(name, names),
             )
-            self.note(f"ask.{i}", told, "no-number")
+            self.note(f"ask.{i}", message, "no-number")
         return tuple(dict.fromkeys(found))
 
 
@@ -234,9 +234,9 @@ def _usual_sizes(mechanism: Mechanism) -> Iterator[str]:
         yield from lengths or [name for name in own if name in places and abs(found[name]) > ROUNDED]
 
 
-def _share(given: Any, *, bare: float = 1.0) -> float:
+def _share(share: Any, *, bare: float = 1.0) -> float:
     """A share as ``8 %``, or a number times ``bare``; NaN for anything else."""
-    text = flow(given).strip('"').strip()
+    text = flow(share).strip('"').strip()
     try:
         return float(text.removesuffix("%")) * (0.01 if text.endswith("%") else bare)
     except ValueError:
@@ -245,7 +245,7 @@ def _share(given: Any, *, bare: float = 1.0) -> float:
 
 def _usual_questions(sheet: Sheet) -> tuple[Question, ...]:
     """The numbers of the last group, and of what drives."""
-    asked = [(line.output, line.group) for line in sheet.lines if line.output and not _told(line)]
+    asked = [(line.output, line.group) for line in sheet.lines if line.output and not _is_asked(line)]
     asked = [(output, group) for output, group in asked if output.kind in (*PLACED, *TURNING)]
     last = asked[-1][1] if asked else ""
     ordered = sorted(asked, key=lambda each: each[1] != last)
@@ -255,12 +255,12 @@ def _usual_questions(sheet: Sheet) -> tuple[Question, ...]:
         if (group == last or output.kind in TURNING) and abs(sheet.values[output]) > NOTHING
     ]
     if sheet.mechanism.has_loads:
-        whole = [each for each in sheet.values if each.kind == "reaction" and not each.component]
-        chosen += [each for each in whole if sheet.values[each] > NOTHING]
+        forces = [each for each in sheet.values if each.kind == "reaction" and not each.component]
+        chosen += [each for each in forces if sheet.values[each] > NOTHING]
         chosen += [each for each in sheet.values if each.kind == "effort"]
     return tuple(map(Question, dict.fromkeys(chosen)))
 
 
-def _told(line: Line) -> bool:
+def _is_asked(line: Line) -> bool:
     """Whether a number is the input's own, or copied from another one."""
-    return line.given or line.formula.op in ("symbol", "number")
+    return line.is_given or line.formula.op in ("symbol", "number")

@@ -42,7 +42,7 @@ SPREAD = 4.0
 #: or size, shows other mistakes, or has the answers of another variant.
 Failing = Literal["stuck", "flat", "unlike", "mistakes", "same"]
 #: Mistakes lead to answers that are so many tolerances apart, from the right ones and from each other.
-APART = 3.0
+MIN_DIFFERENCE = 3.0
 #: What variants do that cannot be used, and what helps.
 TOO_FEW = {
     "stuck": _(
@@ -301,16 +301,17 @@ def _sound(
     if bar is not None and (angle is None or angle < min(bar, GOOD) - SLACK):
         return "flat"
     fresh = replace(_solved(asked, number, changes, mechanism), transmission_angle=angle)
-    alike = all(
-        _alike(a, b, q) for a, b, q in zip(fresh.answers, model.answers, asked.questions, strict=True)
+    consistent = all(
+        _indistinguishable(a, b, q)
+        for a, b, q in zip(fresh.answers, model.answers, asked.questions, strict=True)
     )
-    if not alike:
+    if not consistent:
         return "unlike"
     shown = {each.mistake for each, _unused in fresh.mistakes}
     return fresh if shown == {each.mistake for each, _unused in model.mistakes} else "mistakes"
 
 
-def _alike(a: float, b: float, question: Question) -> bool:
+def _indistinguishable(a: float, b: float, question: Question) -> bool:
     if question.unit == "°":
         return abs(math.remainder(a - b, 360.0)) < 45.0
     return a * b > 0.0 and 1.0 / SPREAD < a / b < SPREAD
@@ -324,7 +325,7 @@ def _solved(asked: Task, number: int, changes: Mapping[str, float], mechanism: M
     held = []
     for each in sheet.consequences():
         answers = tuple(each.values.get(output, math.nan) for output in outputs)
-        if any(not close(a, b, APART * asked.tolerance, q.unit)
+        if any(not close(a, b, MIN_DIFFERENCE * asked.tolerance, q.unit)
                for a, b, q in zip(answers, right, asked.questions, strict=True)):  # fmt: skip
             held.append((each, answers))
     return Variant(number, mechanism, dict(changes), right, tuple(held))

@@ -105,7 +105,7 @@ class Alternative:
         return Summary(f"reaction {joint} on {link}", "max"), Summary(f"reaction {joint} on {link}", "min")
 
     @property
-    def told(self) -> tuple[Summary, ...]:
+    def force_summaries(self) -> tuple[Summary, ...]:
         """Of its forces what a written evaluation tells."""
         return (*self.reactions, *EFFORTS) if self.loaded else ()
 
@@ -230,7 +230,7 @@ def _mapped(output: Mapping[str, str], label: str, source: Mechanism | str | Pat
 
 
 def _nothing_shared(labels: Sequence[str], own: Sequence[Sequence[str]]) -> str:
-    told = [
+    named = [
         _("{label!r} has {names}", label=label, names=tuple(names))
         if names
         else _("{label!r} has none", label=label)
@@ -243,6 +243,6 @@ def _nothing_shared(labels: Sequence[str], own: Sequence[Sequence[str]]) -> str:
         "the alternatives share no output to compare: {told}; say which output of each is "
         "meant, such as output={{{example}}} (on the command line --of, one name per file)",
         code="study.no_common_output",
-        told=told,
+        told=named,
         example=example,
     )

@@ -110,11 +110,11 @@ class ChangePoints:
         def at(share: Floats) -> Floats:
             return anywhere.run_designs(own, {}, self._inputs(place, share), length=share.shape[1])
 
-        share, least = lowest(
+        share, smallest = lowest(
             lambda s: np.asarray(at(s)[rows, group]), np.zeros(len(place)), np.ones(len(place))
         )
         quality = at(share[:, None])[rows, groups + group, 0]
-        return np.unique(design[(quality < -TOUCH) | (least <= MEETING * largest[design, group, 0])])
+        return np.unique(design[(quality < -TOUCH) | (smallest <= MEETING * largest[design, group, 0])])
 
     def _parallel(self, columns: Mapping[str, Floats]) -> Indices:
         """Designs in which guides become parallel between two positions."""
@@ -123,10 +123,10 @@ class ChangePoints:
         positions = self.traced.positions
         table = self.traced.table(self.sines.program, columns)
         sign = np.sign(self._along(self.sines, table))
-        following = (
+        next_sign = (
             np.roll(sign, -1, axis=2) if positions.closed else sign[:, :, [*range(1, sign.shape[2]), -1]]
         )
-        return np.flatnonzero((sign * following < 0.0).any(axis=(1, 2)))
+        return np.flatnonzero((sign * next_sign < 0.0).any(axis=(1, 2)))
 
     def _low(self, columns: Mapping[str, Floats]) -> Indices:
         if not self.groups:
@@ -142,8 +142,8 @@ class ChangePoints:
         design, group, place = np.nonzero(valleys)
         if not len(design):
             return design
-        least = self._refined(self.traced.table(self.anywhere.program, columns)[design], group, place)
-        return np.unique(design[least <= TOUCH])
+        smallest = self._refined(self.traced.table(self.anywhere.program, columns)[design], group, place)
+        return np.unique(design[smallest <= TOUCH])
 
     def _refined(self, table: Floats, group: Indices, place: Indices) -> Floats:
         """The smallest value of each group's quality between the neighbours of a position."""

@@ -9,7 +9,7 @@ from contextvars import ContextVar
 from importlib import import_module
 from typing import Any
 
-from linkwright.designs.finished_parts import identity, surrounding
+from linkwright.designs.checkpoints import current_checkpoints, identity
 from linkwright.errors import LinkwrightError
 from linkwright.formula.threads import cores
 from linkwright.words import _
@@ -88,20 +88,19 @@ def in_turn(
 ) -> Iterator[tuple[int, Any]]:
     """Results of ``work(*task)`` with the tasks' numbers, as they come; a few are on the cluster at a time.
 
-    A task whose workers died is given out again; an error of the work itself is raised. ``own``: what stands for
-    the first of every task in the names of results; the surrounding ``kept_in`` then keeps them, and those that it
-    has are not computed again.
+    A task whose workers died is submitted again; an error of the work itself is raised. ``own``: replaces the first
+    argument of every task in the keys under which the surrounding ``checkpointing`` stores the results.
     """
-    kept = surrounding()
-    names = [identity(own, *task[1:]) for task in tasks] if kept is not None and own else []
+    checkpoints = current_checkpoints()
+    names = [identity(own, *task[1:]) for task in tasks] if checkpoints is not None and own else []
     missing = [*range(len(tasks))]
     for number, name in enumerate(names):
-        if kept is not None and (there := kept.part(name)) is not None:
+        if checkpoints is not None and (there := checkpoints.part(name)) is not None:
             missing.remove(number)
             yield number, there[0]
     for number, found, seconds in _computed(client, work, tasks, missing):
-        if kept is not None and names:
-            kept.add(names[number], found, seconds)
+        if checkpoints is not None and names:
+            checkpoints.add(names[number], found, seconds)
         yield number, found
 
 
@@ -116,24 +115,24 @@ def _computed(
     numbers: dict[Any, int] = {}
     room = WAITING * hands(client)
 
-    def given(number: int) -> Any:
+    def submitted(number: int) -> Any:
         tried[number] += 1
         future = client.submit(_timed, work, *tasks[number], pure=False)
         numbers[future] = number
         return future
 
-    futures = [given(number) for _unused, number in zip(range(room), left, strict=False)]
+    futures = [submitted(number) for _unused, number in zip(range(room), left, strict=False)]
     waiting = dask.as_completed(futures, loop=client.loop)
     try:
         for future in waiting:
             number = numbers.pop(future)
             if future.status == "error" and _died(future) and tried[number] < AGAIN:
-                waiting.add(given(number))
+                waiting.add(submitted(number))
                 continue
             yield number, *future.result()
             future.release()
             for onward in left:
-                waiting.add(given(onward))
+                waiting.add(submitted(onward))
                 break
     finally:
         client.cancel(list(numbers))

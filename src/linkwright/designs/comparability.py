@@ -32,13 +32,13 @@ def unlike(alternatives: Sequence[Alternative]) -> tuple[str, ...]:
         ): lambda each: (each.output.dimension,),
     }
     return tuple(
-        said.format(told=[_told(each, read(each)) for each in alternatives])
-        for said, read in tasks.items()
+        message.format(told=[_named_facts(each, read(each)) for each in alternatives])
+        for message, read in tasks.items()
         if len({_rounded(read(each)) for each in alternatives}) > 1
     )
 
 
-def _told(each: Alternative, facts: tuple[str, ...]) -> Message:
+def _named_facts(each: Alternative, facts: tuple[str, ...]) -> Message:
     cause = facts or _("none")
     return _("{name}: {cause}", name=each.label, cause=cause)
 

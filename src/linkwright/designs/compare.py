@@ -238,9 +238,9 @@ def compare(
     asked = criteria(USUAL if metrics is None else metrics)
     if metrics is None:
         asked = [each for each in asked if not each.forces or any(a.loaded for a in found)]
-    given = _weights(weights or {}, asked)
+    weighting = _weights(weights or {}, asked)
     for alternative in found:
-        alternative.analysis.ask(alternative.told)
+        alternative.analysis.ask(alternative.force_summaries)
         ask((each.name for each in asked), alternative.analysis, alternative.asked)
     rows = []
     progress = current_progress()
@@ -262,7 +262,7 @@ def compare(
                     known=known,
                 )
             )
-        rows.append(Row(each, values, given.get(each.name, 1.0)))
+        rows.append(Row(each, values, weighting.get(each.name, 1.0)))
     if progress is not None:
         progress(len(asked), len(asked))
     return Comparison(tuple(found), tuple(rows), fluctuation)

@@ -18,7 +18,7 @@ from linkwright.analysis.ranges_of_designs import ranged, ranges_of_designs
 from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.progress import Progress, paced, part_of
-from linkwright.designs.finished_parts import identity, once, surrounding
+from linkwright.designs.checkpoints import checkpointed, current_checkpoints, identity
 from linkwright.designs.one_by_one import changes_of
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.write import dump
@@ -93,20 +93,20 @@ def numbers_of(
     """
     found = Numbers({name: np.full(len(next(iter(columns.values()))), np.nan) for name in names}, {}, {}, {})
     cycles, total = _cycles(mechanism, columns, names, asked) if together else [], len(designs)
-    kept, compiled = surrounding() is not None, backend == "auto" and available()
-    own = identity(dump(replace(mechanism, optimize={})), *known) if kept else ""
-    whole = total <= PIECE if kept else progress is None or (compiled and total <= FEW)
-    serving: Backend = "llvm" if compiled and not whole else backend  # as it serves all together
+    saving, compiled = current_checkpoints() is not None, backend == "auto" and available()
+    own = identity(dump(replace(mechanism, optimize={})), *known) if saving else ""
+    at_once = total <= PIECE if saving else progress is None or (compiled and total <= FEW)
+    serving: Backend = "llvm" if compiled and not at_once else backend  # as it serves all together
     unsure = np.ones((len(names), total), dtype=np.bool_)
     for k, cycle in enumerate(cycles):
         tell = part_of(progress, k, len(cycles) + 1)
         rows = [names.index(name) for name in cycle.kinds]
         found.dimensions.update(cycle.kinds)
-        for low, high in chunks(total, PIECE) if kept else [(0, total)] if whole else paced(total):
+        for low, high in chunks(total, PIECE) if saving else [(0, total)] if at_once else paced(total):
             some = designs[low:high]
             part = {address: column[some] for address, column in columns.items()}
             evaluate = partial(cycle.evaluate, part, threads=threads, backend=serving)
-            values, sure = once(evaluate, partial(tuple, (own, [*cycle.kinds], serving, part)))
+            values, sure = checkpointed(evaluate, partial(tuple, (own, [*cycle.kinds], serving, part)))
             for name, column in values.items():
                 found.values[name][some[sure]] = column[sure]
             unsure[rows, low:high] = ~sure
@@ -117,7 +117,9 @@ def numbers_of(
         index = int(designs[place])
         rest = [name for name, row in zip(names, unsure, strict=True) if row[place]]
         changes = changes_of(columns, index)
-        numbers, why, notes = once(partial(alone, changes, rest), partial(tuple, (own, changes, *rest)))
+        numbers, why, notes = checkpointed(
+            partial(alone, changes, rest), partial(tuple, (own, changes, *rest))
+        )
         found.troubled.update({index: why} if why else {})
         found.notes.update(dict.fromkeys(notes))
         for name, (value, dimension) in numbers.items():

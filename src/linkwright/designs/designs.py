@@ -73,8 +73,8 @@ class Sweep(Plotted, Tabular, Frozen):
         if self.steps is None:
             return self.of_motion
         kinds = (self.dimension(each) for each in self.summaries)
-        told = note_of_positions(self.mechanism, self.steps, self.summaries, kinds)
-        return self.of_motion if told is None else (*self.of_motion, told)
+        position_note = note_of_positions(self.mechanism, self.steps, self.summaries, kinds)
+        return self.of_motion if position_note is None else (*self.of_motion, position_note)
 
     @property
     def designs(self) -> int:
@@ -134,9 +134,9 @@ class Sweep(Plotted, Tabular, Frozen):
         }
 
     def __repr__(self) -> str:
-        kept = int(self.ok.sum())
+        passing = int(self.ok.sum())
         names = ", ".join(self.columns())
-        return f"Sweep({self.mechanism.name!r}: {self.designs} designs, {kept} pass the cycle; {names})"
+        return f"Sweep({self.mechanism.name!r}: {self.designs} designs, {passing} pass the cycle; {names})"
 
 
 def sweep(

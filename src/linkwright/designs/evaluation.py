@@ -13,7 +13,7 @@ from linkwright.errors import speaker
 from linkwright.words import Say, _, language_of
 
 #: Share of a cycle beside a change point at which the direction of an infinite reaction is told.
-BESIDE = 1e-3
+NEIGHBOUR_SHARE = 1e-3
 #: Share of its largest value up to which a reaction's least one is where it passes zero.
 PASSING = 1e-9
 #: Reasons given per alternative.
@@ -21,7 +21,7 @@ REASONS = 3
 MARK = "*"
 
 
-def told(value: float, dimension: str) -> str:
+def value_text(value: float, dimension: str) -> str:
     """A value with its unit for a sentence: four digits, large numbers written out."""
     size = abs(value) * SHOWN.get(dimension, ("", 1.0))[1]
     return shown(value, dimension, 4 if size < 1e4 else 6)
@@ -33,8 +33,8 @@ def tables(comparison: Comparison, language: str = "en") -> tuple[Table, ...]:
     say = speaker(language)
     rows: list[list[Cell]] = []
     for row in comparison.rows:
-        marks = [f" {MARK}" if index in row.best else "  " for index in range(len(row.values))]
-        values = zip(row.values, marks, strict=True)
+        stars = [f" {MARK}" if index in row.best else "  " for index in range(len(row.values))]
+        values = zip(row.values, stars, strict=True)
         cells = ("—  " if v is None else Amount(v.value, v.dimension, 5, mark=mark) for v, mark in values)
         rows.append([row.criterion.label(language), *cells])
     head = [_("design number"), *comparison.labels]
@@ -91,8 +91,8 @@ def _against(comparison: Comparison, row: Row, index: int, say: Say) -> str:
             else _("{name}: {mine}, against {theirs} of {other}")
         ).format(
             name=row.criterion.label(language_of(say)),
-            mine=told(mine.value, mine.dimension),
-            theirs=told(theirs.value, theirs.dimension),
+            mine=value_text(mine.value, mine.dimension),
+            theirs=value_text(theirs.value, theirs.dimension),
             other=comparison.labels[winner],
             ratio=f"{ratio:.3g}",
         )
@@ -128,7 +128,7 @@ def _motion(each: Alternative, say: Say) -> str:
             "accelerations up to {second}",
             label=each.label,
             output=str(each.output),
-            travel=_measured(each, "travel") or told(each.way, each.output.dimension),
+            travel=_measured(each, "travel") or value_text(each.way, each.output.dimension),
             rate=_measured(each, "output_velocity"),
             second=_measured(each, "output_acceleration"),
         )
@@ -138,26 +138,26 @@ def _motion(each: Alternative, say: Say) -> str:
 def _measured(each: Alternative, name: str) -> str:
     """A number of the comparison for a sentence; empty where there is none."""
     found = criterion(name).measure(each)
-    return "" if found is None else told(found.value, found.dimension)
+    return "" if found is None else value_text(found.value, found.dimension)
 
 
 def _pivot(each: Alternative, say: Say) -> str:
     joint, link = each.pivot
-    most, least = map(each.analysis.part, each.reactions)
-    force = each.forces_at(most.time).reaction(joint, on=link)[0]
+    highest, lowest = map(each.analysis.part, each.reactions)
+    force = each.forces_at(highest.time).reaction(joint, on=link)[0]
     if not np.isfinite(force).all():  # on a change point: as it is beside
-        beside = most.time - BESIDE * (each.motion.positions.period or 0.0)
-        force = each.forces_at(beside).reaction(joint, on=link)[0]
+        neighbour = highest.time - NEIGHBOUR_SHARE * (each.motion.positions.period or 0.0)
+        force = each.forces_at(neighbour).reaction(joint, on=link)[0]
     return say(
         _(
             "pivot {joint} of {label} carries at most {most} (at input {at}, direction "
             "{direction}) and at least {least}",
             label=each.label,
             joint=joint,
-            most=told(most.value, "force"),
-            least=told(least.value if least.value > PASSING * most.value else 0.0, "force"),
-            direction=told(float(np.arctan2(force[1], force[0])), "angle"),
-            at=told(most.input, each.analysis.input_dimension),
+            most=value_text(highest.value, "force"),
+            least=value_text(lowest.value if lowest.value > PASSING * highest.value else 0.0, "force"),
+            direction=value_text(float(np.arctan2(force[1], force[0])), "angle"),
+            at=value_text(highest.input, each.analysis.input_dimension),
         )
     )
 
@@ -172,9 +172,9 @@ def _torque(each: Alternative, say: Say) -> str:
             "that of {label} lies between {low} and {high}, root mean square {root}; found from "
             "the joint forces and from the powers it agrees within {gap}",
             label=each.label,
-            low=told(low, dimension),
-            high=told(high, dimension),
-            root=told(root, dimension),
+            low=value_text(low, dimension),
+            high=value_text(high, dimension),
+            root=value_text(root, dimension),
             gap=shown(gap, dimension, 2),
         )
     )
@@ -212,12 +212,12 @@ def _verdict(comparison: Comparison, say: Say) -> list[str]:
     ]
     for rank in others:
         names = _best_in(comparison, rank, say)
-        said = (
+        verdict = (
             _("{label} ({score} of 100) is to be preferred where this matters most: {names}.")
             if names
             else _("{label} ({score} of 100) is best in none of the metrics.")
         )
-        lines.append(say(said.format(label=rank.label, score=f"{100 * rank.score:.0f}", names=names)))
+        lines.append(say(verdict.format(label=rank.label, score=f"{100 * rank.score:.0f}", names=names)))
     return lines
 
 

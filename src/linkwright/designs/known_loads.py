@@ -18,7 +18,7 @@ from linkwright.applied_loads.over_cycle import activity
 from linkwright.applied_loads.phases import Always
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import kind_of, owners_of
-from linkwright.designs.loaded_cycle import whole_turns, with_limits
+from linkwright.designs.loaded_cycle import full_turns, with_limits
 from linkwright.designs.traced_outputs import Traced
 from linkwright.errors import LinkwrightError
 from linkwright.formula.table import Tables
@@ -61,15 +61,15 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     rubbing = any(kind_of(name) == "friction" for name in fields)
     if rubbing and not can_be_traced(plain.forces.friction):
         raise LinkwrightError(FRICTION_SLOPE)
-    given = [
+    fields_needed = [
         name
         for name in (plain.forces.fields_needed() if rubbing else fields)
         if name not in plain.nominal.states
     ]
-    if not given:
+    if not fields_needed:
         return KnownLoads()
     run_forces(plain.nominal, False)
-    named = owners_of("magnitude", given)
+    named = owners_of("magnitude", fields_needed)
     loads = [plain.mechanism.loads[name] for name in named]
     for load in loads:
         if not load.magnitude.has_formula:
@@ -105,7 +105,7 @@ def _moving(
         return {}, {}
     if plain.solver.motion.angles.carried or plain.solver.manner.flipping:
         return None
-    over_time = not whole_turns(plain)
+    over_time = not full_turns(plain)
     if over_time and (plain.nominal.states or not along.outputs or any(each.through_end for each in sizes)):
         return None
     columns = {name: np.array([plain.mechanism.dimension(name)]) for name in by}

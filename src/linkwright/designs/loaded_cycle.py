@@ -100,8 +100,8 @@ def with_limits(traced: Traced, known: AlongInput) -> LoadedCycle | None:
     if known.outputs:
         phases = [traced.mechanism.loads[name].magnitude.limits for name in sorted(known.names)]
         try:
-            whole = MotionSignals(traced.nominal).turned
-            machine = Machine(traced.mechanism, whole, traced.solver.manner.free)
+            cycle = MotionSignals(traced.nominal).turned
+            machine = Machine(traced.mechanism, cycle, traced.solver.manner.free)
             limits = LoadLimits(machine, [phase for phase in phases if phase is not None])
         except (NotTogether, LinkwrightError):
             return None
@@ -112,13 +112,13 @@ def with_limits(traced: Traced, known: AlongInput) -> LoadedCycle | None:
 def _loads_of(traced: Traced, varied: Collection[str], fields: Iterable[str]) -> AlongInput | None:
     """The loads behind a program's inputs per position; None where some input is no load that can be traced."""
     mechanism, carried = traced.mechanism, traced.solver.motion.next_states
-    given = tuple(name for name in fields if name not in carried)
-    rubbing = any(kind_of(name) == "friction" for name in given)
+    inputs = tuple(name for name in fields if name not in carried)
+    rubbing = any(kind_of(name) == "friction" for name in inputs)
     if rubbing:
-        given = traced.forces.fields_needed()
-    names = owners_of("magnitude", given)
+        inputs = traced.forces.fields_needed()
+    names = owners_of("magnitude", inputs)
     terms = traced.forces.friction.terms if rubbing else ()
-    if len(names) + len(terms) < len(given) or (rubbing and not can_be_traced(traced.forces.friction)):
+    if len(names) + len(terms) < len(inputs) or (rubbing and not can_be_traced(traced.forces.friction)):
         return None
     if not names:
         return AlongInput(frozenset(), rubbing=rubbing)
@@ -126,7 +126,7 @@ def _loads_of(traced: Traced, varied: Collection[str], fields: Iterable[str]) ->
     sizes = [load.magnitude for load in loads]
     if not all(each.traceable(mechanism) for each in sizes):
         return None
-    if not whole_turns(traced, varied) and (
+    if not full_turns(traced, varied) and (
         (any(each.through_end for each in sizes) and not turns_steadily(mechanism))
         or _moves_phases(loads, varied, mechanism)
     ):
@@ -152,7 +152,7 @@ def friction_doubt(traced: Traced) -> Scalar:
     return 0.0 if friction is None else select(friction.certain, 0.0, 1.0)
 
 
-def whole_turns(traced: Traced, varied: Iterable[str] = ()) -> int:
+def full_turns(traced: Traced, varied: Iterable[str] = ()) -> int:
     """Of how many turns of the only driver the cycle is, closed and of constant speed, whatever varies; else 0."""
     drivers = list(traced.mechanism.drivers.values())
     speed = drivers[0].law.constant_speed if len(drivers) == 1 else None

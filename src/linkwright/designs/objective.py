@@ -114,7 +114,7 @@ class Objective:
 
     def _columns(self, values: ArrayLike) -> dict[str, Floats]:
         try:
-            given = np.asarray(values, dtype=float)
+            array = np.asarray(values, dtype=float)
         except (TypeError, ValueError):
             raise RequestError(
                 _(
@@ -124,7 +124,7 @@ class Objective:
                     given=repr(values)[:60],
                 )
             ) from None
-        if given.ndim != 2 or given.shape[1] != len(self.names):
+        if array.ndim != 2 or array.shape[1] != len(self.names):
             raise RequestError(
                 _(
                     "the designs must have the columns {names}, not the shape {shape}",
@@ -133,7 +133,7 @@ class Objective:
                     shape=str(np.shape(values)),
                 )
             )
-        return dict(zip(self.names, given.T, strict=True))
+        return dict(zip(self.names, array.T, strict=True))
 
     def __repr__(self) -> str:
         return f"Objective({', '.join(self.names)})"
@@ -177,14 +177,14 @@ def objective(
                 code="study.nothing_varied",
             )
         )
-    given = weighted(terms)
+    weights = weighted(terms)
     sampled = steps is not None or at is not None or not mechanism.drivers
     numbers = {
         term: weight
-        for term, weight in given.items()
+        for term, weight in weights.items()
         if isinstance(term, str) and (is_metric(term) or not sampled)
     }
-    others = {term: weight for term, weight in given.items() if term not in numbers}
+    others = {term: weight for term, weight in weights.items() if term not in numbers}
     compiled: Backend = "llvm" if backend == "auto" and available() else backend
     parts: list[Part] = []
     if numbers:
@@ -276,12 +276,12 @@ _paths: Recent[Mechanism, Part] = Recent(16)
 def _of_positions(
     mechanism: Mechanism,
     names: tuple[str, ...],
-    given: dict[str | PathError, float],
+    weights: dict[str | PathError, float],
     steps: int,
     at: ArrayLike | None,
     backend: Backend,
 ) -> Part:
-    points = number_of_points(given)
+    points = number_of_points(weights)
     positions = at_inputs(mechanism, at) if at is not None else over_cycle(mechanism, points or steps)
     if not positions.count:
         raise RequestError(
@@ -302,7 +302,7 @@ def _of_positions(
         )
     if at is None:
         _refuse_moved_cycle(mechanism, names, positions)
-    return Builder(mechanism, names, positions, given).built(backend)
+    return Builder(mechanism, names, positions, weights).built(backend)
 
 
 def _refuse_moved_cycle(mechanism: Mechanism, names: Iterable[str], positions: Positions) -> None:

@@ -229,11 +229,11 @@ class Prepared:
 
 def is_near(row: Floats) -> bool:
     """Whether a change point or a gap may lie between two positions, by how near every position (n,) is to one."""
-    least, most = row.item(row.argmin()), row.item(row.argmax())  # many times faster than min and max
-    if least - NEAR > most - least:  # no step is longer than all of them together
+    smallest, largest = row.item(row.argmin()), row.item(row.argmax())  # many times faster than min and max
+    if smallest - NEAR > largest - smallest:  # no step is longer than all of them together
         return False
     steps = row[1:] - row[:-1]
-    return bool(least - NEAR < max(steps[steps.argmax()], -steps[steps.argmin()]))
+    return bool(smallest - NEAR < max(steps[steps.argmax()], -steps[steps.argmin()]))
 
 
 def agree(traced: Traced, outputs: Iterable[Output]) -> Mask:
@@ -250,7 +250,7 @@ def agree(traced: Traced, outputs: Iterable[Output]) -> Mask:
         length = turned(sense * (lowest - highest), lap)
         gone = way - length
         rate = traced.solver.outputs.value(program_names(traced.mechanism, output)[1][0])
-        beside = minimum(minimum(way, lap - way), absolute(gone)) <= AT
-        apart = minimum(length, lap - length) > step
-        found = logic("and", found, logic("and", apart, logic("or", rate * gone >= 0.0, beside)))
+        near_end = minimum(minimum(way, lap - way), absolute(gone)) <= AT
+        separated = minimum(length, lap - length) > step
+        found = logic("and", found, logic("and", separated, logic("or", rate * gone >= 0.0, near_end)))
     return found

@@ -54,17 +54,17 @@ class Range:
         return written(value, self.unit)
 
 
-def parse_range(mechanism: Mechanism, address: str, given: str | ArrayLike) -> Range:
+def parse_range(mechanism: Mechanism, address: str, values: str | ArrayLike) -> Range:
     """The values from a text, or from numbers in SI.
 
     Raises:
         LinkwrightError: a text that is no range, a unit that does not fit the dimension.
     """
-    if not isinstance(given, str):
-        return Range(address, np.atleast_1d(np.asarray(given, dtype=float)))
-    with about(f"{address}={given}"):
-        found = _parsed(address, given.strip())
-        _require_unit(mechanism, address, found.unit, given)
+    if not isinstance(values, str):
+        return Range(address, np.atleast_1d(np.asarray(values, dtype=float)))
+    with about(f"{address}={values}"):
+        found = _parsed(address, values.strip())
+        _require_unit(mechanism, address, found.unit, values)
     return found
 
 
@@ -139,7 +139,7 @@ def _quantity(part: str, unit: str, address: str, text: str) -> tuple[float, str
     return value, own
 
 
-def _count(text: str | None, address: str, whole: str) -> int:
+def _count(text: str | None, address: str, full_text: str) -> int:
     if text is None:
         return USUAL_COUNT
     if not text.strip().isdecimal() or int(text) < 1:
@@ -149,7 +149,7 @@ def _count(text: str | None, address: str, whole: str) -> int:
                 "such as :11",
                 code="study.no_count",
                 address=address,
-                whole=whole,
+                whole=full_text,
                 text=text.strip(),
             )
         )
@@ -159,7 +159,7 @@ def _count(text: str | None, address: str, whole: str) -> int:
                 "{address}={whole}: {count} values are too many; give a million or fewer",
                 code="study.count_large",
                 address=address,
-                whole=whole,
+                whole=full_text,
                 count=text,
             )
         )
@@ -174,7 +174,7 @@ def _require_unit(mechanism: Mechanism, address: str, unit: str, text: str) -> N
     kind = units.unit(unit)[1] if unit else units.NONE
     if kind != expected:
         need, example = units.name_of(expected), units.si_symbol(expected)
-        told = (
+        mismatch = (
             _("it has the unit {unit}", code="study.has_unit", unit=unit)
             if unit
             else _("it has no unit", code="study.has_no_unit")
@@ -191,7 +191,7 @@ def _require_unit(mechanism: Mechanism, address: str, unit: str, text: str) -> N
                 address=address,
                 text=text,
                 need=need,
-                told=told,
+                told=mismatch,
                 write=write,
             )
         )

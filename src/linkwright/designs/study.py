@@ -22,12 +22,12 @@ from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, csv_text, unused
 from linkwright.designs.alternatives import Alternative
+from linkwright.designs.checkpoints import identity
 from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import Criterion, criteria
 from linkwright.designs.design_numbers import numbers_of
 from linkwright.designs.designs import sweep
 from linkwright.designs.failures import Failure
-from linkwright.designs.finished_parts import identity
 from linkwright.designs.ranges import Range
 from linkwright.designs.sampling import grid, sobol
 from linkwright.designs.varied_dimensions import varied_ranges
@@ -352,15 +352,15 @@ class _Work:
             if np.isnan(values[ok]).all():
                 if (missing := unloaded(self.mechanism, [name])) is not None:
                     raise RequestError(missing)
-                told = _(
+                message = _(
                     "{name!r} does not apply to {mechanism!r}",
                     code="study.does_not_apply",
                     name=name,
                     mechanism=self.mechanism.name,
                 )
                 if self.notes:
-                    raise RequestError(_("{name}: {cause}", name=told, cause=list(self.notes)))
-                raise RequestError(with_remedy(told, _("leave it out", code="study.leave_out")))
+                    raise RequestError(_("{name}: {cause}", name=message, cause=list(self.notes)))
+                raise RequestError(with_remedy(message, _("leave it out", code="study.leave_out")))
 
     def _troubles(self) -> list[Failure]:
         """Designs for which a metric could not be found."""
@@ -386,7 +386,7 @@ def _piece(
 
 
 def _none_moves(count: int, failures: Iterable[Failure]) -> str:
-    told = [
+    causes = [
         (
             _("{count} fails {place}, such as: {example}")
             if f.count == 1
@@ -398,5 +398,5 @@ def _none_moves(count: int, failures: Iterable[Failure]) -> str:
         "none of the {count} designs can pass its cycle: {told}; widen or move the ranges",
         code="study.none_passes",
         count=count,
-        told=told,
+        told=causes,
     )

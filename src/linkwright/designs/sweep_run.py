@@ -13,7 +13,7 @@ from linkwright.core.progress import Progress, current_progress, paced
 from linkwright.cycle.load_limits import FoundLimits
 from linkwright.cycle.summary import Summary, finished, reductions
 from linkwright.designs.change_points import ChangePoints, near_enough
-from linkwright.designs.finished_parts import identity, once
+from linkwright.designs.checkpoints import checkpointed, identity
 from linkwright.designs.loaded_cycle import LoadedCycle, loaded_cycle
 from linkwright.designs.one_by_one import changes_of, motion_alone, outputs_alone, places_in, summary_of
 from linkwright.designs.traced_outputs import NEAREST, VALID, Traced
@@ -91,8 +91,8 @@ class SweepRun:
         self._reduced = {each.output: self.quantities[each.output] for each in self.asked}
         self.reductions = [*reductions(self.asked, self.quantities), Reduction(NEAREST, "min")]
         self.program = self.traced.program(self._reduced)
-        given, carried = {*self.program.fields}, self.traced.solver.motion.next_states.keys()
-        self._followed, self._under_loads = bool(given & carried), bool(given - carried)
+        inputs, carried = {*self.program.fields}, self.traced.solver.motion.next_states.keys()
+        self._state_dependent, self._under_loads = bool(inputs & carried), bool(inputs - carried)
         self.unloaded: dict[int, str] = {}
         self.alone: set[int] = set()
         self._programs: dict[tuple[str, ...], tuple[list[Quantity], Program]] = {}
@@ -163,7 +163,7 @@ class SweepRun:
 
     def _curves(self, names: Sequence[str], part: Mapping[str, Floats], first: int) -> dict[str, Floats]:
         """The outputs of a block, (designs, n) each; kept where parts are kept."""
-        return once(lambda: self._curves_found(names, part, first), lambda: (self.own, part, *names))
+        return checkpointed(lambda: self._curves_found(names, part, first), lambda: (self.own, part, *names))
 
     def _curves_found(
         self, names: Sequence[str], part: Mapping[str, Floats], first: int
@@ -223,7 +223,7 @@ class SweepRun:
             new = {k - first: why for k, why in self.unloaded.items() if k not in unloaded}
             return results, new, [k - first for k in self.alone - alone]
 
-        results, unloaded, alone = once(found, lambda: (self.own, part))
+        results, unloaded, alone = checkpointed(found, lambda: (self.own, part))
         self.unloaded |= {first + k: why for k, why in unloaded.items()}
         self.alone |= {first + k for k in alone}
         return results
@@ -285,7 +285,7 @@ class SweepRun:
     @cached_property
     def _tracked(self) -> TrackedStates | None:
         """What tracks groups without closed form, and counts turns; None where nothing must be."""
-        if not self._followed or self._loaded is None:
+        if not self._state_dependent or self._loaded is None:
             return None
         solver, compiled = self._loaded.traced.solver, self.manner.backend != "numpy"
         return tracked_states(self.traced.nominal, solver, compiled)
@@ -333,22 +333,22 @@ class SweepRun:
             backend=self.backend,
         )
         count = np.asarray(found[VALID_COUNT])
-        whole = count == self.positions.count
-        results: Results = {VALID_COUNT: found[VALID_COUNT], PASSED: whole.astype(np.int64)}
+        complete = count == self.positions.count
+        results: Results = {VALID_COUNT: found[VALID_COUNT], PASSED: complete.astype(np.int64)}
         for each in self.asked:
             results[each.name] = finished(each, self.quantities[each.output], found, self._input)
         if margin is not None:
             results[MARGIN] = margin
-        alone = whole & loaded.doubtful(found, limits) | self._touching(found, part, whole)
-        return results, np.flatnonzero(alone | (self.manner.partial & ~whole & (count > 0)))
+        alone = complete & loaded.doubtful(found, limits) | self._touching(found, part, complete)
+        return results, np.flatnonzero(alone | (self.manner.partial & ~complete & (count > 0)))
 
-    def _touching(self, found: Results, part: Mapping[str, Floats], whole: Flags) -> Flags:
+    def _touching(self, found: Results, part: Mapping[str, Floats], complete: Flags) -> Flags:
         """Which designs of a block that reach the ``whole`` cycle touch a change point between two positions, or
         cannot pass there."""
-        touching = np.zeros(len(whole), dtype=np.bool_)
-        if not self._followed and self.positions.count >= 3:
+        touching = np.zeros(len(complete), dtype=np.bool_)
+        if not self._state_dependent and self.positions.count >= 3:
             with np.errstate(invalid="ignore"):
-                near = np.flatnonzero(whole & (found[f"{NEAREST}.min"] < near_enough(self.positions)))
+                near = np.flatnonzero(complete & (found[f"{NEAREST}.min"] < near_enough(self.positions)))
             if len(near):
                 near = near[self._change_points.designs({a: c[near] for a, c in part.items()})]
             touching[near] = True

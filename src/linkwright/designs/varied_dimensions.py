@@ -53,7 +53,7 @@ def varied_ranges(
     """
     require(vary, Mapping)
     checked_addresses(mechanism, vary)
-    ranges = tuple(parse_range(mechanism, address, given) for address, given in vary.items())
+    ranges = tuple(parse_range(mechanism, address, values) for address, values in vary.items())
     if not ranges:
         raise RequestError(
             _(
@@ -94,8 +94,8 @@ def gives_part_of_tooth(mechanism: Mechanism, address: str, value: float) -> boo
         changed = mechanism.with_dimensions({address: float(value)})
     except LinkwrightError:
         return False
-    given = ((changed.declared(name), number) for name, number in changed.dimensions().items())
-    return any(isinstance(declared, Numbers) and not is_integer(number) for declared, number in given)
+    numbers = ((changed.declared(name), number) for name, number in changed.dimensions().items())
+    return any(isinstance(declared, Numbers) and not is_integer(number) for declared, number in numbers)
 
 
 def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[str, Floats]:
@@ -129,12 +129,12 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
             )
         _check(mechanism, address, column)
     if len(lengths) > 1:
-        told = ", ".join(f"{address}: {len(column)}" for address, column in columns.items())
+        lengths_text = ", ".join(f"{address}: {len(column)}" for address, column in columns.items())
         raise RequestError(
             _(
                 "the dimensions have different numbers of values ({told}); give one per design each",
                 code="study.uneven",
-                told=told,
+                told=lengths_text,
             )
         )
     count = lengths.pop() if lengths else 1

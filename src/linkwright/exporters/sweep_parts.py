@@ -82,9 +82,9 @@ class Plan:
         """What finished parts must agree with."""
         known = sorted(self.mechanism.dimensions().items()), sorted(self.mechanism.assembly.items())
         values = [(each.address, each.values.tobytes()) for each in self.ranges]
-        said = (known, sorted(map(repr, self.mechanism.loads.items())), values, self.outputs, self.sampling,
+        identity_data = (known, sorted(map(repr, self.mechanism.loads.items())), values, self.outputs, self.sampling,
                 self.designs, self.seed, self.steps, self.part, VERSION)  # fmt: skip
-        return hashlib.blake2b(repr(said).encode(), digest_size=16).hexdigest()
+        return hashlib.blake2b(repr(identity_data).encode(), digest_size=16).hexdigest()
 
 
 def part_content(plan: Plan, number: int, threads: int | None = 1) -> bytes:
@@ -191,7 +191,7 @@ class SweepParts(Tabular):
         if largest is None:
             metric = METRICS.get(name.partition(" ")[0])
             largest = metric is not None and metric.better == "higher"
-        kept: dict[str, Floats] = {}
+        best_columns: dict[str, Floats] = {}
         for part in self.each():
             if name not in part:
                 raise RequestError(
@@ -202,12 +202,16 @@ class SweepParts(Tabular):
                         names=tuple(part),
                     )
                 )
-            merged = {key: np.concatenate([kept[key], each]) for key, each in part.items()} if kept else part
+            merged = (
+                {key: np.concatenate([best_columns[key], each]) for key, each in part.items()}
+                if best_columns
+                else part
+            )
             sizes = -merged[name] if largest else merged[name]
             order = np.argsort(sizes, kind="stable")
             order = order[np.isfinite(merged[name][order])][:count]
-            kept = {key: each[order] for key, each in merged.items()}
-        return kept
+            best_columns = {key: each[order] for key, each in merged.items()}
+        return best_columns
 
     def ranges(self) -> dict[str, tuple[float, float, int]]:
         """Least and greatest value of every column, and how many designs have one."""
@@ -271,9 +275,9 @@ def sweep_parts(
     progress = progress or current_progress()
     done = plan.designs - sum(plan.rows(number) for number in missing)
 
-    def within(share: int, whole: int) -> None:
+    def within(share: int, total: int) -> None:
         if progress is not None:
-            progress(min(done + plan.part * share // whole, plan.designs), plan.designs)
+            progress(min(done + plan.part * share // total, plan.designs), plan.designs)
 
     with reporting(None if progress is None else within):
         for number, content in _made(plan, missing, client if client is not None else current(), threads):
@@ -319,9 +323,14 @@ def _missing(found: SweepParts) -> list[int]:
     _unused, parquet = _arrow()
     make_folder(found.folder)
     note, digest = found.folder / "sweep.json", found.plan.digest
-    said = {"plan": digest, "designs": found.designs, "parts": found.parts, "outputs": found.plan.outputs}
+    found_data = {
+        "plan": digest,
+        "designs": found.designs,
+        "parts": found.parts,
+        "outputs": found.plan.outputs,
+    }
     try:
-        atomic_write(note, json.dumps(said, indent=1).encode(), force=False)
+        atomic_write(note, json.dumps(found_data, indent=1).encode(), force=False)
     except RequestError:
         if not note.exists():
             raise

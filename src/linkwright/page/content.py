@@ -73,7 +73,7 @@ def _model(motion: Motion, text: str | None) -> Plain:
     document = Document(text, "model", read_text)
     changeable = dimensions(document, set(values))
     return {
-        **_said(motion.mechanism, text),
+        **_texts(motion.mechanism, text),
         "module": base64.b64encode(wasm_module(programs.main)).decode(),
         "program": programs.main.names,
         "values": values,
@@ -100,11 +100,13 @@ def _model(motion: Motion, text: str | None) -> Plain:
     }
 
 
-def _said(mechanism: Mechanism, text: str) -> Plain:
+def _texts(mechanism: Mechanism, text: str) -> Plain:
     """Name, purpose and source in every language; the text of the file."""
-    told = {"name": mechanism.name, "purpose": mechanism.purpose, "source": mechanism.source}
-    said = {key: {each: in_language(given, each) for each in LANGUAGES} for key, given in told.items()}
-    return {**said, "text": text}
+    texts_of_model = {"name": mechanism.name, "purpose": mechanism.purpose, "source": mechanism.source}
+    translated = {
+        key: {each: in_language(given, each) for each in LANGUAGES} for key, given in texts_of_model.items()
+    }
+    return {**translated, "text": text}
 
 
 def _machine(motion: Motion) -> Machine:
@@ -202,7 +204,7 @@ class LivingPage:
 
 
 def living_page(
-    machine: Mechanism | Document, *beside: Mechanism | Document, steps: int = STEPS, language: str = "en"
+    machine: Mechanism | Document, *compared: Mechanism | Document, steps: int = STEPS, language: str = "en"
 ) -> LivingPage:
     """The living page of a machine, with others beside it for comparison.
 
@@ -216,4 +218,4 @@ def living_page(
         PositionError: a position of a cycle cannot be reached.
         StructureError, AssemblyError, CycleError: as :func:`linkwright.solve_motion`.
     """
-    return LivingPage(page([solved(each, steps) for each in (machine, *beside)], language))
+    return LivingPage(page([solved(each, steps) for each in (machine, *compared)], language))

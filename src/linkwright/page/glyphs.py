@@ -39,7 +39,7 @@ _LENGTHS = 2
 
 def glyphs(machine: Machine, index: int) -> list[Plain]:
     """All of a machine's drawing; arrows of the drivers stand as at the position ``index``."""
-    found = [*_Following(machine).all, *_links(machine), *_guides(machine)]
+    found = [*_Tracked(machine).all, *_links(machine), *_guides(machine)]
     found += [*_pins(machine), *_welds(machine)]
     found += [_tied(machine, part) for part in input_arrows(machine, index)]
     found += [glyph for load in machine.motion.mechanism.loads.values() for glyph in _load(machine, load)]
@@ -138,7 +138,7 @@ def _along(link: str) -> str | float:
     return 0.0 if link == "frame" else row_name("direction", link)
 
 
-class _Following:
+class _Tracked:
     """Wheels, each once, and cams, then belts and racks: what joints say of shapes that follow the dimensions."""
 
     def __init__(self, machine: Machine) -> None:

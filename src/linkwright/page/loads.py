@@ -22,9 +22,9 @@ from linkwright.page.positions import known_between
 def found_again(load: Load, motion: Motion) -> bool:
     """Whether a page finds it: its size is a formula, and limits that it goes between are those of the positions, not
     of a turn of which these are a part."""
-    given = load.magnitude
-    if given.limits is None or not given.has_formula:
-        return given.has_formula
+    magnitude = load.magnitude
+    if magnitude.limits is None or not magnitude.has_formula:
+        return magnitude.has_formula
     return known_between(motion) and (
         motion.positions.closed or MotionSignals(motion).full_cycle.period is None
     )

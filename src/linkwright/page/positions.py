@@ -34,14 +34,14 @@ def positions(motion: Motion, arrays: Mapping[str, Floats], signs: Mapping[str, 
     }  # fmt: skip
     drivers = list(mechanism.drivers.values())
     name = drivers[0].name if drivers else ""
-    followed = {
+    tracked = {
         "time",
         "step",
         "input",
         *modes,
         *(f"{kind}:{name}" for kind in ("cos", "sin", "slide", "turn")),
     }
-    if len(drivers) == 1 and drivers[0].law.constant_speed is not None and followed.issuperset(arrays):
+    if len(drivers) == 1 and drivers[0].law.constant_speed is not None and tracked.issuperset(arrays):
         q = along.coordinates[name][0]
         step = float(q[1] - q[0]) if len(q) > 1 else 0.0
         found["steady"] = {

@@ -164,8 +164,8 @@ class PagePrograms:
         passed: Mask = t.compare("less", doubt, 1.0)
         made = {name: found[name] for name in outputs}
         for name in step.groups:
-            made[f"kept:{name}"] = kept = found[f"determinant {name}"] * self._signs[name]
-            passed = t.logic("and", passed, t.compare("less", 0.0, kept))
+            made[f"kept:{name}"] = determinant = found[f"determinant {name}"] * self._signs[name]
+            passed = t.logic("and", passed, t.compare("less", 0.0, determinant))
         for name, value in values.items():
             orders = (value, found[f"{name}'"], found[f"{name}''"])
             made |= {f"then:{name}|{k}": each for k, each in enumerate(orders)}

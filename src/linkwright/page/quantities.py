@@ -44,12 +44,12 @@ def _signal(page: PagePrograms, output: Output) -> Plain:
         form, key, rows = "angle", f"angle:{owner}", row_names("direction", owner)
     elif KINDS[output.kind].vector:
         form, rows = "size", row_names(output.kind, owner, output.on)
-    said = output.sentence(alone=len(page.mechanism.drivers) == 1)
-    name = {language: said.say(language) for language in LANGUAGES}
+    title = output.sentence(alone=len(page.mechanism.drivers) == 1)
+    name = {language: title.say(language) for language in LANGUAGES}
     return {"id": key, "form": form, "rows": list(rows), "kind": output.dimension, "name": name}
 
 
-def _said(message: Message) -> dict[str, str]:
+def _translated(message: Message) -> dict[str, str]:
     return {language: message.translate(language) for language in LANGUAGES}
 
 
@@ -84,13 +84,13 @@ def numbers(page: PagePrograms, known: Mapping[Output, Plain]) -> list[Plain]:
         if angle and _turns(page, output.owner):
             continue
         name = _("swing angle of {name}") if angle else _("stroke at {name}")
-        found.append(_number("range", known[output], _said(name.format(name=output.owner))))
+        found.append(_number("range", known[output], _translated(name.format(name=output.owner))))
         if rotating and _returns_once(page.motion.read(output)):
             found.append(
                 _number(
                     "ratio",
                     known[output],
-                    _said(_("quick-return ratio of {name}", name=output.owner)),
+                    _translated(_("quick-return ratio of {name}", name=output.owner)),
                     "ratio",
                 )
             )

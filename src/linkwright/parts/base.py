@@ -86,7 +86,7 @@ class Problem(Heading, ABC):
         """What is given as plain data: as the file says it, or as one would say what was changed since."""
         if self.file_values and all(a is b for a, b in zip(self.attributes, self.as_read, strict=True)):
             return self.file_values
-        found = {key: _as_given(getattr(self, key, None), each) for key, each in self.fields.items()}
+        found = {key: _plain(getattr(self, key, None), each) for key, each in self.fields.items()}
         return {key: value for key, value in found.items() if value not in EMPTY}
 
     def require(self) -> None:
@@ -100,14 +100,14 @@ class Problem(Heading, ABC):
 EMPTY: tuple[Any, ...] = (None, {}, [], (), "", False)
 
 
-def _as_given(value: Any, kind: Field | None = None) -> Any:
+def _plain(value: Any, kind: Field | None = None) -> Any:
     """A value as plain data of a file."""
     own = file_keys(type(value)) if is_dataclass(value) else {}
     if own:
-        found = {each.key or key: _as_given(getattr(value, key), each) for key, each in own.items()}
+        found = {each.key or key: _plain(getattr(value, key), each) for key, each in own.items()}
         return {key: each for key, each in found.items() if each not in EMPTY}
     if isinstance(value, Mapping):
-        return {key: _as_given(each) for key, each in value.items()}
+        return {key: _plain(each) for key, each in value.items()}
     if value is None or kind is None or is_dataclass(value):
         named = getattr(value, "label", None) or getattr(value, "text", None) or getattr(value, "name", None)
         bare = (
@@ -167,6 +167,6 @@ class Result(Plotted, Numbers):
 def signed(parts: Sequence[float], dimension: str = "") -> str:
     """Numbers as a sum, ``40 − 110``, what is zero or rounding beside the largest left out."""
     largest = max((abs(part) for part in parts), default=0.0)
-    kept = [float(part) for part in parts if abs(part) > ROUNDING * largest]
-    text = " ".join(f"{'−' if part < 0 else '+'} {number(abs(part), dimension)}" for part in kept)
+    terms = [float(part) for part in parts if abs(part) > ROUNDING * largest]
+    text = " ".join(f"{'−' if part < 0 else '+'} {number(abs(part), dimension)}" for part in terms)
     return f"−{text[2:]}" if text.startswith("−") else text.removeprefix("+ ") or "0"

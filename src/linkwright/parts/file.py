@@ -143,8 +143,8 @@ def file_schema() -> dict[str, Any]:
     }
 
 
-def _inner(whole: dict[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in whole.items() if not key.startswith("$")}
+def _inner(schema: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in schema.items() if not key.startswith("$")}
 
 
 def _text(source: str | Path) -> tuple[str, str, Path]:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 MECHANISM = Text(required=True, doc="model file of the mechanism, beside this file, or gallery:NAME")
 
 
-def load_beside(name: str, folder: Path) -> Mechanism:
+def load_referenced(name: str, folder: Path) -> Mechanism:
     """The mechanism that a file in ``folder`` names.
 
     Raises:
@@ -43,4 +43,4 @@ class OfMechanism(Problem):
 
     @classmethod
     def of_file(cls, values: Mapping[str, Any], folder: Path) -> Self:
-        return cls(**{**values, "mechanism": load_beside(values["mechanism"], folder)})
+        return cls(**{**values, "mechanism": load_referenced(values["mechanism"], folder)})

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.pictures.drawing import PIXELS, Drawing
-from linkwright.pictures.svg.fonts import chinese_file, given_fonts
+from linkwright.pictures.svg.fonts import chinese_file, own_fonts
 from linkwright.pictures.svg.render import MOST_PIXELS, natural_size, pdf, png
 from linkwright.words import _
 
@@ -57,7 +57,7 @@ def chinese_font() -> str | None:
     """
     from matplotlib import font_manager
 
-    file = chinese_file(given_fonts())
+    file = chinese_file(own_fonts())
     if file is None:
         return None
     face = min(_faces(file), key=lambda each: ("Mono" in each.name, _place(each.name)))

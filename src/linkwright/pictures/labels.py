@@ -34,7 +34,7 @@ _WAYS = tuple((math.cos(a), math.sin(a)) for a in np.radians(np.arange(-45, 315,
 LEADER = 16.0
 #: Where over its line a text may stand, its gap to the line, and what it costs to stand elsewhere.
 _SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
-_CLOSE, _APART = 2.5, 60.0
+_CLOSE, _MAX_DISTANCE = 2.5, 60.0
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ class Obstacles:
 
     def under(self, boxes: Floats) -> Floats:
         """Length of ink in every box (k, 4), by clipping each segment to it."""
-        near = self.segments[self._beside(boxes)]
+        near = self.segments[self._adjacent(boxes)]
         lows, highs = np.minimum(near[:, :2], near[:, 2:]), np.maximum(near[:, :2], near[:, 2:])
         may = (highs[:, 0] >= boxes[:, :1]) & (lows[:, 0] <= boxes[:, 2:3])
         may &= (highs[:, 1] >= boxes[:, 1:2]) & (lows[:, 1] <= boxes[:, 3:])
@@ -122,7 +122,7 @@ class Obstacles:
         length = share * np.hypot(way[:, 0], way[:, 1]) + 4.0 * touched
         return np.asarray(np.bincount(rows, length, len(boxes)), dtype=float)
 
-    def _beside(self, boxes: Floats) -> Flags:
+    def _adjacent(self, boxes: Floats) -> Flags:
         """Which segments (m,) may touch one of the boxes: those whose own boxes touch the box of all."""
         one, other = self.segments[:, :2], self.segments[:, 2:]
         low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
@@ -138,7 +138,7 @@ def candidates(label: Label) -> list[Candidate]:
             for dx, dy in _WAYS:
                 gap = label.clearance + step
                 centre = (x + dx * (gap + width / 2 * abs(dx)), y + dy * (gap + height / 2 * abs(dy)))
-                liking = 0.6 * (dx < 0.2) + 0.6 * (dy > 0.2) + (_APART if label.along else 0.0)
+                liking = 0.6 * (dx < 0.2) + 0.6 * (dy > 0.2) + (_MAX_DISTANCE if label.along else 0.0)
                 found.append(
                     Candidate(_box(centre, width, height), 0.45 * step + liking + 1.5 * order, (x, y), step)
                 )

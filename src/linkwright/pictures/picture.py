@@ -31,7 +31,7 @@ Anchor = Literal["start", "middle", "end"]
 Runs: TypeAlias = tuple[tuple[str, int], ...]
 Words: TypeAlias = str | Runs
 #: Heights of capital letters, mm (GB/T 14691, ISO 3098): the least; of texts; of captions.
-LEAST, TEXT, CAPTION = 2.5, 3.5, 5.0
+MIN_TEXT, TEXT, CAPTION = 2.5, 3.5, 5.0
 #: Height of a capital letter and depth of a descender in sizes of the font; size of indices.
 CAPITAL, DESCENT, INDEX = 0.72, 0.24, 0.72
 #: Height of a Chinese character in sizes of the font.
@@ -136,13 +136,13 @@ class Circle:
 
     def __str__(self) -> str:
         x, y = map(float, self.at)
-        given: dict[str, Attribute | None] = {
+        attributes: dict[str, Attribute | None] = {
             "class": f"{self.style} {self.fill}".rstrip(),
             "cx": x,
             "cy": y,
             "r": self.radius,
         }
-        return str(element("circle", given))
+        return str(element("circle", attributes))
 
 
 @dataclass(frozen=True)
@@ -204,13 +204,13 @@ class Text:
         if self.squeeze < 1.0:
             turn = f"translate({number(x)} {number(y)}) scale({self.squeeze:.3f} 1)"
             x = y = 0.0
-        given: dict[str, Attribute | None] = {
+        attributes: dict[str, Attribute | None] = {
             "class": self.style or None, "x": x, "y": y, "font-size": self.size,
             "text-anchor": None if self.anchor == "start" else self.anchor,
             "font-style": "italic" if self.symbol else None, "transform": turn,
             "xml:space": "preserve" if any(text != " ".join(text.split()) for text, _ in self.runs) else None,
         }  # fmt: skip
-        return str(element("text", given, *self._spans()))
+        return str(element("text", attributes, *self._spans()))
 
     def _spans(self) -> Iterator[Element | str]:
         """The parts of the text; an index below one above begins where that one does."""

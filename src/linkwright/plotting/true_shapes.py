@@ -106,8 +106,8 @@ def _lines(pair: GearPair, language: str) -> list[str]:
         angle=number(pair.working_pressure_angle, "angle"),
         ratio=f"{pair.contact_ratio:.4g}",
     ).translate(language)
-    said = [each.say(language) if isinstance(each, Message) else each for each in pair.findings]
-    return [numbers, *said]
+    texts = [each.say(language) if isinstance(each, Message) else each for each in pair.findings]
+    return [numbers, *texts]
 
 
 def _outer_radius(gear: Gear) -> float:

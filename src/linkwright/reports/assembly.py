@@ -123,9 +123,9 @@ def _add(document: Document, within: Part, part: Section, *, asked: bool) -> Non
 
 def _miss(document: Document, title: str, sentence: str) -> None:
     """Notes what a chapter lacks, once."""
-    told = document.say(_("{name}: {cause}", name=title, cause=sentence))
-    if told not in document.missing:
-        document.missing.append(told)
+    message = document.say(_("{name}: {cause}", name=title, cause=sentence))
+    if message not in document.missing:
+        document.missing.append(message)
 
 
 def _parts_of(block: Block, document: Document) -> Iterator[Block]:
@@ -147,7 +147,7 @@ def _parts_of(block: Block, document: Document) -> Iterator[Block]:
 
 def _own(text: str, own: Settings, document: Document, title: str) -> Iterator[Block]:
     """The blocks of own text; behind one that cannot be printed as it was meant stands why."""
-    for block, faults in own_text(text, beside=own.beside):
+    for block, faults in own_text(text, context=own.text_context):
         yield block
         for fault in faults:
             sentence = in_language(fault.sentence, document.language)

@@ -9,16 +9,16 @@ from linkwright.words import _
 
 def cover(own: Settings, document: Document) -> Cover | None:
     """The page before all others, None where the file asks for none."""
-    given, say = own.cover, document.say
-    if given is None:
+    words, say = own.cover, document.say
+    if words is None:
         return None
-    rows = [(say(COVER_ROWS[key]), value) for key, value in given.rows]
-    above = tuple(filter(None, (given.school, own.course)))
+    rows = [(say(COVER_ROWS[key]), value) for key, value in words.rows]
+    above = tuple(filter(None, (words.school, own.course)))
     return Cover(
-        given.kind or say(_("Course design report")),
+        words.kind or say(_("Course design report")),
         document.title,
         above,
-        (*rows, *given.fields),
-        given.date,
-        given.logo,
+        (*rows, *words.fields),
+        words.date,
+        words.logo,
     )

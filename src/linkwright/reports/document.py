@@ -141,12 +141,12 @@ def _bare(cell: str) -> str:
     return literal(cell.strip())
 
 
-def printed(given: Cells, language: str, label: str = "", first: Callable[[str], str] = _bare) -> Table:
+def printed(source: Cells, language: str, label: str = "", first: Callable[[str], str] = _bare) -> Table:
     """A table as one of the document, its title as caption; title and heading may hold marks, ``first`` writes the
     cells of the first column."""
-    head, *rows = given.texts(language)
+    head, *rows = source.texts(language)
     cells = tuple((first(row[0]), *map(_bare, row[1:])) for row in rows)
-    return Table(in_language(given.title, language), tuple(head), cells, given.alignment, label)
+    return Table(in_language(source.title, language), tuple(head), cells, source.alignment, label)
 
 
 @dataclass(frozen=True)
@@ -466,11 +466,11 @@ def fitted(table: Table, widest: int) -> Sequence[Table]:
         2 + max(longest_part(text) for text in (table.head[i], *(row[i] for row in table.rows)))
         for i in range(len(table.head))
     ]
-    key, whole = sum(widths[: table.key]), sum(widths)
-    if whole <= widest:
+    key, total = sum(widths[: table.key]), sum(widths)
+    if total <= widest:
         return [table]
     room = max(widest - key, 1)
-    share = (whole - key) / -(-(whole - key) // room)
+    share = (total - key) / -(-(total - key) // room)
     groups: list[list[int]] = [[]]
     used = 0
     for i in range(table.key, len(widths)):

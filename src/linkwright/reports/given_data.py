@@ -44,8 +44,8 @@ NAMED = (
 
 def given_data(problem: Problem, say: Say) -> Iterator[Block]:
     """A table of single values; of every mapping of names and every list of mappings a table of its own."""
-    values, single, tables = problem.given(), [], []
-    for key, value in values.items():
+    data, single, tables = problem.given(), [], []
+    for key, value in data.items():
         if key in STATED:
             continue
         if key in NAMED and isinstance(value, Mapping) and value:

@@ -10,7 +10,7 @@ from linkwright.pictures.drawing import bounds, document
 from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import group
 from linkwright.pictures.svg.render import natural_size
-from linkwright.plotting.drawing.draw import laid_out_beside
+from linkwright.plotting.drawing.draw import laid_out_with_ghosts
 from linkwright.plotting.drawing.machine import Part
 from linkwright.plotting.drawing.positions import Shown
 from linkwright.plotting.drawing.scene import Scene, point_labels
@@ -20,7 +20,7 @@ from linkwright.reports.machine_results import Case
 def group_picture(case: Case, chosen: Group) -> str:
     """SVG of one group at the worked position, with its joints, the rest of the machine faded."""
     motion, index = case.worked_motion
-    scene, place, _ = laid_out_beside(motion, Shown(motion, index), (), inputs=False, centres=False)
+    scene, place, _ = laid_out_with_ghosts(motion, Shown(motion, index), (), inputs=False, centres=False)
     own = Scene(scene.machine, tuple(part for part in scene.parts if _belongs(scene, part, chosen)))
     sketch = Sketch()
     ink = own.ink(place)

@@ -20,7 +20,7 @@ JUDGED = ("transmission_angle", "pressure_angle", "singularity")
 #: What a driver must supply.
 EFFORT = "peak_input_torque"
 #: Percent per percent: a smaller change is none, a larger one is beyond what a first order can tell.
-LEAST, MOST = 0.02, 50.0
+MIN_PERCENT, MOST = 0.02, 50.0
 #: Links of machines of which the derivatives of forces cost no more than the rest of a report.
 FEW = 8
 #: To this share the value that has derivatives is the one in the table, not that of another subject.
@@ -113,7 +113,7 @@ def _improved(
         return None
     best = int(np.nanargmax(np.abs(changes)))
     slope, side = changes[best], slopes[travel][1][best] if travel in slopes else math.nan
-    if not LEAST <= abs(slope) <= MOST or not math.isfinite(side):
+    if not MIN_PERCENT <= abs(slope) <= MOST or not math.isfinite(side):
         return None
     sign = 1.0 if METRICS[row.metric].better == "higher" else -1.0
     longer = sign * slope * row.value > 0.0

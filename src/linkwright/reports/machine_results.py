@@ -250,7 +250,7 @@ class Case:
             limits = limits_of(self.motion, name or None)
         except LinkwrightError as error:
             if chosen:
-                reason = self.told(error)
+                reason = self.message(error)
                 self.unnumbered = self.say(
                     _(
                         "The positions are numbered from the start of the motion, not from {text}: {reason}.",
@@ -296,7 +296,7 @@ class Case:
         )
         return picture(shown)
 
-    def told(self, error: LinkwrightError) -> str:
+    def message(self, error: LinkwrightError) -> str:
         """What an error says, in the report's language."""
         return error.say(self.language)
 

@@ -52,7 +52,7 @@ TALLEST = 150.0
 
 
 @dataclass(frozen=True)
-class Beside:
+class TextContext:
     """What an own text refers to: the folder of its pictures, and sources by the name by which it cites them."""
 
     folder: str = ""
@@ -67,7 +67,9 @@ class Fault:
     code: str = ""
 
 
-def own_text(text: str, level: int = 2, beside: Beside | None = None) -> Iterator[tuple[Block, list[Fault]]]:
+def own_text(
+    text: str, level: int = 2, context: TextContext | None = None
+) -> Iterator[tuple[Block, list[Fault]]]:
     """The blocks of a text, each with what is wrong in it; its highest headings are of ``level``.
 
     After a first line ``typst`` it is Typst. Raises LinkwrightError where no reader of Markdown is installed.
@@ -78,14 +80,14 @@ def own_text(text: str, level: int = 2, beside: Beside | None = None) -> Iterato
         return
     nodes = _tree(unmarked(text)).children
     highest = min((int(node.tag[1]) for node in nodes if node.type == "heading"), default=1)
-    reader = _Reader(level - highest, beside or Beside())
+    reader = _Reader(level - highest, context or TextContext())
     for block in reader.blocks(nodes):
         yield block, reader.taken()
 
 
 def own_words(text: str) -> str:
     """A line of Markdown, such as a source, as marked text."""
-    reader = _Reader(1, Beside())
+    reader = _Reader(1, TextContext())
     return "".join(each for each in reader.inline(_inline(unmarked(text))) if isinstance(each, str))
 
 
@@ -148,8 +150,8 @@ def _inline(text: str) -> Sequence[SyntaxTreeNode]:
 class _Reader:
     """Turns the tree of a text into blocks and notes what is wrong; ``shift`` of the levels of headings."""
 
-    def __init__(self, shift: int, beside: Beside) -> None:
-        self.shift, self.beside = shift, beside
+    def __init__(self, shift: int, context: TextContext) -> None:
+        self.shift, self.text_context = shift, context
         self.faults: list[Fault] = []
 
     def taken(self) -> list[Fault]:
@@ -315,10 +317,10 @@ class _Reader:
         """Numbers of sources."""
         found = []
         for name in (each.strip().removeprefix("@") for each in re.split("[;,，；]", text)):
-            if name in self.beside.sources:
-                found.append(cited(self.beside.sources[name]))
+            if name in self.text_context.sources:
+                found.append(cited(self.text_context.sources[name]))
             else:
-                hint = offered(name, self.beside.sources)
+                hint = offered(name, self.text_context.sources)
                 self.wrong(
                     _(
                         'no source is named "{name}"; {hint}; own sources stand in the list references',
@@ -336,7 +338,7 @@ class _Reader:
         words = self.line(node.children) or literal(str(node.attrs.get("title", "")))
         label = next((each[1:] for each in attributes.split() if each.startswith("#")), "")
         try:
-            found = picture_of(name, self.beside.folder)
+            found = picture_of(name, self.text_context.folder)
         except LinkwrightError as error:
             self.faults.append(Fault(error.sentence, "wrong-picture"))
             return Paragraph(words or literal(name))

@@ -10,12 +10,12 @@ from linkwright.parts.base import Problem
 from linkwright.registry import listed
 from linkwright.reports.machine_results import Case
 from linkwright.reports.section import SECTIONS, Section, section_names
-from linkwright.reports.settings import BESIDE_SECTIONS, Chapter, Settings
+from linkwright.reports.settings import OTHER_SECTIONS, Chapter, Settings
 from linkwright.synthesis.task_file import TaskFile
 from linkwright.words import _
 from linkwright.words.sentence import in_language
 
-REST, CALCULATIONS = BESIDE_SECTIONS
+REST, CALCULATIONS = OTHER_SECTIONS
 #: The section that reports on calculations alone have, too.
 SOURCES = "references"
 
@@ -56,7 +56,7 @@ def chosen(names: Iterable[str], own: Settings) -> list[Entry]:
     asked: list[Entry] = list(names)
     if asked:
         titles = {each.title: each for each in own.sections if isinstance(each, Chapter)}
-        known = [*section_names(), *BESIDE_SECTIONS, *titles]
+        known = [*section_names(), *OTHER_SECTIONS, *titles]
         for name in asked:
             if name not in known:
                 raise RequestError(
@@ -81,7 +81,7 @@ def _with_rest(entries: list[Entry]) -> list[Entry]:
 
 
 def parts(
-    given: Sequence[Case | Calculation], entries: Sequence[Entry], own: Settings, *, asked: bool
+    subjects: Sequence[Case | Calculation], entries: Sequence[Entry], own: Settings, *, asked: bool
 ) -> Iterator[Part]:
     """What a report holds, in its order. Sections of machines that follow each other make a part for each machine.
 
@@ -90,21 +90,21 @@ def parts(
     are of the whole report. The chapters of further files stand in the parts of their machines and behind their
     calculations, unless sections were ``asked`` for by name.
     """
-    cases = tuple(each for each in given if isinstance(each, Case))
-    groups = list(_groups(_with_calculations(entries, given)))
+    cases = tuple(each for each in subjects if isinstance(each, Case))
+    groups = list(_groups(_with_calculations(entries, subjects)))
     machines = [i for i, group in enumerate(groups) if _of_machine(group[0])]
     between = bool(cases) and CALCULATIONS not in entries
     for number, group in enumerate(groups):
         head = group[0]
         if head == CALCULATIONS:
-            for each in given:
+            for each in subjects:
                 yield from _calculated(each, own, asked) if isinstance(each, Calculation) else ()
         elif not _of_machine(head):
             yield from (
                 [_part(own, cases, head)] if isinstance(head, Chapter) or cases or head == SOURCES else ()
             )
         else:
-            for each in given if between and number == machines[0] else cases:
+            for each in subjects if between and number == machines[0] else cases:
                 if isinstance(each, Calculation):
                     yield from _calculated(each, own, asked)
                     continue
@@ -112,13 +112,13 @@ def parts(
                 if each is not cases[0]:
                     others = [] if asked else each.settings.sections
                     held = list(_of_other(others, group, number == machines[0], number == machines[-1]))
-                yield from _of_case(each, held, several=len(given) > 1)
+                yield from _of_case(each, held, several=len(subjects) > 1)
 
 
-def _with_calculations(entries: Sequence[Entry], given: Sequence[Case | Calculation]) -> list[Entry]:
+def _with_calculations(entries: Sequence[Entry], subjects: Sequence[Case | Calculation]) -> list[Entry]:
     """Entries with a place for calculations where no part of a machine has one: before the references."""
     found = list(entries)
-    interleaved = any(isinstance(each, Case) for each in given) and any(map(_of_machine, entries))
+    interleaved = any(isinstance(each, Case) for each in subjects) and any(map(_of_machine, entries))
     if CALCULATIONS not in found and not interleaved:
         places = (i for i, each in enumerate(found, 1) if isinstance(each, str) and each != SOURCES)
         found.insert(max(places, default=0), CALCULATIONS)

@@ -104,7 +104,7 @@ class Report:
 
 Machine = Mechanism | Problem | str | Path
 #: A model or its file, a calculation with its file, or a file that holds a task of synthesis alone.
-Given = Mechanism | str | tuple[Problem, str] | TaskFile
+Subject = Mechanism | str | tuple[Problem, str] | TaskFile
 
 
 def report(
@@ -143,12 +143,12 @@ def report(
         LinkwrightError: an unknown section or language, a model that cannot be read, settings that make no sense.
     """
     require_language(language)
-    given = _cases(_read(machines, language), sources, language, position, positions, folder)
-    cases = [each for each in given if isinstance(each, Case)]
-    calculations = [each for each in given if isinstance(each, Calculation)]
+    subjects = _cases(_read(machines, language), sources, language, position, positions, folder)
+    cases = [each for each in subjects if isinstance(each, Case)]
+    calculations = [each for each in subjects if isinstance(each, Calculation)]
     own = (cases or calculations)[0].settings
     entries = chosen(sections, own)
-    names = [each.mechanism.name if isinstance(each, Case) else each.title(language) for each in given]
+    names = [each.mechanism.name if isinstance(each, Case) else each.title(language) for each in subjects]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
         speaker(language),
@@ -156,7 +156,7 @@ def report(
         tuple(filter(None, (own.course, own.author, own.date))),
     )
     document.cover = cover(own, document)
-    ordered = list(parts(given, entries, own, asked=bool(sections)))
+    ordered = list(parts(subjects, entries, own, asked=bool(sections)))
     progress = progress or current_progress()
     for done, part in enumerate(ordered):
         if progress is not None:
@@ -167,16 +167,18 @@ def report(
     return Report(document)
 
 
-def _read(machines: Machine | Sequence[Machine], language: str) -> list[Given]:
+def _read(machines: Machine | Sequence[Machine], language: str) -> list[Subject]:
     """Mechanisms (or their files), calculations with the file of one that is read here, and tasks of synthesis."""
     from linkwright.parts.file import kind_of
     from linkwright.parts.file import load as load_calculation
 
-    given = list(machines) if isinstance(machines, Iterable) and not isinstance(machines, str) else [machines]
-    if not given:
+    sources = (
+        list(machines) if isinstance(machines, Iterable) and not isinstance(machines, str) else [machines]
+    )
+    if not sources:
         raise RequestError(_("a report needs a machine; name a model file", code="report.no_machine"))
-    found: list[Given] = []
-    for each in given:
+    found: list[Subject] = []
+    for each in sources:
         require(each, Mechanism, Problem, str, PathLike)
         if isinstance(each, Problem):
             found.append((each, ""))
@@ -191,7 +193,7 @@ def _read(machines: Machine | Sequence[Machine], language: str) -> list[Given]:
 
 
 def _cases(
-    given: Sequence[Given],
+    subjects: Sequence[Subject],
     sources: Sequence[str],
     language: str,
     position: str,
@@ -201,15 +203,17 @@ def _cases(
     """Machines and calculations with their settings; machines of one name are numbered."""
     found: list[Case | Calculation] = []
     files = iter(sources)
-    for each in given:
+    for each in subjects:
         if isinstance(each, tuple):
             problem, file = each
             found.append(
-                Calculation(problem, settings(problem.report, language, None, _beside(folder, file)))
+                Calculation(problem, settings(problem.report, language, None, _picture_folder(folder, file)))
             )
             continue
         if isinstance(each, TaskFile):
-            found.append(Calculation(each, settings(each.report, language, None, _beside(folder, each.file))))
+            found.append(
+                Calculation(each, settings(each.report, language, None, _picture_folder(folder, each.file)))
+            )
             continue
         mechanism = each if isinstance(each, Mechanism) else load(str(each))
         mechanism = mechanism.translate(language)
@@ -219,7 +223,7 @@ def _cases(
         asked = {"position": position or None, "positions": positions}
         more = {key: value for key, value in asked.items() if value is not None}
         own = {**mechanism.report, **more} if more else mechanism.report
-        held = settings(own, language, mechanism, _beside(folder, source))
+        held = settings(own, language, mechanism, _picture_folder(folder, source))
         found.append(Case(mechanism, held, language, source))
     cases = [each for each in found if isinstance(each, Case)]
     names = [case.mechanism.name for case in cases]
@@ -229,6 +233,6 @@ def _cases(
     return found
 
 
-def _beside(folder: str | Path, file: str) -> str:
+def _picture_folder(folder: str | Path, file: str) -> str:
     """Where pictures lie: a folder that is named, else that of the file."""
     return str(folder) if folder or file.startswith(GALLERY) else os.path.dirname(file)

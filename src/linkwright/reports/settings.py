@@ -24,10 +24,10 @@ from linkwright.registry import listed
 from linkwright.words import LANGUAGES, Message, _, pgettext
 
 if TYPE_CHECKING:
-    from linkwright.reports.markdown import Beside
+    from linkwright.reports.markdown import TextContext
 
 #: What a list of sections can name beside these: all that are not named, and calculations among the files.
-BESIDE_SECTIONS = ("rest", "calculations")
+OTHER_SECTIONS = ("rest", "calculations")
 #: Lines of a cover, in their order, that are a row each.
 COVER_ROWS: Mapping[str, Message] = {
     "faculty": _("Faculty"),
@@ -181,7 +181,7 @@ COVER: Mapping[str, Field] = {
     "fields": ByAddress(Line(), doc=_("further rows of the cover: {{Mark: }}")),
 }
 SECTIONS = Listed(
-    Either(SectionName(BESIDE_SECTIONS), Table.of(Chapter)),
+    Either(SectionName(OTHER_SECTIONS), Table.of(Chapter)),
     doc=_("sections and own chapters in order; rest: all others"),
 )
 
@@ -218,11 +218,11 @@ class Settings:
     folder: str = ""
 
     @property
-    def beside(self) -> Beside:
+    def text_context(self) -> TextContext:
         """What own texts refer to."""
-        from linkwright.reports.markdown import Beside
+        from linkwright.reports.markdown import TextContext
 
-        return Beside(self.folder, self.references)
+        return TextContext(self.folder, self.references)
 
 
 _KEYS = file_keys(Settings)
@@ -236,7 +236,7 @@ SECTION = Keys({
 
 
 def settings(
-    given: Mapping[str, Any],
+    section: Mapping[str, Any],
     language: str = "en",
     mechanism: Mechanism | None = None,
     folder: str = "",
@@ -248,7 +248,7 @@ def settings(
     What stands under a language's own key (``zh: {title: …}``) goes before the rest in that language. Raises
     ModelError with all findings.
     """
-    reading = _Reading(given, mechanism, folder)
+    reading = _Reading(section, mechanism, folder)
     found = [reading.all_of(each) for each in (*(each for each in LANGUAGES if each != language), language)]
     reading.settle()
     return found[-1]
@@ -266,55 +266,55 @@ def worked_place(mechanism: Mechanism, position: str) -> float | None:
 class _Reading(SectionReading):
     """The settings, of a mechanism where there is one; pictures lie in a folder."""
 
-    def __init__(self, given: Mapping[str, Any], mechanism: Mechanism | None, folder: str) -> None:
-        super().__init__(SECTION, "report", given)
+    def __init__(self, section: Mapping[str, Any], mechanism: Mechanism | None, folder: str) -> None:
+        super().__init__(SECTION, "report", section)
         self.mechanism, self.folder = mechanism, folder
 
     def all_of(self, language: str) -> Settings:
         """The settings in a language."""
         own = self.values.get(language) or {}
-        given = {key: each for key, each in {**self.values, **own}.items() if each is not None}
-        given = {key: each for key, each in given.items() if key not in LANGUAGES}
+        merged = {key: each for key, each in {**self.values, **own}.items() if each is not None}
+        merged = {key: each for key, each in merged.items() if key not in LANGUAGES}
         places = {key: f"{language}.{key}" if key in own else key for key in OWN}
-        sources = self.references(given.get("references", ()), places["references"])
-        for place, text in self.texts(given, places):
+        sources = self.references(merged.get("references", ()), places["references"])
+        for place, text in self.texts(merged, places):
             self.own(text, place, sources)
-        self.position(given.get("position", ""), places["position"])
-        self.numbered(given.get("numbered_from", ""))
-        more = {key: tuple(each for each in given.get(key, ()) if each) for key in ("sections", "errata")}
+        self.position(merged.get("position", ""), places["position"])
+        self.numbered(merged.get("numbered_from", ""))
+        more = {key: tuple(each for each in merged.get(key, ()) if each) for key in ("sections", "errata")}
         return Settings(**{
-            **given,
+            **merged,
             **more,
-            "positions": self.positions(given["positions"]) if "positions" in given else None,
-            "cover": self.cover(given, places["cover"]),
+            "positions": self.positions(merged["positions"]) if "positions" in merged else None,
+            "cover": self.cover(merged, places["cover"]),
             "references": sources,
             "folder": self.folder,
         })  # fmt: skip
 
-    def texts(self, given: Mapping[str, Any], places: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    def texts(self, section: Mapping[str, Any], places: Mapping[str, str]) -> Iterator[tuple[str, str]]:
         """Own texts with their places."""
-        for name, text in given.get("text", {}).items():
+        for name, text in section.get("text", {}).items():
             yield f"{places['text']}.{name}", text or ""
-        for i, each in enumerate(given.get("sections", ())):
+        for i, each in enumerate(section.get("sections", ())):
             if isinstance(each, Chapter):
                 yield f"{places['sections']}.{i}.text", each.text
 
     def own(self, text: str, place: str, sources: Mapping[str, str]) -> None:
         """Files and sources that an own text names must be there."""
-        from linkwright.reports.markdown import Beside, own_text
+        from linkwright.reports.markdown import TextContext, own_text
 
         try:
-            for _unused, faults in own_text(text, beside=Beside(self.folder, sources)):
+            for _unused, faults in own_text(text, context=TextContext(self.folder, sources)):
                 for fault in faults:
                     if fault.code:
                         self.note(place, fault.sentence, fault.code)
         except LinkwrightError:
             return
 
-    def references(self, given: tuple[str | OwnSource | None, ...], place: str) -> dict[str, str]:
+    def references(self, sources: tuple[str | OwnSource | None, ...], place: str) -> dict[str, str]:
         """Own sources, by their key or, without one, by themselves."""
         found: dict[str, str] = {}
-        for i, each in enumerate(given):
+        for i, each in enumerate(sources):
             key, text = (each.key, each.text) if isinstance(each, OwnSource) else (each or "", each or "")
             if isinstance(each, OwnSource) and key in found:
                 self.note(
@@ -331,17 +331,17 @@ class _Reading(SectionReading):
 
     def cover(self, settings: Mapping[str, Any], place: str) -> CoverWords | None:
         """The cover; author and date are those of the report where it names no others."""
-        if (given := settings.get("cover")) is None:
+        if (cover_data := settings.get("cover")) is None:
             return None
         own = {key: settings.get(key, "") for key in ("author", "date")}
-        own |= {key: text for key, text in given.items() if key != "fields" and text is not None}
+        own |= {key: text for key, text in cover_data.items() if key != "fields" and text is not None}
         return CoverWords(
             own.get("school", ""),
             own.get("kind", ""),
             own["date"],
             self.logo(own.get("logo", ""), f"{place}.logo"),
             tuple((key, own[key]) for key in COVER_ROWS if own.get(key)),
-            tuple((given.get("fields") or {}).items()),
+            tuple((cover_data.get("fields") or {}).items()),
         )
 
     def logo(self, name: str, place: str) -> str:
@@ -364,7 +364,7 @@ class _Reading(SectionReading):
         """An output with the limit at which the numbers begin."""
         name, _unused, limit = text.partition(" ")
         if limit not in ("", *LIMITS):
-            told = _(
+            message = _(
                 '"{text}": numbers begin at the limit min or max of an output, not at "{limit}"; write '
                 '"{name} min"',
                 code="report.no_limit",
@@ -372,7 +372,7 @@ class _Reading(SectionReading):
                 limit=limit,
                 name=name,
             )
-            self.note("numbered_from", told, "no-limit")
+            self.note("numbered_from", message, "no-limit")
         elif name and self.mechanism is not None:
             try:
                 place_meant(self.mechanism, name)
@@ -385,13 +385,13 @@ class _Reading(SectionReading):
         if text.isdecimal() and 2 <= int(text) <= MOST:
             return int(text)
         if re.fullmatch(r"[-+]?[\d.]+", text) or isinstance(value, bool) or value is None:
-            told = _(
+            message = _(
                 '"{text}" is no number of positions; give 2 to {most}',
                 code="report.bad_positions",
                 text=flow(value),
                 most=MOST,
             )
-            self.note("positions", told, "bad-positions")
+            self.note("positions", message, "bad-positions")
             return None
         try:
             listed = of_value(value, self.dimensions)

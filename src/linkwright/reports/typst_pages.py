@@ -11,7 +11,7 @@ from unicodedata import category
 
 from linkwright.equations.notation import Row
 from linkwright.errors import LinkwrightError
-from linkwright.pictures.svg.fonts import check_fonts, given_fonts
+from linkwright.pictures.svg.fonts import check_fonts, own_fonts
 from linkwright.pictures.svg.render import natural_size
 from linkwright.reports.document import (
     Block,
@@ -88,22 +88,25 @@ def compiled(document: Document, form: str) -> bytes:
             )
         ) from None
     text, pictures = pages(document)
-    given: Any = form
+    output_format: Any = form
     try:
         found, warnings = program.compile_with_warnings(
-            text.encode(), sys_inputs={**pictures, "form": form}, format=given, font_paths=[*_folders()]
+            text.encode(),
+            sys_inputs={**pictures, "form": form},
+            format=output_format,
+            font_paths=[*_folders()],
         )
     except program.TypstError as error:
         raise LinkwrightError(
             _("the report cannot be set: {sentence}", code="report.typst_says", sentence=str(error))
         ) from None
-    said = [w.message for w in warnings if not any(each in w.message for each in _EXPECTED)]
-    if said:
+    messages = [w.message for w in warnings if not any(each in w.message for each in _EXPECTED)]
+    if messages:
         raise LinkwrightError(
             _(
                 "the report cannot be set: {sentence}",
                 code="report.typst_says",
-                sentence="; ".join(dict.fromkeys(said)),
+                sentence="; ".join(dict.fromkeys(messages)),
             )
         )
     assert isinstance(found, bytes)
@@ -151,12 +154,12 @@ def typst_fault(text: str) -> str:
 
 def _styled(page: bytes, document: Document) -> bytes:
     """The page with its style, and a rule for every way in which columns of its tables are aligned."""
-    marks = {
+    alignments = {
         table.align or "<" * len(table.head) for table in walk(document.blocks) if isinstance(table, Table)
     }
     rules = [
         f".{aligned_by(each)} :is(td,th):nth-child({i}){{text-align:{'right' if mark == '>' else 'center'}}}"
-        for each in sorted(marks)
+        for each in sorted(alignments)
         for i, mark in enumerate(each, 1)
         if mark != "<"
     ]
@@ -164,14 +167,14 @@ def _styled(page: bytes, document: Document) -> bytes:
     return page.replace(b"</head>", style.encode() + b"</head>", 1)
 
 
-def aligned_by(marks: str) -> str:
+def aligned_by(alignment: str) -> str:
     """The class of tables with these columns."""
-    return "by-" + marks.translate(str.maketrans("<>^", "lrc"))
+    return "by-" + alignment.translate(str.maketrans("<>^", "lrc"))
 
 
 def _folders() -> tuple[Any, ...]:
     """Folders of the fonts that are given."""
-    return tuple(dict.fromkeys(str(file.parent) for file in given_fonts()))
+    return tuple(dict.fromkeys(str(file.parent) for file in own_fonts()))
 
 
 @lru_cache(maxsize=8)
@@ -195,9 +198,9 @@ def without_bold(families: tuple[str, ...]) -> bool:
 def fonts(language: str) -> tuple[str, ...]:
     """Families for texts, those that are there; Chinese ones for every language, since names may be Chinese."""
     known = _families(_folders())
-    given = known.keys() - _families().keys() if given_fonts() else set[str]()
-    chinese = tuple(name for found in (given, known.keys() - given) for name in CHINESE if name in found)
-    chinese = (*chinese, *sorted(given - {*CHINESE}))
+    added = known.keys() - _families().keys() if own_fonts() else set[str]()
+    chinese = tuple(name for found in (added, known.keys() - added) for name in CHINESE if name in found)
+    chinese = (*chinese, *sorted(added - {*CHINESE}))
     if language == "zh" and not chinese:
         _families.cache_clear()
         known = _families(_folders())
@@ -321,9 +324,10 @@ class _Writer:
 
     def _table(self, index: int, table: Table) -> str:
         align = {"<": "left", ">": "right", "^": "center"}
-        marks = table.align or "<" * len(table.head)
+        alignment = table.align or "<" * len(table.head)
         columns = ", ".join("1fr" if each else "auto" for each in _wrapping(table))
-        sides = ", ".join(f"{align[mark]} + horizon" for mark in marks)
+        name = quoted(aligned_by(alignment))
+        sides = ", ".join(f"{align[mark]} + horizon" for mark in alignment)
         head = ", ".join(f"strong[{self.inline(cell)}]" for cell in table.head)
         cells = ", ".join(f"[{self.inline(cell)}]" for row in table.rows for cell in row)
         caption = f"caption: {self._caption(index, table.caption)}" if table.caption else ""
@@ -331,7 +335,7 @@ class _Writer:
             "#lw-need\n#[#show figure: set block(breakable: true)\n" if len(table.rows) > TOGETHER else "#["
         )
         return (
-            f"{parted}#figure(lw-table(({columns},), ({sides},), {quoted(aligned_by(marks))}, ({head},), {cells}), "
+            f"{parted}#figure(lw-table(({columns},), ({sides},), {name}, ({head},), {cells}), "
             "kind: table, numbering: none, supplement: none, "
             f"{caption}) <{_place(index)}>]\n"
         )

@@ -372,13 +372,13 @@ class _Writer:
         from docx.shared import RGBColor
 
         if target[0] == "#":
-            given = {qn("w:anchor"): target[1:]}
+            attributes = {qn("w:anchor"): target[1:]}
         else:
-            given = {
+            attributes = {
                 qn("r:id"): self.file.part.relate_to(target, RELATIONSHIP_TYPE.HYPERLINK, is_external=True)
             }
             run.font.color.rgb, run.font.underline = RGBColor(0x0B, 0x57, 0xA4), True
-        link = line._p.makeelement(qn("w:hyperlink"), given)
+        link = line._p.makeelement(qn("w:hyperlink"), attributes)
         link.append(run._r)
         line._p.append(link)
 
@@ -411,13 +411,13 @@ def _widths(block: Table) -> list[float]:
         GAP + LETTER * max(longest_part(row[i]) for row in (block.head, *block.rows))
         for i in range(len(block.head))
     ]
-    whole = [
+    full = [
         GAP + LETTER * max(cells(plain(row[i])) for row in (block.head, *block.rows))
         for i in range(len(block.head))
     ]
     spare = max(TEXT - sum(asked), 0.0)
-    wanted = sum(w - a for w, a in zip(whole, asked, strict=True) if w > a)
+    wanted = sum(w - a for w, a in zip(full, asked, strict=True) if w > a)
     more = min(1.0, spare / wanted) if wanted else 0.0
-    found = [a + more * max(w - a, 0.0) for w, a in zip(whole, asked, strict=True)]
+    found = [a + more * max(w - a, 0.0) for w, a in zip(full, asked, strict=True)]
     shrink = min(1.0, TEXT / sum(found))
     return [shrink * each for each in found]

@@ -166,14 +166,16 @@ def _mass(draft: Draft, action: Mapping[str, Any]) -> str:
             _("a mass cannot be negative: {text!r}", code="studio.negative_mass", text=text)
         )
     before = draft.link(name)
-    old, given = _quantity(before.get("mass"), "mass"), before.get("inertia")
+    old_mass, old_inertia = _quantity(before.get("mass"), "mass"), before.get("inertia")
     draft.write_key(before, "mass", flow(text))
     places = [draft.shown()["points"].get(point) for point in draft.shown()["links"][name][:2]]
     if len(places) < 2 or None in places:
         return ""
     length = math.dist(*places)
-    known = _quantity(given, "inertia")
-    if given is not None and (known is None or old is None or not _alike(known, old * length**2 / 12)):
+    known = _quantity(old_inertia, "inertia")
+    if old_inertia is not None and (
+        known is None or old_mass is None or not _nearly_equal(known, old_mass * length**2 / 12)
+    ):
         return _(
             "{link}: the moment of inertia that the text has stays; check whether it fits the new mass.",
             code="studio.inertia_stays",
@@ -191,7 +193,7 @@ def _mass(draft: Draft, action: Mapping[str, Any]) -> str:
     )
 
 
-def _alike(a: float, b: float) -> bool:
+def _nearly_equal(a: float, b: float) -> bool:
     return math.isclose(a, b, rel_tol=1e-3)
 
 

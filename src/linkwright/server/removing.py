@@ -57,14 +57,14 @@ def _joint(draft: Draft, point: str) -> str:
             draft.take_out(section, point)
     driven = _remove_drives(draft, point)
     named = {link: _renamed(draft, link, point) for link in joined[1:]}
-    apart = tuple(_("point {point} of {link}", link=link, point=new) for link, new in named.items())
+    separated = tuple(_("point {point} of {link}", link=link, point=new) for link, new in named.items())
     named_links = tuple(_("frame", code="nouns.frame") if link == "frame" else link for link in joined)
     gone = _(
         "Pin {point} removed: {links} are no longer joined there ({apart}); drag them apart with Move.",
         code="studio.pin_gone",
         point=point,
         links=named_links,
-        apart=apart,
+        apart=separated,
     )
     return (
         _(

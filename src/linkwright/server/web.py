@@ -28,7 +28,7 @@ from linkwright.server.background import unexpected
 from linkwright.server.files import LARGEST, Files
 from linkwright.server.request import BadRequest, parsed
 from linkwright.server.texts import TEXTS
-from linkwright.server.work import Work, language_of, said
+from linkwright.server.work import Work, error_text, language_of
 from linkwright.words import LANGUAGES, Message, _
 
 _POLICY = (
@@ -135,9 +135,9 @@ class _Handler(BaseHTTPRequestHandler):
             language = language_of(asked)
             status, found = 200, answer(asked)
         except BadRequest as error:
-            status, found = 400, {"error": said(error, language)}
+            status, found = 400, {"error": error_text(error, language)}
         except LinkwrightError as error:
-            status, found = 422, {"error": said(error, language)}
+            status, found = 422, {"error": error_text(error, language)}
         except Exception as error:
             status, found = 500, {"error": unexpected(error, language)}
         text = json.dumps(found, ensure_ascii=False, allow_nan=False)

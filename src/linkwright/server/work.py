@@ -205,7 +205,7 @@ def _finding(found: Finding, language: str) -> Plain:
     }
 
 
-def said(error: LinkwrightError, language: str) -> str:
+def error_text(error: LinkwrightError, language: str) -> str:
     """What is wrong; of a model its findings without the name of a file, which the page's text has not."""
     if isinstance(error, ModelError):
         error = ModelError([replace(each, where="") for each in error.findings])

@@ -9,7 +9,17 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import per_mm, significant
 from linkwright.pictures.labels import Name, put
-from linkwright.pictures.picture import LEAST, Pen, Picture, Runs, Words, as_runs, indexed, joined, round_up
+from linkwright.pictures.picture import (
+    MIN_TEXT,
+    Pen,
+    Picture,
+    Runs,
+    Words,
+    as_runs,
+    indexed,
+    joined,
+    round_up,
+)
 from linkwright.plotting.diagrams.axes import ANGLE_STEPS, InputAxis, Unit
 from linkwright.plotting.diagrams.panels import Panel as Plotted
 from linkwright.sheets.panel import Drawn, Panel, preferred
@@ -18,7 +28,7 @@ from linkwright.units import si_unit
 #: Height of a diagram in widths; room for numbers at the left, below, and for the arrows of the axes, mm.
 FLATNESS, LEFT, BELOW, BEYOND = 0.45, 16.0, 9.0, 6.0
 #: Least distance of marks on an axis, and their length, mm.
-APART, MARK = 13.0, 1.2
+TICK_SPACING, MARK = 13.0, 1.2
 #: Distance of curves from zero, in their own heights, from which the axis does not begin at zero.
 FAR = 1.5
 #: Share of a diagram's height below which a level is zero.
@@ -120,13 +130,15 @@ class CurvePanel(Panel):
         picture.arrow((0.0, 0.0), (right + BEYOND, 0.0), "thin")
         picture.text((right + BEYOND + 1.0, 1.2), _label(self.symbols[0], self.axis.unit), self.letters)
         low, top = float(np.nanmin(self.x)), float(np.nanmax(self.x))
-        step = _step(APART * scale, angle=self.axis.dimension == "angle")
+        step = _step(TICK_SPACING * scale, angle=self.axis.dimension == "angle")
         for value in np.arange(math.ceil(low / step - 1e-9), math.floor(top / step + 1e-9) + 1) * step:
             place = abs(value - (top if self.axis.backwards else low)) / scale
             picture.line([(place, -MARK if floor < -MARK else 0.0), (place, MARK)])
             if floor < 0:
                 picture.line([(place, floor), (place, floor - MARK)])
-            picture.text((place, floor - MARK - 1.0 - LEAST), significant(float(value)), LEAST, "middle")
+            picture.text(
+                (place, floor - MARK - 1.0 - MIN_TEXT), significant(float(value)), MIN_TEXT, "middle"
+            )
 
     def _up(self, picture: Picture, scale: float, ends: tuple[float, float], base: float) -> None:
         """The axis at the left with its numbers."""
@@ -134,14 +146,14 @@ class CurvePanel(Panel):
         peak = (top - base) / scale
         picture.arrow((0.0, (low - base) / scale), (0.0, peak + BEYOND), "thin")
         picture.text((1.5, peak + BEYOND - 2.0), _label(self.symbols[1], self.unit), self.letters)
-        step = _step(0.6 * APART * scale, angle=self.plotted.dimension == "angle")
+        step = _step(0.6 * TICK_SPACING * scale, angle=self.plotted.dimension == "angle")
         for value in np.arange(math.ceil(low / step - 1e-9), math.floor(top / step + 1e-9) + 1) * step:
             level = (value - base) / scale
             picture.line([(-MARK, level), (0.0, level)])
-            picture.text((-MARK - 0.8, level - 0.5 * LEAST), significant(float(value)), LEAST, "end")
+            picture.text((-MARK - 0.8, level - 0.5 * MIN_TEXT), significant(float(value)), MIN_TEXT, "end")
 
 
-def _step(least: float, *, angle: bool) -> float:
+def _step(minimum: float, *, angle: bool) -> float:
     """A round distance of marks that is not below a value."""
-    found = round_up(least, (1.0, 2.0, 5.0))
-    return next((each for each in ANGLE_STEPS if each >= least * (1 - 1e-9)), found) if angle else found
+    found = round_up(minimum, (1.0, 2.0, 5.0))
+    return next((each for each in ANGLE_STEPS if each >= minimum * (1 - 1e-9)), found) if angle else found

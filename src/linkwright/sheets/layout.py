@@ -31,7 +31,7 @@ Draw = Callable[[str, float], Block]
 class Room:
     """Where panels may stand: a rectangle without the ``taken`` ones (title block, control bar, fixed panels)."""
 
-    whole: Box
+    outer: Box
     taken: tuple[Box, ...] = ()
 
     def without(self, *boxes: Box) -> Room:
@@ -40,7 +40,7 @@ class Room:
 
     def stretches(self, top: float, bottom: float) -> list[tuple[float, float]]:
         """The free stretches from left to right between two heights, GAP away from what is taken."""
-        found = [(self.whole.left, self.whole.right)]
+        found = [(self.outer.left, self.outer.right)]
         for box in self.taken:
             if box.bottom - GAP >= top or box.top + GAP <= bottom:
                 continue
@@ -105,7 +105,7 @@ def packed(blocks: Sequence[Block], room: Room, *, even: bool = False) -> list[R
     """Rows that hold all blocks in their order, None where they have no room; each block goes into the first row in
     which it fits. A new row is as high as its first block, with ``even`` as the highest one that is still to come."""
     rows: list[Row] = []
-    top = room.whole.top
+    top = room.outer.top
     for number, block in enumerate(blocks):
         if any(row.take(block) for row in rows):
             continue
@@ -120,14 +120,14 @@ def packed(blocks: Sequence[Block], room: Room, *, even: bool = False) -> list[R
 
 def _opened(block: Block, room: Room, top: float, high: float) -> list[Row] | None:
     """Rows of a height side by side between what is taken, from ``top`` down, one of which holds the block."""
-    while top - high >= room.whole.bottom - 1e-9:
+    while top - high >= room.outer.bottom - 1e-9:
         rows = [Row(a, b, top, high) for a, b in room.stretches(top, top - high)]
         if any(row.take(block) for row in rows):
             return rows
-        lower = [box.bottom - GAP for box in room.taken if box.bottom - GAP < top - 1e-9]
-        if not lower:
+        tops = [box.bottom - GAP for box in room.taken if box.bottom - GAP < top - 1e-9]
+        if not tops:
             return None
-        top = max(lower)
+        top = max(tops)
     return None
 
 
@@ -166,8 +166,8 @@ def _in_the_middle(row: Row) -> list[Column]:
 def _lowered(found: Places, rows: Sequence[Row], room: Room) -> Places:
     """Places with the height that is left below the last row spread between the rows, as far as nothing is met."""
     tops = sorted({row.top for row in rows if row.columns}, reverse=True)
-    lowest = min((box.bottom for box in found.values()), default=room.whole.bottom)
-    spare = lowest - room.whole.bottom
+    lowest = min((box.bottom for box in found.values()), default=room.outer.bottom)
+    spare = lowest - room.outer.bottom
     for share in (1.0, 0.75, 0.5, 0.25):
         step = share * spare / (len(tops) + 1)
         shift = {top: step * (number + 1) for number, top in enumerate(tops)}
@@ -189,7 +189,7 @@ class Layout:
     left_out: tuple[str, ...] = ()
 
 
-def _as_given(blocks: list[Block]) -> list[Block]:
+def _in_order(blocks: list[Block]) -> list[Block]:
     return blocks
 
 
@@ -199,7 +199,7 @@ def _tall_first(blocks: list[Block]) -> list[Block]:
 
 #: Orders in which blocks are packed, with even rows or not; the share of size that the given one, which reads better,
 #: may cost.
-_ORDERS = ((_as_given, True), (_as_given, False), (_tall_first, False))
+_ORDERS = ((_in_order, True), (_in_order, False), (_tall_first, False))
 _TIDY = 0.4
 
 
@@ -228,7 +228,7 @@ class _Asked:
     @property
     def merit(self) -> float:
         """The share, and more for the order that reads better."""
-        return (self.share or 0.0) + (_TIDY if self.order is _as_given else 0.0)
+        return (self.share or 0.0) + (_TIDY if self.order is _in_order else 0.0)
 
 
 def laid_out(names: Sequence[str], ranks: Mapping[str, float], draw: Draw, room: Room) -> Layout:

@@ -13,7 +13,18 @@ from linkwright.drivers.base import Driver
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.labels import TO_UNITS, UNIT, Label, Name, put
-from linkwright.pictures.picture import LEAST, Circle, Fill, Line, Pen, Picture, Vec, as_runs, indexed, joined
+from linkwright.pictures.picture import (
+    MIN_TEXT,
+    Circle,
+    Fill,
+    Line,
+    Pen,
+    Picture,
+    Vec,
+    as_runs,
+    indexed,
+    joined,
+)
 from linkwright.pictures.symbols.base import SYMBOLS, vec
 from linkwright.plotting.drawing.loads import load_labels, load_marks
 from linkwright.plotting.drawing.machine import View, extent_of
@@ -89,7 +100,7 @@ AROUND, NUMBERED_RADIUS = 8.0, 9.0
 #: Smallest and largest size as shares of the paper's length and width together.
 SIZES = (0.22, 0.36)
 #: Points whose paths are drawn, at most, and the least extent of a path, mm.
-PATHS, LEAST_PATH = 6, 3.0
+PATHS, MIN_PATH = 6, 3.0
 
 
 class MachinePanel(Panel):
@@ -130,10 +141,10 @@ class MachinePanel(Panel):
         places = [(each.number, self.positions.place(each)) for each in shown]
         if not places or not places[0][1]:
             return words(_("Mechanism"))
-        told = words(pgettext("sheet", ", ")).join(
+        places_text = words(pgettext("sheet", ", ")).join(
             words(_("{number}: {place}", number=number, place=place)) for number, place in places
         )
-        return words(_("Mechanism, position {positions}", positions=told))
+        return words(_("Mechanism, position {positions}", positions=places_text))
 
 
 class _Machine:
@@ -169,11 +180,11 @@ class _Machine:
             for track in tracks
         ]
         order = sorted(range(len(tracks)), key=lambda k: -spans[k])
-        kept: list[Floats] = []
+        drawn: list[Floats] = []
         for k in order:
-            same = any(np.allclose(tracks[k], other, atol=0.05, equal_nan=True) for other in kept)
-            if spans[k] > LEAST_PATH and not same and len(kept) < PATHS:
-                kept.append(tracks[k])
+            same = any(np.allclose(tracks[k], other, atol=0.05, equal_nan=True) for other in drawn)
+            if spans[k] > MIN_PATH and not same and len(drawn) < PATHS:
+                drawn.append(tracks[k])
                 self.found.line(tracks[k], "chain")
 
     # names -------------------------------------------------------------------------------------
@@ -244,7 +255,7 @@ class _Machine:
             self.found.circle(place, 0.7, fill="paper")
             out = (place - middle) / (float(np.hypot(*(place - middle))) or 1.0) if turning else np.zeros(2)
             found.append(
-                Name(as_runs(str(number)), [place + 2.2 * out], LEAST, clear=0.6 if turning else 1.2)
+                Name(as_runs(str(number)), [place + 2.2 * out], MIN_TEXT, clear=0.6 if turning else 1.2)
             )
         return found
 

@@ -67,14 +67,14 @@ def motion_table(positions: Positions) -> Iterator[TablePanel]:
     words, motion = positions.subject.words, positions.motion
     numbers = link_numbers(positions.mechanism)
     rows: list[list[Words]] = []
-    seen: list[Floats] = []
+    tabulated: list[Floats] = []
     for key in motion.point_names():
         point = motion.point_of(key)
         track = np.hstack([point.position, point.velocity])
-        same = any(np.allclose(track, other, atol=1e-9, equal_nan=True) for other in seen)
+        same = any(np.allclose(track, other, atol=1e-9, equal_nan=True) for other in tabulated)
         if same or not float(np.nanmax(np.abs(point.velocity), initial=0.0)) > 1e-9:
             continue
-        seen.append(track)
+        tabulated.append(track)
         name = key.rpartition(".")[2] if key.count(".") == 1 else key
         rows.append(_row(indexed("v", name), "m/s", np.hypot(*point.velocity.T), positions))
         rows.append(_row(indexed("a", name), "m/s²", np.hypot(*point.acceleration.T), positions))

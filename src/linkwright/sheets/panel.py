@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from linkwright.pictures.picture import (
     CAPTION,
     GRAPHICAL,
-    LEAST,
+    MIN_TEXT,
     TEXT,
     Box,
     Picture,
@@ -88,7 +88,7 @@ def block_of(name: str, drawn: Drawn, caption: float = CAPTION) -> Block:
     """A drawn panel with its caption, as one picture; ``caption``: height of its first line."""
     inner = drawn.picture.bounds
     heights = [
-        caption if number == 0 else (TEXT if caption > TEXT else LEAST)
+        caption if number == 0 else (TEXT if caption > TEXT else MIN_TEXT)
         for number in range(len(drawn.caption))
     ]
     widths = [runs_width(line, height) for line, height in zip(drawn.caption, heights, strict=True)]
@@ -103,15 +103,15 @@ def block_of(name: str, drawn: Drawn, caption: float = CAPTION) -> Block:
     return Block(name, found, wide, below + inner.height, drawn.scale)
 
 
-def preferred(least: float) -> float:
+def preferred(minimum: float) -> float:
     """The smallest of 1, 2, 2.5, 4, 5 times a power of ten that is not below a value: graphical scales per mm."""
-    return round_up(least, GRAPHICAL)
+    return round_up(minimum, GRAPHICAL)
 
 
-def drawing_scale(least: float, *, allowed: bool = False) -> float:
+def drawing_scale(minimum: float, *, allowed: bool = False) -> float:
     """The smallest reduction (2.0 for 1:2, 0.5 for 2:1) of ISO 5455, or that GB/T 14690 prefers, that is not below a
     value; ``allowed``: also 1:2.5, 1:4, 2.5:1 and 4:1, which GB/T 14690 allows."""
-    return round_up(least, GRAPHICAL if allowed else (1.0, 2.0, 5.0))
+    return round_up(minimum, GRAPHICAL if allowed else (1.0, 2.0, 5.0))
 
 
 def scale_text(reduction: float) -> str:
@@ -121,7 +121,7 @@ def scale_text(reduction: float) -> str:
 
 
 #: Height of a row in heights of its letters, and space beside a text, mm.
-ROW, BESIDE = 1.9, 1.6
+ROW, CELL_PADDING = 1.9, 1.6
 #: Rows of a table that is not parted.
 LONG = 10
 
@@ -156,10 +156,10 @@ class TablePanel(Panel):
     def drawn(self, size: float, scale: float | None) -> Drawn:
         picture, tall = Picture(), ROW * self.letters
         widths = [
-            max(runs_width(as_runs(row[k]), self.letters) for row in self.rows) + 2 * BESIDE
+            max(runs_width(as_runs(row[k]), self.letters) for row in self.rows) + 2 * CELL_PADDING
             for k in range(len(self.rows[0]))
         ]
-        whole = Box(0.0, -tall * len(self.rows), sum(widths), 0.0)
+        outline = Box(0.0, -tall * len(self.rows), sum(widths), 0.0)
         for number, row in enumerate(self.rows):
             left, level = 0.0, -tall * number
             for width, text in zip(widths, row, strict=True):
@@ -167,11 +167,11 @@ class TablePanel(Panel):
                 picture.text((left + 0.5 * width, baseline), text, self.letters, "middle")
                 left += width
             if number:
-                picture.line([(0.0, level), (whole.right, level)], "thick" if number == 1 else "thin")
+                picture.line([(0.0, level), (outline.right, level)], "thick" if number == 1 else "thin")
         left = 0.0
         for number, width in enumerate(widths[:-1], 1):
             left += width
             between = number * self.parts % len(widths) == 0
-            picture.line([(left, 0.0), (left, whole.bottom)], "thick" if between else "thin")
-        picture.box(whole, "thick")
+            picture.line([(left, 0.0), (left, outline.bottom)], "thick" if between else "thin")
+        picture.box(outline, "thick")
         return Drawn(picture, (as_runs(self.caption),))

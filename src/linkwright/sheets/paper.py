@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from linkwright.pictures.picture import LEAST, TEXT, Box, Picture
+from linkwright.pictures.picture import MIN_TEXT, TEXT, Box, Picture
 from linkwright.words import Say, _
 
 Standard = Literal["gb", "iso"]
@@ -41,7 +41,7 @@ class Paper:
         return float(SIZES[self.size][1 if self.upright else 0])
 
     @property
-    def whole(self) -> Box:
+    def outer(self) -> Box:
         """The sheet's own rectangle."""
         return Box(0.0, 0.0, self.width, self.height)
 
@@ -72,7 +72,7 @@ def frame(paper: Paper, *, zones: bool, block: Box) -> Picture:
     """Edge of the paper, frame, centring marks (left out in the title block) and, if asked for, zones."""
     picture = Picture()
     inner = paper.frame
-    picture.box(paper.whole)
+    picture.box(paper.outer)
     picture.box(inner, "frame")
     across, up = paper.width / 2, paper.height / 2
     marks = [
@@ -112,7 +112,7 @@ def _zones(picture: Picture, paper: Paper) -> None:
             name = str(number + 1) if lying else LETTERS[count - 1 - number]
             aside = edge + out * 0.5 * margin
             place = (middle, aside) if lying else (aside, middle)
-            height = TEXT if margin >= BORDER else LEAST
+            height = TEXT if margin >= BORDER else MIN_TEXT
             picture.text((place[0], place[1] - 0.5 * height), name, height, "middle")
 
 
@@ -129,6 +129,6 @@ def control_bar(say: Say) -> Picture:
         picture.line([(place, 6.5), (place, 9.5 if place % 50 == 0 else 8.0)])
     for number in (0, 50, 100):
         anchor = {0: "start", 50: "middle", 100: "end"}[number]
-        picture.text((number, 10.5), str(number), LEAST, anchor)  # type: ignore[arg-type]
+        picture.text((number, 10.5), str(number), MIN_TEXT, anchor)  # type: ignore[arg-type]
     picture.text((0.0, 1.2), say(_("Print at 100 %: this bar is 100 mm long.")), TEXT)
     return picture

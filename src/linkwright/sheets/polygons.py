@@ -12,7 +12,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.quantity import per_mm
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.labels import Name, put
-from linkwright.pictures.picture import LEAST, Picture, as_runs, indexed, joined
+from linkwright.pictures.picture import MIN_TEXT, Picture, as_runs, indexed, joined
 from linkwright.plotting.diagrams.motion_polygons import arrows, gathered
 from linkwright.plotting.diagrams.motion_vectors import (
     MotionPolygon,
@@ -127,7 +127,7 @@ class MotionPolygonPanel(ScaledPanel):
         for role, ends in parts.items():
             for number, end in enumerate(ends, 1):
                 runs = as_runs(((f"{ENDS[role]}′", 0), (str(number) if len(ends) > 1 else "", -1)))
-                found.append(Name(runs, [end], LEAST, symbol=True))
+                found.append(Name(runs, [end], MIN_TEXT, symbol=True))
         return found
 
 

@@ -41,8 +41,8 @@ class Positions:
     def __init__(self, subject: Subject) -> None:
         assert isinstance(subject.drawn, Mechanism)
         self.subject, self.mechanism = subject, subject.drawn
-        given = report_settings(self.mechanism.report, subject.language)
-        self.case = Case(self.mechanism, given, subject.language)
+        settings = report_settings(self.mechanism.report, subject.language)
+        self.case = Case(self.mechanism, settings, subject.language)
 
     @cached_property
     def _passing(self) -> tuple[Motion, list[int], list[int]]:

@@ -92,9 +92,9 @@ class Settings:
     panels: Mapping[str, Placed] = field(default_factory=dict)
 
 
-def read_section(given: Mapping[str, Any]) -> dict[str, Any]:
+def read_section(section: Mapping[str, Any]) -> dict[str, Any]:
     """The values of a section ``sheet`` by its keys, SI; raises ModelError with all findings."""
-    reading = SectionReading(Keys(SHEET), "sheet", given)
+    reading = SectionReading(Keys(SHEET), "sheet", section)
     reading.settle()
     return {key: value for key, value in reading.values.items() if value is not None}
 
@@ -110,24 +110,24 @@ def settings(
 ) -> Settings:
     """The settings in a language; ``size`` before that of the file, ``usual`` where neither is; ``name``: of the
     machine, for a title block without a title."""
-    given = read_section(section)
-    paper = _paper(given, language, size or given.get("size") or usual)
-    words = {**_fallback(report or {}, language), **_words(given), **(given.get(language) or {})}
+    read = read_section(section)
+    paper = _paper(read, language, size or read.get("size") or usual)
+    words = {**_fallback(report or {}, language), **_words(read), **(read.get(language) or {})}
     words.setdefault("title", name)
     fields = Fields(
         **{("class_name" if key == "class" else key): str(words.get(key, "")) for key in WORDS},
-        sheet=given.get("sheet", 1),
-        sheets=max(given.get("sheets", 1), given.get("sheet", 1)),
+        sheet=read.get("sheet", 1),
+        sheets=max(read.get("sheets", 1), read.get("sheet", 1)),
     )
     return Settings(
         paper,
-        given.get("block") or ("short" if paper.size in ("A3", "A4") else "full"),
-        bool(given.get("zones", False)),
+        read.get("block") or ("short" if paper.size in ("A3", "A4") else "full"),
+        bool(read.get("zones", False)),
         fields,
-        tuple(given.get("positions", ())),
-        tuple(given.get("only", ())),
-        tuple(given.get("leave_out", ())),
-        {key: _placed(each) for key, each in given.get("panels", {}).items()},
+        tuple(read.get("positions", ())),
+        tuple(read.get("only", ())),
+        tuple(read.get("leave_out", ())),
+        {key: _placed(each) for key, each in read.get("panels", {}).items()},
     )
 
 
@@ -156,14 +156,14 @@ def places(mechanism: Mechanism, texts: Sequence[str]) -> list[float]:
     return found
 
 
-def _paper(given: Mapping[str, Any], language: str, size: str) -> Paper:
-    upright = given.get("orientation", "portrait" if size == "A4" else "landscape") == "portrait"
-    standard = cast(Standard, given.get("standard") or ("gb" if language == "zh" else "iso"))
-    return Paper(size, upright, standard, given.get("binding", True))
+def _paper(section: Mapping[str, Any], language: str, size: str) -> Paper:
+    upright = section.get("orientation", "portrait" if size == "A4" else "landscape") == "portrait"
+    standard = cast(Standard, section.get("standard") or ("gb" if language == "zh" else "iso"))
+    return Paper(size, upright, standard, section.get("binding", True))
 
 
-def _words(given: Mapping[str, Any]) -> dict[str, str]:
-    return {key: given[key] for key in WORDS if key in given}
+def _words(section: Mapping[str, Any]) -> dict[str, str]:
+    return {key: section[key] for key in WORDS if key in section}
 
 
 def _fallback(report: Mapping[str, Any], language: str) -> dict[str, str]:

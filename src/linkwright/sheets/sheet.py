@@ -14,7 +14,7 @@ from linkwright.files.model_file import load
 from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
-from linkwright.pictures.picture import CAPTION, LEAST, TEXT, Box, Picture, Text
+from linkwright.pictures.picture import CAPTION, MIN_TEXT, TEXT, Box, Picture, Text
 from linkwright.registry import listed
 from linkwright.sheets.layout import GAP, Room, laid_out
 from linkwright.sheets.panel import Block, Panel, block_of
@@ -131,7 +131,7 @@ def sheet(
                 sizes=tuple(SIZES),
             )
         )
-    drawn, own = _given(machine)
+    drawn, own = _sources(machine)
     if section is not None:
         own = section
     chosen = kind or ("mechanism" if isinstance(drawn, Mechanism) else str(drawn.kind))
@@ -152,7 +152,7 @@ def sheet(
     return _composed(subject, content, chosen, name)
 
 
-def _given(machine: Mechanism | Problem | str | Path) -> tuple[Mechanism | Problem, Mapping[str, Any]]:
+def _sources(machine: Mechanism | Problem | str | Path) -> tuple[Mechanism | Problem, Mapping[str, Any]]:
     """What is drawn, and the section ``sheet`` of its file."""
     if isinstance(machine, Mechanism):
         return machine, machine.sheet
@@ -176,15 +176,15 @@ class _Drawer:
     ) -> None:
         self.panels, self.placed, self.room, self.caption = panels, placed, room, caption
         for panel in panels.values():
-            panel.letters = min(panel.letters, LEAST) if caption < CAPTION else panel.letters
+            panel.letters = min(panel.letters, MIN_TEXT) if caption < CAPTION else panel.letters
         self._blocks: dict[tuple[str, float], Block] = {}
 
     def __call__(self, name: str, share: float) -> Block:
-        panel, given = self.panels[name], self.placed.get(name, Placed())
+        panel, placement = self.panels[name], self.placed.get(name, Placed())
         largest = min(panel.largest, max(self.room.width, self.room.height))
-        size = given.size or panel.smallest + share * max(0.0, largest - panel.smallest)
+        size = placement.size or panel.smallest + share * max(0.0, largest - panel.smallest)
         if (name, size) not in self._blocks:
-            self._blocks[name, size] = block_of(name, panel.drawn(size, given.scale), self.caption)
+            self._blocks[name, size] = block_of(name, panel.drawn(size, placement.scale), self.caption)
         return self._blocks[name, size]
 
 
@@ -197,7 +197,7 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
     bar = _bar_place(inner, corner)
     room = Room(inner.inset(GAP), (corner, bar))
     panels = _chosen(content.panels, wanted)
-    draw = _Drawer(panels, wanted.panels, room.whole, TEXT if paper.size in ("A3", "A4") else CAPTION)
+    draw = _Drawer(panels, wanted.panels, room.outer, TEXT if paper.size in ("A3", "A4") else CAPTION)
     fixed = {key: draw(key, 1.0).at(*at) for key in panels if (at := wanted.panels.get(key, Placed()).at)}
     _refuse_outside(fixed, inner)
     _refuse_meeting({"title_block": corner, **fixed})
@@ -226,8 +226,8 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
 
 
 def _block(subject: Subject, kind: str, scale: str) -> TitleBlock:
-    given, say = subject.settings.fields, subject.say
-    fields = replace(given, drawing=given.drawing or say(DRAWINGS[kind]), scale=scale)
+    entries, say = subject.settings.fields, subject.say
+    fields = replace(entries, drawing=entries.drawing or say(DRAWINGS[kind]), scale=scale)
     if subject.settings.block == "short":
         return school_block(fields, say)
     return (gb_block if subject.settings.paper.standard == "gb" else iso_block)(fields, say)

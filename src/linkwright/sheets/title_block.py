@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from linkwright.pictures.picture import LEAST, TEXT, Box, Picture, as_runs, runs_width
+from linkwright.pictures.picture import MIN_TEXT, TEXT, Box, Picture, as_runs, runs_width
 from linkwright.pictures.svg.fonts import needs_chinese
 from linkwright.words import Say, _, pgettext
 
@@ -70,8 +70,8 @@ def _write(picture: Picture, cell: Cell, box: Box) -> None:
     """Head and text of a cell; a long text is made smaller, then set in two lines, then cut."""
     room = box.height
     if cell.head:
-        picture.text((box.left + 1.0, box.top - 1.0 - LEAST), cell.head, LEAST)
-        room -= LEAST + 1.5
+        picture.text((box.left + 1.0, box.top - 1.0 - MIN_TEXT), cell.head, MIN_TEXT)
+        room -= MIN_TEXT + 1.5
     if not cell.text:
         return
     width = box.width - 1.6
@@ -94,19 +94,21 @@ def fitted(text: str, width: float, room: float, letters: float) -> tuple[list[s
         parts = [part for part in text.split("\n") if part]
         heights = [fitted(part, width, room / len(parts), letters)[1] for part in parts]
         return [fitted(part, width, 1.3 * min(heights), min(heights))[0][0] for part in parts], min(heights)
-    least = TEXT if needs_chinese(text) else LEAST
+    minimum = TEXT if needs_chinese(text) else MIN_TEXT
     width /= 0.7 if needs_chinese(text) else 1.0
-    heights = [each for each in (letters, 7.0, 5.0, TEXT, LEAST) if least <= each <= max(letters, least)]
+    heights = [
+        each for each in (letters, 7.0, 5.0, TEXT, MIN_TEXT) if minimum <= each <= max(letters, minimum)
+    ]
     for height in heights:
         if runs_width(as_runs(text), height) <= width and height <= room:
             return [text], height
         if 2.6 * height <= room and (lines := _halves(text, width, height)):
             return lines, height
-    if not needs_chinese(text) and NARROWEST * runs_width(as_runs(text), least) <= width:
-        return [text], least
-    while text and runs_width(as_runs(text + "…"), least) > width:
+    if not needs_chinese(text) and NARROWEST * runs_width(as_runs(text), minimum) <= width:
+        return [text], minimum
+    while text and runs_width(as_runs(text + "…"), minimum) > width:
         text = text[:-1]
-    return [text + "…"], least
+    return [text + "…"], minimum
 
 
 def _halves(text: str, width: float, height: float) -> list[str]:
@@ -119,9 +121,9 @@ def _halves(text: str, width: float, height: float) -> list[str]:
     return []
 
 
-def gb_block(given: Fields, say: Say) -> TitleBlock:
+def gb_block(fields: Fields, say: Say) -> TitleBlock:
     """180 × 56 mm: changes, signatures, others, name and code, after the example of GB/T 10609.1-2008."""
-    return TitleBlock(180.0, 56.0, (*_gb_changes(say), *_gb_signatures(given, say), *_gb_rest(given, say)))
+    return TitleBlock(180.0, 56.0, (*_gb_changes(say), *_gb_signatures(fields, say), *_gb_rest(fields, say)))
 
 
 def _gb_changes(say: Say) -> Iterator[Cell]:
@@ -135,11 +137,11 @@ def _gb_changes(say: Say) -> Iterator[Cell]:
     yield Cell(0, 0, 80, 28, thick=True)
 
 
-def _gb_signatures(given: Fields, say: Say) -> Iterator[Cell]:
+def _gb_signatures(fields: Fields, say: Say) -> Iterator[Cell]:
     people = (
-        (_("Drawn"), given.student, given.date if given.student else ""),
-        (pgettext("sheet", "Adviser"), given.adviser, ""),
-        (_("Checked"), given.checker, ""),
+        (_("Drawn"), fields.student, fields.date if fields.student else ""),
+        (pgettext("sheet", "Adviser"), fields.adviser, ""),
+        (_("Checked"), fields.checker, ""),
         (_("Process"), "", ""),
     )
     others = (_("Stand."), None, None, _("Appr."))
@@ -154,42 +156,42 @@ def _gb_signatures(given: Fields, say: Say) -> Iterator[Cell]:
     yield Cell(0, 28, 80, 28, thick=True)
 
 
-def _gb_rest(given: Fields, say: Say) -> Iterator[Cell]:
-    yield Cell(80, 0, 50, 28, given.title, 5.0, thick=True)
+def _gb_rest(fields: Fields, say: Say) -> Iterator[Cell]:
+    yield Cell(80, 0, 50, 28, fields.title, 5.0, thick=True)
     yield Cell(80, 28, 26, 7, say(_("Stage")), 3.5)
     yield Cell(106, 28, 12, 7, say(_("Mass")), 3.5)
     yield Cell(118, 28, 12, 7, say(_("Scale")), 3.5)
     for k in range(4):
         yield Cell(80 + 6.5 * k, 35, 6.5, 12)
     yield Cell(106, 35, 12, 12)
-    yield Cell(118, 35, 12, 12, given.scale, 3.5)
+    yield Cell(118, 35, 12, 12, fields.scale, 3.5)
     yield Cell(
-        80, 47, 50, 9, say(_("Sheet {sheet} of {sheets}", sheet=given.sheet, sheets=given.sheets)), 3.5
+        80, 47, 50, 9, say(_("Sheet {sheet} of {sheets}", sheet=fields.sheet, sheets=fields.sheets)), 3.5
     )
     yield Cell(80, 28, 50, 28, thick=True)
-    yield Cell(130, 0, 50, 18, _joined(given.school, given.faculty), 5.0, thick=True)
-    yield Cell(130, 18, 50, 20, given.drawing, 7.0, thick=True)
-    yield Cell(130, 38, 50, 9, given.number or given.student_number, 5.0, thick=True)
+    yield Cell(130, 0, 50, 18, _joined(fields.school, fields.faculty), 5.0, thick=True)
+    yield Cell(130, 18, 50, 20, fields.drawing, 7.0, thick=True)
+    yield Cell(130, 38, 50, 9, fields.number or fields.student_number, 5.0, thick=True)
     yield Cell(
-        130, 47, 50, 9, _joined(given.class_name, given.student_number if given.number else ""), thick=True
+        130, 47, 50, 9, _joined(fields.class_name, fields.student_number if fields.number else ""), thick=True
     )
 
 
-def school_block(given: Fields, say: Say) -> TitleBlock:
+def school_block(fields: Fields, say: Say) -> TitleBlock:
     """140 × 40 mm: drawing, scale, number, class, persons, title of the task, school, sheet of sheets."""
-    cells = [Cell(0, 0, 60, 16, given.drawing, 7.0)]
+    cells = [Cell(0, 0, 60, 16, fields.drawing, 7.0)]
     right = (
-        (_("Scale"), given.scale, pgettext("sheet.block.number", "No."), given.number),
-        (_("Class"), given.class_name, _("Id. no."), given.student_number),
+        (_("Scale"), fields.scale, pgettext("sheet.block.number", "No."), fields.number),
+        (_("Class"), fields.class_name, _("Id. no."), fields.student_number),
     )
     for row, (head, text, other, value) in enumerate(right):
         y = 8.0 * row
         cells += [Cell(60, y, 15, 8, say(head)), Cell(75, y, 25, 8, text)]
         cells += [Cell(100, y, 15, 8, say(other)), Cell(115, y, 25, 8, value)]
     people = (
-        (_("Drawn"), given.student, given.date),
-        (pgettext("sheet", "Adviser"), given.adviser, ""),
-        (_("Checked"), given.checker, ""),
+        (_("Drawn"), fields.student, fields.date),
+        (pgettext("sheet", "Adviser"), fields.adviser, ""),
+        (_("Checked"), fields.checker, ""),
     )
     for row, (head, name, date) in enumerate(people):
         y = 16.0 + 8.0 * row
@@ -199,34 +201,34 @@ def school_block(given: Fields, say: Say) -> TitleBlock:
             Cell(40, y, 20, 8, date),
         ]
     cells += [
-        Cell(60, 16, 80, 8, given.title, 5.0),
-        Cell(60, 24, 80, 8, _joined(given.school, given.faculty), 5.0),
-        Cell(60, 32, 80, 8, say(_("Sheet {sheet} of {sheets}", sheet=given.sheet, sheets=given.sheets))),
+        Cell(60, 16, 80, 8, fields.title, 5.0),
+        Cell(60, 24, 80, 8, _joined(fields.school, fields.faculty), 5.0),
+        Cell(60, 32, 80, 8, say(_("Sheet {sheet} of {sheets}", sheet=fields.sheet, sheets=fields.sheets))),
     ]
     return TitleBlock(140.0, 40.0, tuple(cells))
 
 
-def iso_block(given: Fields, say: Say) -> TitleBlock:
+def iso_block(fields: Fields, say: Say) -> TitleBlock:
     """180 × 40 mm with the fields of ISO 7200, and the scale."""
 
     top = (
-        (say(_("Responsible dept.")), _joined(given.faculty, given.class_name)),
-        (say(_("Technical reference")), given.student_number),
-        (say(_("Created by")), given.student),
-        (say(_("Approved by")), _joined(given.adviser, given.checker)),
+        (say(_("Responsible dept.")), _joined(fields.faculty, fields.class_name)),
+        (say(_("Technical reference")), fields.student_number),
+        (say(_("Created by")), fields.student),
+        (say(_("Approved by")), _joined(fields.adviser, fields.checker)),
     )
     cells = [Cell(45.0 * k, 0, 45, 10, text, 3.5, name) for k, (name, text) in enumerate(top)]
     cells += [
-        Cell(0, 10, 72, 20, given.school, 5.0, say(_("Legal owner"))),
-        Cell(72, 10, 108, 20, f"{given.title}\n{given.drawing}", 5.0, say(_("Title, supplementary title"))),
+        Cell(0, 10, 72, 20, fields.school, 5.0, say(_("Legal owner"))),
+        Cell(72, 10, 108, 20, f"{fields.title}\n{fields.drawing}", 5.0, say(_("Title, supplementary title"))),
     ]
     bottom = (
         (40.0, say(_("Document type")), say(pgettext("sheet", "Kinematic drawing"))),
-        (46.0, say(_("Identification number")), given.number),
-        (28.0, say(_("Date of issue")), given.date),
-        (24.0, say(_("Scale")), given.scale),
+        (46.0, say(_("Identification number")), fields.number),
+        (28.0, say(_("Date of issue")), fields.date),
+        (24.0, say(_("Scale")), fields.scale),
         (16.0, say(_("Lang.")), say(_("en"))),
-        (26.0, say(_("Sheet")), f"{given.sheet}/{given.sheets}"),
+        (26.0, say(_("Sheet")), f"{fields.sheet}/{fields.sheets}"),
     )
     x = 0.0
     for width, name, text in bottom:

@@ -122,8 +122,8 @@ def _shape(space: Any, item: Line | Circle, covers: list[Line | Circle]) -> None
         hatch.paths.add_edge_path().add_arc(tuple(item.at), radius=item.radius, start_angle=0, end_angle=360)
     low, high = item.cloud.min(axis=0), item.cloud.max(axis=0)
     near = [each for each in covers if _touches(each, low, high)]
-    seen = map(Line, visible(item.outline, near)) if near else (item,)
-    for each in seen:
+    visible_parts = map(Line, visible(item.outline, near)) if near else (item,)
+    for each in visible_parts:
         add(space, each, item.style)
 
 

@@ -123,7 +123,7 @@ def grashof_types(lengths: Floats) -> Integers:
 
 
 def four_bar_range(lengths: Floats) -> tuple[Floats, Floats, Integers]:
-    """Least and greatest cosine of the input angle of four-bars (4, N), and where the input's range lies."""
+    """Smallest and largest cosine of the input angle of four-bars (4, N), and where the input's range lies."""
     a, b, c, d = lengths
     low = (a * a + d * d - (b + c) ** 2) / (2 * a * d)
     high = (a * a + d * d - (b - c) ** 2) / (2 * a * d)
@@ -131,7 +131,7 @@ def four_bar_range(lengths: Floats) -> tuple[Floats, Floats, Integers]:
 
 
 def slider_range(crank: Floats, rod: Floats, offset: Floats) -> Integers:
-    """Where the input's range of slider-cranks lies: the whole turn, both sides of the guide, or one side."""
+    """Where the input's range of slider-cranks lies: the full turn, both sides of the guide, or one side."""
     low, high = (np.abs(offset) - rod) / crank, (np.abs(offset) + rod) / crank
     return _place(low, high)
 

@@ -61,8 +61,8 @@ class Task:
     @property
     def needed(self) -> tuple[str, ...]:
         """The demands that must be given: those without a default."""
-        given = signature(self.run).parameters
-        return tuple(name for name, each in given.items() if each.default is each.empty)
+        parameters = signature(self.run).parameters
+        return tuple(name for name, each in parameters.items() if each.default is each.empty)
 
 
 def slider_crank(
@@ -88,20 +88,20 @@ def slider_crank(
         "offset": offset,
         "transmission_angle": transmission_angle,
     }
-    given = {name for name, value in further.items() if value is not None}
-    if rod_ratio is not None and given <= {"rod_ratio", "offset_ratio"}:
+    chosen = {name for name, value in further.items() if value is not None}
+    if rod_ratio is not None and chosen <= {"rod_ratio", "offset_ratio"}:
         found = slider_crank_from_ratios(stroke, rod_ratio, offset_ratio or 0.0)
-    elif quick_return_ratio is not None and offset is not None and len(given) == 2:
+    elif quick_return_ratio is not None and offset is not None and len(chosen) == 2:
         found = slider_crank_from_quick_return(stroke, quick_return_ratio, offset)
-    elif transmission_angle is not None and given <= {"transmission_angle", "offset"}:
+    elif transmission_angle is not None and chosen <= {"transmission_angle", "offset"}:
         found = slider_crank_from_transmission(stroke, transmission_angle, offset or 0.0)
     else:
         raise SynthesisError(
             _(
                 "a slider-crank needs stroke and one of: rod_ratio (and offset_ratio); "
-                "quick_return_ratio and offset; transmission_angle (and offset); given: {given}",
+                "quick_return_ratio and offset; transmission_angle (and offset); given: {value}",
                 code="synthesize.slider_crank.demands",
-                given=tuple(sorted(given)) or "stroke",
+                value=tuple(sorted(chosen)) or "stroke",
             )
         )
     return found if rounding is None else rounded_slider_crank(found, rounding)

@@ -29,7 +29,7 @@ from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 
 @dataclass(frozen=True, eq=False)
 class CrankFamily:
-    """K four-bars by free numbers (K, 3): ``double`` (K,) marks double cranks, ``transmission`` is μ in rad.
+    """K four-bars by free numbers (K, 3): ``double`` (K,): True for double cranks, ``transmission`` is μ in rad.
 
     ``rocking``: any four-bars, whose input need not turn; the free numbers are the logarithms of b, c, d.
     """

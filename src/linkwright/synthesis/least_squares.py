@@ -29,7 +29,7 @@ def minimise(
 ) -> tuple[Floats, Floats, Integers]:
     """Local minima of Σ r² from the rows of ``start`` (K, m): parameters, sums (both best first) and start numbers.
 
-    Every ``halve`` steps the worse half of the starts is given up, down to ``keep``. Ends when no start gains more
+    Every ``halve`` steps the worse half of the starts is dropped, down to ``keep``. Ends when no start gains more
     than ``ENOUGH`` of its sum in a step.
     """
     x, who = start.copy(), np.arange(len(start))
@@ -66,8 +66,8 @@ def with_differences(residual: Callable[[Floats, Integers], Floats]) -> System:
         h = 1e-7 * np.maximum(1.0, np.abs(x))
         moved = (x[:, None] + h[:, :, None] * np.eye(m)).reshape(-1, m)
         both = residual(np.concatenate([x, moved]), np.concatenate([who, np.repeat(who, m)]))
-        r, beside = both[:count], both[count:].reshape(count, m, -1)
-        return r, ((beside - r[:, None]) / h[:, :, None]).swapaxes(1, 2)
+        r, shifted = both[:count], both[count:].reshape(count, m, -1)
+        return r, ((shifted - r[:, None]) / h[:, :, None]).swapaxes(1, 2)
 
     return system
 

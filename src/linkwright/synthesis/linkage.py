@@ -103,9 +103,9 @@ class Linkage:
         return loads(self.text(name or self.kind, speed=speed), f"{self.kind}.yaml")
 
 
-def input_speed(given: str | float) -> str:
+def input_speed(speed: str | float) -> str:
     """A speed as a number and a unit with a space between; raises RequestError for anything else."""
-    text = given if isinstance(given, str) else f"{real('speed', given)!r} rad/s"
+    text = speed if isinstance(speed, str) else f"{real('speed', speed)!r} rad/s"
     with about("speed"):
         amount(text, "angular_velocity")
     return re.sub(r"^\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*", r"\1 ", text)
@@ -119,7 +119,7 @@ def _moved_guide(guide: Guide, size: float, turn: float) -> Guide:
 def _lines(linkage: Linkage, name: str, purpose: str, source: str, speed: str) -> list[str]:
     unit, scale = ("mm", 1e3) if _extent(linkage) < 1.0 else ("m", 1.0)
     lines = ["format: 1", f"name: {_quoted(name)}"]
-    lines += [f"{key}: {_quoted(said)}" for key, said in (("purpose", purpose), ("source", source)) if said]
+    lines += [f"{key}: {_quoted(text)}" for key, text in (("purpose", purpose), ("source", source)) if text]
     frame = ", ".join(f"{each}: {_pair(linkage.points[each], unit, scale)}" for each in linkage.frame)
     lines += ["frame:", f"  points: {{{frame}}}", "links:"]
     lines += [f"  {link}: {_link(linkage, link, unit, scale)}" for link in linkage.links]

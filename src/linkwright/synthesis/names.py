@@ -44,11 +44,11 @@ DEFECTS: Mapping[str, Message] = {
 ERRORS: Mapping[str, Message] = {
     "none": pgettext("synthesize", "exact"),
     "squares": _("error: sum of squared distances, m²"),
-    "deviation": _("error: greatest deviation, m"),
+    "deviation": _("error: maximum deviation, m"),
     "angle": _("error: root mean square structural error, rad"),
     "length": _("error: root mean square structural error, m"),
-    "rest": _("error: greatest deviation during the rest, rad"),
-    "curve": _("error, worst: mean symmetric and greatest nearest distance, in rms radii of the curve"),
+    "rest": _("error: maximum deviation during the rest, rad"),
+    "curve": _("error, worst: mean symmetric and largest nearest distance, in rms radii of the curve"),
 }
 #: Names of tasks, links, values and counts: as in files and data.
 NAMES: Mapping[str, Message] = {
@@ -72,7 +72,7 @@ NAMES: Mapping[str, Message] = {
 }  # fmt: skip
 
 
-def name_said(name: str, tell: Say) -> str:
+def display_name(name: str, tell: Say) -> str:
     """The word for a task, a link, a value with its unit or a count; other names as they are."""
     stem, _unused, unit = name.partition(" ")
     numbered = stem.removeprefix("link")

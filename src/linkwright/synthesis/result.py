@@ -23,7 +23,7 @@ from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.merit import merit
-from linkwright.synthesis.names import DEFECTS, ERRORS, TYPE_NAMES, name_said
+from linkwright.synthesis.names import DEFECTS, ERRORS, TYPE_NAMES, display_name
 from linkwright.words import Message, Say, _, pgettext
 
 #: Share of the longest length, or of a radian, below which a deviation is rounding.
@@ -53,7 +53,7 @@ class Candidate:
         worst: the largest deviation at one position, in the unit of the target.
         grashof_type: ``crank_rocker``, ``double_crank`` … ``slider_crank``, or the linkage's kind.
         defects: ``circuit``, ``branch``, ``order`` where the demanded positions have them; empty: none over the
-            whole range.
+            full range.
         turns: the input link turns fully.
         transmission_angle: the smallest, over a turn of the input or between its first and last position, rad.
         link_ratio: longest to shortest link.
@@ -178,9 +178,9 @@ class Synthesis(Plotted, Tabular):
         """The table of candidates, the dimensions of each, counts and notes."""
         tell = speaker(language)
         rows = [_row(number, each, self.extent, tell) for number, each in enumerate(self.candidates, 1)]
-        below = [counts_said(self, tell)] if self.counts else []
+        below = [counts_text(self, tell)] if self.counts else []
         return (
-            Table(title=title_said(self, tell), notes=[ERRORS[self.error_name]]),
+            Table(title=title_text(self, tell), notes=[ERRORS[self.error_name]]),
             Table(COLUMNS, rows, "><>><<>>>"),
             Table(notes=_dimensions(self, tell)),
             Table(notes=[*below, *self.notes]),
@@ -226,18 +226,18 @@ class Synthesis(Plotted, Tabular):
     ) -> str:
         """The model file of one candidate: its purpose in a language, its input's speed a text or rad/s."""
         each = self.candidates[index]
-        said = _purpose(self, each, language)
-        return each.linkage.text(name or f"{self.task} {index + 1}", purpose=said, speed=speed)
+        purpose = _purpose(self, each, language)
+        return each.linkage.text(name or f"{self.task} {index + 1}", purpose=purpose, speed=speed)
 
 
-def title_said(found: Synthesis, tell: Say) -> str:
+def title_text(found: Synthesis, tell: Say) -> str:
     """The task and how many candidates there are."""
     title = (
         _("Synthesis: {task}, {count} candidate")
         if len(found) == 1
         else _("Synthesis: {task}, {count} candidates")
     )
-    return tell(title.format(task=name_said(found.task, tell), count=len(found)))
+    return tell(title.format(task=display_name(found.task, tell), count=len(found)))
 
 
 def _dimensions(found: Synthesis, tell: Say) -> list[str]:
@@ -245,21 +245,21 @@ def _dimensions(found: Synthesis, tell: Say) -> list[str]:
     between, lines = tell(_(", ")), []
     for number, each in enumerate(found.candidates, 1):
         lengths = between.join(
-            f"{name_said(name, tell)} {length_text(value, 7)}"
+            f"{display_name(name, tell)} {length_text(value, 7)}"
             for name, value in each.linkage.lengths().items()
         )
         lines.append(tell(_("Candidate {number}: {lengths}", number=number, lengths=lengths)))
         if each.values:
             values = between.join(
-                f"{name_said(name, tell)} = {value:.7g}" for name, value in each.values.items()
+                f"{display_name(name, tell)} = {value:.7g}" for name, value in each.values.items()
             )
             lines.append(tell(_("  {values}", values=values)))
     return lines
 
 
-def counts_said(found: Synthesis, tell: Say) -> str:
+def counts_text(found: Synthesis, tell: Say) -> str:
     """How many solutions of which sort were found."""
-    counts = (f"{name_said(name, tell)} {value}" for name, value in found.counts.items())
+    counts = (f"{display_name(name, tell)} {value}" for name, value in found.counts.items())
     return tell(_("Found: {counts}", counts=tell(_(", ")).join(counts)))
 
 
@@ -274,7 +274,7 @@ def _purpose(found: Synthesis, each: Candidate, language: str) -> str:
     return tell(
         _(
             "synthesis of {task}; error {error}, smallest transmission angle {transmission}, {defects}",
-            task=name_said(found.task, tell).replace("_", " "),
+            task=display_name(found.task, tell).replace("_", " "),
             error=error_texts(each)[0],
             transmission=f"{degrees(each.transmission_angle):.4g} deg",
             defects=defects,
@@ -309,8 +309,8 @@ def _longest(longest: float, extent: float) -> str:
 
 def error_texts(each: Candidate) -> tuple[str, str]:
     """Error and worst deviation; zero where both are but rounding of the linkage's size."""
-    least = ROUNDING * min(1.0, max(each.linkage.lengths().values()))
-    exact = each.error <= least and each.worst <= least
+    rounding = ROUNDING * min(1.0, max(each.linkage.lengths().values()))
+    exact = each.error <= rounding and each.worst <= rounding
     return ("0", "0") if exact else (f"{each.error:.4g}", f"{each.worst:.4g}")
 
 
@@ -343,8 +343,8 @@ FUNCTION_NONE = _(
     code="synthesize.function.none",
 )
 LINK_RATIO_UNMET = _(
-    "no linkage was found whose longest link is at most {given} times its shortest; the "
-    "smallest ratio found is {least} (the nearest solution has that): allow a larger "
+    "no linkage was found whose longest link is at most {value} times its shortest; the "
+    "smallest ratio found is {minimum} (the nearest solution has that): allow a larger "
     "link_ratio",
     code="synthesize.link_ratio_unmet",
 )
@@ -364,7 +364,7 @@ MOTION_POSES = _(
     "the poses must be a list of two or more x, y, angle; write [[x, y, angle], …]",
     code="synthesize.motion.poses",
 )
-NOT_POSITIVE = _("{name} is {given}; it must be positive and finite", code="synthesize.not_positive")
+NOT_POSITIVE = _("invalid {name} {value}; expected a positive, finite number", code="synthesize.not_positive")
 PATH_NO_REAL = _(
     "no real four-bar passes exactly through the {count} points in every class that was "
     "found; the nearest solution is that of least squares, with a sum of squared distances "
@@ -380,7 +380,7 @@ POINTS = _(
     code="synthesize.points",
 )
 TOO_ROUNDED = _(
-    "with lengths rounded to multiples of {given} mm the best linkage no longer meets the "
+    "with lengths rounded to multiples of {value} mm the best linkage no longer meets the "
     "demands; give a smaller rounding (the nearest solution is not rounded)",
     code="synthesize.rounding",
 )
@@ -393,7 +393,7 @@ ONLY_WITH = _(
 )
 DEMAND_UNKNOWN = _('"{demand}" is no demand of the task "{task}"; {hint}', code="synthesize.task.unknown")
 TRANSMISSION_RANGE = _(
-    "a smallest transmission angle of {given} deg cannot be had; ask for more than 0 and less than 90 deg",
+    "invalid minimum transmission angle {value} deg; expected more than 0 and less than 90 deg",
     code="synthesize.transmission_range",
 )
 
@@ -401,7 +401,7 @@ TRANSMISSION_RANGE = _(
 def ranking(error: Floats, merits: Floats, sound: Flags, size: float) -> Integers:
     """Order of candidates: sound ones first, then by error, then by merit.
 
-    Errors below 1e-9 of ``size`` (the target's own) are alike; others are compared to about a quarter of a per cent.
+    Errors below 1e-9 of ``size`` (the target's own) count as equal; others are compared to about 0.25 %.
     """
     step = np.where(error <= 1e-9 * size, -1e9, np.round(1e3 * np.log10(np.maximum(error, 1e-300))))
     return np.asarray(np.lexsort((-merits, step, ~sound)))
@@ -410,14 +410,16 @@ def ranking(error: Floats, merits: Floats, sound: Flags, size: float) -> Integer
 def different(candidates: tuple[Candidate, ...], distance: float) -> tuple[Candidate, ...]:
     """Without candidates like a better one: all points within ``distance`` (m) of its, or within a hundredth of its
     size where no length differs by more than that share. With 0 all stay."""
-    kept: list[Candidate] = []
+    distinct: list[Candidate] = []
     for each in candidates:
-        if not distance or not any(_alike(each.linkage, better.linkage, distance) for better in kept):
-            kept.append(each)
-    return tuple(kept)
+        if not distance or not any(
+            _same_dimensions(each.linkage, better.linkage, distance) for better in distinct
+        ):
+            distinct.append(each)
+    return tuple(distinct)
 
 
-def _alike(a: Linkage, b: Linkage, distance: float) -> bool:
+def _same_dimensions(a: Linkage, b: Linkage, distance: float) -> bool:
     places, others = (np.array(list(each.points.values())) for each in (a, b))
     if len(places) != len(others):
         return False
@@ -445,18 +447,18 @@ def merits(candidates: Sequence[Candidate], extent: float) -> Floats:
     return merit(transmission, ratio, longest, extent)
 
 
-def whole(*, least: int = 1, **values: float) -> None:
-    """Raises SynthesisError for the first value that is no whole number of ``least`` or more."""
+def require_integers(*, minimum: int = 1, **values: float) -> None:
+    """Raises SynthesisError for the first value that is not an integer of ``minimum`` or more."""
     for name, value in values.items():
         real(name, value, finite=False)
-        if not (value == value and value >= least and float(value).is_integer()):
+        if not (value == value and value >= minimum and float(value).is_integer()):
             raise SynthesisError(
                 _(
-                    "{name} is {given}; give a whole number of {least} or more",
+                    "invalid {name} {value}; expected an integer of {minimum} or more",
                     code="synthesize.not_whole",
                     name=name,
-                    given=f"{value:g}",
-                    least=least,
+                    value=f"{value:g}",
+                    minimum=minimum,
                 )
             )
 
@@ -466,9 +468,8 @@ def allowed_transmission(angle: float) -> None:
     if not 0.0 <= angle < math.pi / 2 - 1e-6:
         raise SynthesisError(
             _(
-                "a smallest transmission angle of {given} deg cannot be had; ask for 0 deg or more, "
-                "below 90 deg",
+                "invalid minimum transmission angle {value} deg; expected 0 deg or more, below 90 deg",
                 code="synthesize.transmission",
-                given=f"{math.degrees(angle):g}",
+                value=f"{math.degrees(angle):g}",
             )
         )

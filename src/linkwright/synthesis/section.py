@@ -45,9 +45,9 @@ FORMS = {
     "length": _("a length with its unit, such as 40 mm", code="synthesize.task.form.length"),
     "angle": _("an angle with its unit, such as 30 deg", code="synthesize.task.form.angle"),
     "number": _("a number", code="synthesize.task.form.number"),
-    "count": _("a whole number", code="synthesize.task.form.count"),
+    "count": _("an integer", code="synthesize.task.form.count"),
     "flag": _("true or false", code="synthesize.task.form.flag"),
-    "file": _("the name of a file, beside this one", code="synthesize.task.form.file"),
+    "file": _("the name of a file, relative to this one", code="synthesize.task.form.file"),
     "word": _("a word", code="synthesize.task.form.word"),
     "points": _(
         "a list of points with units, such as [[0 mm, 10 mm], [5 mm, 12 mm]]",
@@ -104,7 +104,7 @@ class Demand(Field):
 
     form: str
     #: Keys of the same table that give units of bare numbers.
-    given_units: Mapping[str, str] = field(default_factory=lambda: {"length": "unit", "angle": "angle_unit"})
+    unit_keys: Mapping[str, str] = field(default_factory=lambda: {"length": "unit", "angle": "angle_unit"})
 
     def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
         if self.form not in SHAPES:
@@ -144,42 +144,42 @@ class Demand(Field):
         node: Node,
         dimension: str,
     ) -> float | None:
-        """One quantity; the first ``bare`` number of a list is told that the unit of all can be given at once."""
+        """One quantity; the finding of the first ``bare`` number of a list offers the key for the unit of all."""
         if not isinstance(node, Scalar):
             self._wrong(reader, node, place)
             return None
-        unit = given.get(self.given_units.get(dimension, ""))
+        unit = given.get(self.unit_keys.get(dimension, ""))
         try:
             return amount(f"{node.text} {unit}" if unit and _is_bare(node.text) else node.text, dimension)
         except QuantityError as error:
-            told = error.sentence
+            message = error.sentence
             if error.code == "missing-unit" and SHAPES[self.form][1]:
                 if dimension in bare:
                     return None
                 bare.add(dimension)
-                told = with_remedy(
+                message = with_remedy(
                     error.message,
                     _(
-                        'write units, or "{line}" beside the task for all bare numbers',
+                        'write units, or "{line}" next to the task for all numbers without a unit',
                         code="synthesize.task.unit_of_all",
                         line=UNIT_KEYS[dimension],
                     ),
                 )
-            reader.error(node, place, told, "", error.code)
+            reader.error(node, place, message, "", error.code)
             return None
 
     def _wrong(self, reader: Reader, node: Node, place: Place) -> None:
         kind = _("a list") if isinstance(node, Sequence) else _("a mapping (key: value)")
-        said = node.text if isinstance(node, Scalar) else kind
+        found = node.text if isinstance(node, Scalar) else kind
         demand = place.key.rpartition(".")[2]
-        told = _(
-            "{demand}: {form} is wanted; given: {given}",
+        message = _(
+            "invalid {demand} {value}; expected {form}",
             code="synthesize.task.value",
             demand=demand,
             form=form_of(self.form),
-            given=said,
+            value=found,
         )
-        reader.error(node, place, told, "", "type")
+        reader.error(node, place, message, "", "type")
 
     def shape(self) -> Schema:
         if self.form == "flag":
@@ -203,12 +203,12 @@ class TaskSection(Field):
         section = reader.mapping(node, place)
         if section is None:
             return None
-        said, known = section.get("task"), tasks()
-        task = said.text if isinstance(said, Scalar) else ""
+        name, known = section.get("task"), tasks()
+        task = name.text if isinstance(name, Scalar) else ""
         if task not in known:
             near = nearest(task, list(known))
-            told = NO_TASK.format(task=task, known=near or tuple(known))
-            reader.error(said or section, place.child("task"), told, "", "unknown-task")
+            message = NO_TASK.format(task=task, known=near or tuple(known))
+            reader.error(name or section, place.child("task"), message, "", "unknown-task")
             return None
         with reader.saying(_sayings(known[task], task)):
             demands = reader.table(section, place, _fields(known[task])) or {}
@@ -216,11 +216,11 @@ class TaskSection(Field):
             demands.pop(key, None)
         places = section.get("outputs")
         if places is not None and demands.get("linkage") == "slider_crank":
-            told = _(
+            message = _(
                 "the outputs of a slider_crank are lengths; give them as places: [30 mm, 60 mm, 80 mm]",
                 code="synthesize.function.places",
             )
-            reader.error(places, place.child("outputs"), told, "", "angles-for-places")
+            reader.error(places, place.child("outputs"), message, "", "angles-for-places")
         return task, demands
 
     def shape(self) -> Schema:
@@ -253,7 +253,7 @@ def _fields(task: Task) -> dict[str, Field]:
 
 
 def _sayings(task: Task, name: str) -> Sayings:
-    """What is said of demands that the task does not have, and of those that it lacks."""
+    """Messages about demands that the task does not have, and about missing ones."""
     known = task.demands
     return {
         "unknown_key": Saying(

@@ -63,7 +63,7 @@ def synthesize_file(source: str | Path) -> Synthesis:
 
 
 def synthesize_text(text: str, name: str = "<text>") -> Synthesis:
-    """Runs the section ``synthesis`` of a text; ``name`` stands for the file in findings."""
+    """Runs the section ``synthesis`` of a text; ``name``: the file as findings name it."""
     task, demands = asked_in(text, name)
     return synthesize(task, **demands)
 

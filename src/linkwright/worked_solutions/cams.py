@@ -408,5 +408,5 @@ class Swinging(CamPair):
         at = book.spot(joint.follower, joint.at).place
         a, b = at - pivot, at - centre
         area = step.find(self._of("A", a.cross(b).value), a.cross(b), "m²")
-        whole = (b if self.side > 0 else -b) - a.times(driven)
-        return whole.times(force / area), at, ZERO
+        moment = (b if self.side > 0 else -b) - a.times(driven)
+        return moment.times(force / area), at, ZERO

@@ -259,8 +259,8 @@ def matrix(group: Group, cuts: Sequence[Closure]) -> list[list[Term]]:
     """Rows: equations of the cuts; columns: the unknowns."""
     rows: list[list[Term]] = []
     for closure in cuts:
-        seen = [closure.column(step) for step in group.unknowns]
-        rows += [[column[i] for column in seen] for i in range(len(seen[0]))]
+        columns = [closure.column(step) for step in group.unknowns]
+        rows += [[column[i] for column in columns] for i in range(len(columns[0]))]
     return rows
 
 

@@ -85,7 +85,7 @@ class DyadWriter:
         self.step.find(size, root(parts[0].squared + parts[1].squared), "m")
         return size, self.step.define(f"ε_{sub}", direction(parts[1], parts[0]), "°", degrees=True)
 
-    def apart(self, p: Spot, q: Pair) -> tuple[Pair, Term]:
+    def difference(self, p: Spot, q: Pair) -> tuple[Pair, Term]:
         """The vector d from P to Q and the square of its length."""
         d = q - p.place
         named = Pair(symbol("d_x", d.x.value), symbol("d_y", d.y.value))
@@ -101,8 +101,8 @@ class DyadWriter:
 
     def note_mode(self, modes: tuple[Message, Message], *spots: Spot) -> None:
         p, q, b = (spot.label for spot in spots)
-        told = modes[0] if self.mode > 0 else modes[1]
-        self.step.say(self.book.say(told.format(p=p, q=q, b=b)))
+        message = modes[0] if self.mode > 0 else modes[1]
+        self.step.say(self.book.say(message.format(p=p, q=q, b=b)))
 
     def frame_chain(self, end: str, name: str) -> tuple[Pair, Trail]:
         """Where the cut would be with the slides at zero, for a chain of guides."""
@@ -141,7 +141,7 @@ def _rrr(dyad: RRR, write: DyadWriter) -> bool:
     (p, first, way_1), (q, second, way_2) = (write.arm(end) for end in write.ends)
     r1, lean_1 = write.length(p, way_1.reach)
     r2, lean_2 = write.length(q, way_2.reach)
-    d, dd = write.apart(p, q.place)
+    d, dd = write.difference(p, q.place)
     t = step.define("t", dd + r1.squared - r2.squared, "m²")
     rho = write.root(FOUR * r1.squared * dd - t.squared, "m²")
     write.note_mode(MODE_RRR, p, q, tip)
@@ -184,7 +184,7 @@ def _rpr(dyad: RPR, write: DyadWriter) -> bool:
     aside, ahead = m.cross(way.reach), m.dot(way.reach)
     e = ZERO if aside.is_zero else step.define("e", aside, "m")
     b = ZERO if ahead.is_zero else step.define("b", ahead, "m")
-    d, dd = write.apart(p, tip.place)
+    d, dd = write.difference(p, tip.place)
     rho = write.root(dd - e.squared, "m")
     write.note_mode(MODE_RPR, p, tip, tip)
     reach = rho if mode > 0 else -rho
@@ -196,7 +196,7 @@ def _rpr(dyad: RPR, write: DyadWriter) -> bool:
     return True
 
 
-def _slides(write: DyadWriter, *, apart: bool) -> bool:
+def _slides(write: DyadWriter, *, separate: bool) -> bool:
     """PRP (a slide in each chain) and RPP (both in one)."""
     step, tip = write.step, write.tip
     zero_1, way_1 = write.frame_chain(write.ends[0], f"{tip.label}1")
@@ -207,18 +207,18 @@ def _slides(write: DyadWriter, *, apart: bool) -> bool:
     det = step.define("k", n1.cross(n2), "")
     write.placing.displacement(step, write.book.slide(g1.joint), f.cross(n2) / det)
     write.placing.displacement(
-        step, write.book.slide(g2.joint), (f.cross(n1) if apart else n1.cross(f)) / det
+        step, write.book.slide(g2.joint), (f.cross(n1) if separate else n1.cross(f)) / det
     )
-    if apart:
+    if separate:
         write.placing.point(step, tip, zero_1 + n1.times(write.book.slide(g1.joint).s))
     return True
 
 
 @write_dyad.register
 def _prp(dyad: PRP, write: DyadWriter) -> bool:
-    return _slides(write, apart=True)
+    return _slides(write, separate=True)
 
 
 @write_dyad.register
 def _rpp(dyad: RPP, write: DyadWriter) -> bool:
-    return _slides(write, apart=False)
+    return _slides(write, separate=False)

@@ -159,9 +159,9 @@ class PairClosure(Closure):
             if step == part.source:
                 break
             if step.turns and step.driver is not None:
-                given = book.drive(step.driver)[2 if second else 1]
+                rate = book.drive(step.driver)[2 if second else 1]
                 own = step.child == book.mechanism.drivers[step.driver].link
-                found = found + given if own else found - given
+                found = found + rate if own else found - rate
         return found
 
 

@@ -48,8 +48,8 @@ class LiftWriter:
     def turned(self) -> float:
         """θ, rad, 0 to a turn."""
         joint, book = self.joint, self.book
-        seen = math.radians(book.angle_of(joint.cam) - book.angle_of(joint.carrier)) - joint.phase
-        return (joint.sense * seen) % (2 * math.pi)
+        measured = math.radians(book.angle_of(joint.cam) - book.angle_of(joint.carrier)) - joint.phase
+        return (joint.sense * measured) % (2 * math.pi)
 
     @cached_property
     def now(self) -> Lift:

@@ -112,7 +112,7 @@ class Places(Placing):
         known: dict[str, Term] = {}
         for joint in group.tree:
             if not (joint.free and joint.turns):
-                known[book.turn(joint.child).plain] = self._followed(joint).put(known)
+                known[book.turn(joint.child).plain] = self._cam_followed(joint).put(known)
         for connection in group.joints:
             if connection.slides and connection.a != "frame":
                 turn, along = self._guide_turn(connection.joint), book.slide(connection.joint).along

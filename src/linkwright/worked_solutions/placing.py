@@ -46,9 +46,9 @@ class Placing:
     def follow(self, step: Step, joint: TreeJoint) -> None:
         """Notes the angle of a link that a guide, a weld or a driver turns."""
         if not (joint.free and joint.turns):
-            self.angle(step, joint.child, self._followed(joint))
+            self.angle(step, joint.child, self._cam_followed(joint))
 
-    def _followed(self, joint: TreeJoint) -> Term:
+    def _cam_followed(self, joint: TreeJoint) -> Term:
         """The angle of such a link, from that of its parent."""
         book = self.book
         parent = book.turn(joint.parent)

@@ -155,8 +155,8 @@ class Movers:
         """Rates of driven guides, which everything else in the group follows."""
         for joint in group.tree:
             if joint.slides and joint.driver is not None:
-                given = self.book.drive(joint.driver)[2 if second else 1]
-                self._guide(step, self.book.slide(joint.joint), given, second=second)
+                rate = self.book.drive(joint.driver)[2 if second else 1]
+                self._guide(step, self.book.slide(joint.joint), rate, second=second)
 
     @staticmethod
     def _guide(step: Step, slide: Slide, formula: Term, *, second: bool) -> None:

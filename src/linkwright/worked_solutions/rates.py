@@ -162,10 +162,10 @@ class RateWriter:
         """Notes the known parts of the accelerations of both ends; gives their difference."""
         ends = []
         for chain in closure.chains:
-            whole = NOWHERE
+            total = NOWHERE
             for part in bends(chain, self.book):
-                whole = whole + (part.vector if part.kind == "base" else self._part(step, part))
-            ends.append(whole)
+                total = total + (part.vector if part.kind == "base" else self._part(step, part))
+            ends.append(total)
         return closure.joined(ends)
 
     def _part(self, step: Step, part: Drift) -> Pair:
@@ -208,7 +208,7 @@ class RateWriter:
             formula = rate(joint.parent)
             if joint.turns and joint.driver is not None:
                 own = joint.child == book.mechanism.drivers[joint.driver].link
-                given = book.drive(joint.driver)[2 if second else 1]
-                formula = formula + given if own else formula - given
+                driver_rate = book.drive(joint.driver)[2 if second else 1]
+                formula = formula + driver_rate if own else formula - driver_rate
             if not rate(joint.child).is_zero:
                 step.find(rate(joint.child), formula, Output("angle", joint.child).course[1 + second])

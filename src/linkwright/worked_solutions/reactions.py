@@ -63,10 +63,10 @@ class Reactions:
         book = self.book
         links = ", ".join(f"{book.numbers[link]} {link}" for link in group.links)
         driven = group.assur_class == 1 and group.drivers
-        told = (
+        message = (
             _("Forces of the driven link: {links}") if driven else _("Forces of group {signature}: {links}")
         )
-        title = book.say(told.format(signature=group.signature, links=links))
+        title = book.say(message.format(signature=group.signature, links=links))
         head = Step(f"{number}", title, group.name)
         if in_one_step(group):
             self._wheels(head, group)

@@ -76,8 +76,8 @@ def power_step(forces: Forces, book: Book, known: KnownForces, number: int) -> S
         formula = total(parts)
         if not formula.is_zero:
             powers.append(step.define(f"P{n}", formula, "W"))
-    whole = total(powers)
-    sum_of = step.define("ΣP", whole, "W") if powers else ZERO
+    power = total(powers)
+    sum_of = step.define("ΣP", power, "W") if powers else ZERO
     _drivers(step, forces, book, sum_of)
     return step
 
@@ -242,14 +242,14 @@ class _Kinematics:
         step = Step("1", say(_("Input")))
         for name, driver in book.mechanism.drivers.items():
             turning = book.mechanism.joints[driver.joint].coordinate == "turn"
-            told = (
+            message = (
                 _("{head}{link} turns against {relative} about {joint}.")
                 if turning
                 else _("{head}{link} slides on {relative} in {joint}.")
             )
             head = f"{name}: " if len(book.mechanism.drivers) > 1 else ""
             relative = link_label(driver.relative_to, language_of(say))
-            step.say(say(told.format(head=head, link=driver.link, relative=relative, joint=driver.joint)))
+            step.say(say(message.format(head=head, link=driver.link, relative=relative, joint=driver.joint)))
             unit = "rad" if turning else "m"
             measures: tuple[str | Output, ...] = (
                 Output("input", name, slides=not turning), f"{unit}/s", f"{unit}/s²"
@@ -305,11 +305,11 @@ class _Kinematics:
 
     def _title(self, group: Group, links: str) -> str:
         driven = group.assur_class == 1 and group.drivers
-        told = _("Driven link: {links}") if driven else _("Group {signature}: {links}")
-        return self.book.say(told.format(signature=group.signature, links=links, order=group.assur_order))
+        message = _("Driven link: {links}") if driven else _("Group {signature}: {links}")
+        return self.book.say(message.format(signature=group.signature, links=links, order=group.assur_order))
 
     def _joints(self, group: Group) -> str:
         outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))
         inner = ", ".join(dict.fromkeys(c.joint for c in group.inner_joints))
-        told = _("Outer joints {outer}; inner joints {inner}.") if inner else _("Joints {outer}.")
-        return self.book.say(told.format(outer=outer, inner=inner))
+        message = _("Outer joints {outer}; inner joints {inner}.") if inner else _("Joints {outer}.")
+        return self.book.say(message.format(outer=outer, inner=inner))

@@ -73,8 +73,8 @@ class Book:
             return turn
         counted = math.degrees(float(self.motion.row("turned_angle", link)[self.index]))
         turns = round((counted - turn.amount) / 360.0)
-        whole = number(360.0 * abs(turns), degrees=True)
-        return turn + whole if turns > 0 else turn - whole
+        full_turns = number(360.0 * abs(turns), degrees=True)
+        return turn + full_turns if turns > 0 else turn - full_turns
 
     def omega(self, link: str) -> Term:
         """ω of a link."""

@@ -88,14 +88,14 @@ def _paper_scale(motion: lw.Motion) -> float:
 @pytest.mark.parametrize("steps", [3, 7])
 def test_rails_reach_to_the_limit_positions_that_are_drawn(steps: int) -> None:
     from linkwright.events.limit_positions import limits_of
-    from linkwright.plotting.drawing.draw import laid_out_beside
+    from linkwright.plotting.drawing.draw import laid_out_with_ghosts
     from linkwright.plotting.drawing.guides import travel
     from linkwright.plotting.drawing.positions import Shown, with_limits
 
     motion = store.motion("slider_crank_inline", steps)
     denser, indices = with_limits(motion, limits_of(motion))
     ghosts = [Shown(denser, index) for index in indices]
-    scene, _, _ = laid_out_beside(motion, Shown(motion, 0), ghosts, inputs=False, centres=False)
+    scene, _, _ = laid_out_with_ghosts(motion, Shown(motion, 0), ghosts, inputs=False, centres=False)
     crank, rod = 0.05, 0.2
     low, high = (each / scene.machine.view.scale for each in travel(scene.machine, "cylinder"))
     assert (low, high) == pytest.approx((rod - crank, rod + crank), abs=1e-9)

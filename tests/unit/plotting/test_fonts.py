@@ -57,7 +57,7 @@ def test_a_given_font_goes_before_the_installed_ones(
         assert chinese_font() == ALIAS
         assert Path(font_manager.findfont(ALIAS)) == own
         assert Path(font_manager.findfont(f"{ALIAS}:bold")) == own
-    assert not caplog.records and fonts.given_fonts() == ()
+    assert not caplog.records and fonts.own_fonts() == ()
     assert chinese_font() is None or Path(font_manager.findfont(ALIAS)) != own
 
 

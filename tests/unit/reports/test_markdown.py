@@ -21,28 +21,28 @@ from linkwright.reports.document import (
     spans,
 )
 from linkwright.reports.formula import formula
-from linkwright.reports.markdown import Beside, own_text
+from linkwright.reports.markdown import TextContext, own_text
 
 pytest.importorskip("markdown_it")
 SKETCH = '<svg xmlns="http://www.w3.org/2000/svg" width="96" height="48"><rect width="96" height="48"/></svg>'
 
 
-def read(text: str, beside: Beside | None = None) -> tuple[list[Block], list[str]]:
+def read(text: str, beside: TextContext | None = None) -> tuple[list[Block], list[str]]:
     """Blocks, and codes or sentences of what is wrong."""
-    found = list(own_text(text, beside=beside))
+    found = list(own_text(text, context=beside))
     return [block for block, _ in found], [
         each.code or each.sentence for _, faults in found for each in faults
     ]
 
 
-def one(text: str, beside: Beside | None = None) -> Block:
+def one(text: str, beside: TextContext | None = None) -> Block:
     (block,), faults = read(text, beside)
     assert not faults
     return block
 
 
 def marks(text: str) -> list[tuple[str, str, str, str]]:
-    block = one(text, Beside(sources={"norton": "Norton, Design of Machinery"}))
+    block = one(text, TextContext(sources={"norton": "Norton, Design of Machinery"}))
     assert isinstance(block, Paragraph)
     return [(each.kind, each.text, "+".join(sorted(each.styles)), each.link) for each in spans(block.text)]
 
@@ -135,7 +135,7 @@ def test_pictures_have_a_caption_a_width_and_a_label(tmp_path: Path) -> None:
     Image.new("RGB", (400, 100), "white").save(tmp_path / "photo one.png")
     Image.new("RGB", (40, 1000), "white").save(tmp_path / "b.jpg")
     (tmp_path / "c.svg").write_text(SKETCH, encoding="utf-8")
-    beside = Beside(str(tmp_path))
+    beside = TextContext(str(tmp_path))
     found = one("![A *white* one](photo%20one.png){#w width=40%}", beside)
     assert isinstance(found, Figure)
     assert (plain(found.caption), found.label, found.pictures[0][1]) == ("A white one", "w", 0.4)
@@ -151,7 +151,7 @@ def test_a_photograph_that_lies_on_its_side_is_turned_upright(tmp_path: Path) ->
     exif = Image.Exif()
     exif[0x0112] = 6
     Image.new("RGB", (80, 40), "white").save(tmp_path / "a.jpg", exif=exif)
-    found = one("![](a.jpg)", Beside(str(tmp_path)))
+    found = one("![](a.jpg)", TextContext(str(tmp_path)))
     assert (
         isinstance(found, Figure)
         and '<svg xmlns="http://www.w3.org/2000/svg" width="40" height="80"' in (found.pictures[0][0])
@@ -178,7 +178,7 @@ def test_what_is_wrong_is_told_and_printed_as_it_is_written(text: str, code: str
     (tmp_path / "text.png").write_text("no picture", encoding="utf-8")
     (tmp_path / "bad.svg").write_text("<svg><g></svg>", encoding="utf-8")
     (tmp_path / "c.svg").write_text(SKETCH, encoding="utf-8")
-    (block,), faults = read(text, Beside(str(tmp_path)))
+    (block,), faults = read(text, TextContext(str(tmp_path)))
     assert len(faults) == 1 and code in faults[0]
     shown = block.rows or block.head if isinstance(block, Table) else getattr(block, "text", "")
     assert plain("".join(shown)) if isinstance(shown, tuple) else plain(shown)

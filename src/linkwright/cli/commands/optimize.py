@@ -56,8 +56,8 @@ def run(options: Options, session: Session) -> int:
     """Optimises and prints or writes what came out; 1 where a demand cannot be met."""
     from linkwright.cli.files import write_diagram
     from linkwright.cli.progress import progress
+    from linkwright.designs.checkpoints import RESUME, Interrupted
     from linkwright.designs.cluster import on_cluster
-    from linkwright.designs.finished_parts import RESUME, Interrupted
     from linkwright.designs.optimise.optimize import optimize
     from linkwright.designs.optimise.optimum import OptimizeError
 

@@ -23,14 +23,14 @@ from linkwright.designs.optimise.quadratic import quadratic
 
 #: Most steps; the first and the largest half width of the region, the one with which a dearer demand is tried again,
 #: and the one that ends the search.
-STEPS, FIRST, LARGEST, AGAIN, LEAST = 30, 0.1, 0.5, 1e-3, 1e-6
+STEPS, FIRST, LARGEST, AGAIN, SMALLEST = 30, 0.1, 0.5, 1e-3, 1e-6
 #: What a demand's violation costs at first, how much more where that is too little, and at most; a violation and a
 #: gain that are none.
 PRICE, DEARER, DEAREST, MET, GAIN = 0.02, 5.0, 1e4, 1e-8, 1e-9
 #: So many steps that gain less than this end a search.
 PATIENCE, LITTLE = 5, 2e-6
 #: Earlier places whose models are kept, and how far away they may lie, in half widths of the region.
-KEPT, REACH = 2, 10.0
+MODELS, REACH = 2, 10.0
 _FAR, _STEADY, _DEAR, _SLIGHT = 1e3, 1e-8, 10.0, 1e-12
 
 
@@ -107,7 +107,7 @@ class _Searches:
         self.here = before.with_some(trial, better)
         self.found[self.alive] = self.here.x
         self.tried = Model(*(
-            np.concatenate([new[:, None], other[:, None], old[:, 1:KEPT]], axis=1)
+            np.concatenate([new[:, None], other[:, None], old[:, 1:MODELS]], axis=1)
             for new, other, old in zip(self.here, trial.with_some(before, better), self.tried, strict=True)
         ))  # fmt: skip
         wider = better & (gained > 0.7 * hoped) & (size > 0.9 * self.width)
@@ -116,7 +116,7 @@ class _Searches:
         self.price = np.where(cheap, np.minimum(DEARER * self.price, DEAREST), self.price)
         self.width = np.where(missing, np.maximum(self.width, AGAIN), self.width)
         self.idle = np.where(gained > self.little, 0, self.idle + better)
-        self._keep((self.width > LEAST) & (self.idle < PATIENCE) & ((hoped > GAIN) | ~better) | missing)
+        self._keep((self.width > SMALLEST) & (self.idle < PATIENCE) & ((hoped > GAIN) | ~better) | missing)
 
     def _keep(self, rows: Flags) -> None:
         if not rows.all():
@@ -126,7 +126,7 @@ class _Searches:
 
     def _solved(self) -> tuple[Floats, tuple[Floats, Floats], Floats]:
         """Moves (K, n), the forces of objectives and demands, and the gain that the models promise, (K,)."""
-        rows, least = self._lines()
+        rows, bounds = self._lines()
         width, (count, n), models = self.width, self.here.x.shape, self.tried.x.shape[1]
         curved = np.tile(_STEADY * np.eye(n + 1), (count, 1, 1))
         known = (self.pushed[:, :, None, None] * self.here.bends).sum(axis=1)
@@ -136,11 +136,11 @@ class _Searches:
         low, high = np.full((count, n + 1), -_FAR), np.full((count, n + 1), _FAR)
         low[:, :n] = np.maximum(-1.0, -self.here.x / width[:, None])
         high[:, :n] = np.minimum(1.0, (1.0 - self.here.x) / width[:, None])
-        goals, kinds = self.here.goals.shape[1], least.shape[1] // models
+        goals, kinds = self.here.goals.shape[1], bounds.shape[1] // models
         prices = np.tile(self.price[:, None], (1, kinds))
         prices[:, :goals] = _DEAR
-        u, force = quadratic(curved, slope, rows, least, low, high, np.tile(prices, (1, models)))
-        lack = (least - (rows @ u[..., None])[..., 0]).reshape(count, models, -1)
+        u, force = quadratic(curved, slope, rows, bounds, low, high, np.tile(prices, (1, models)))
+        lack = (bounds - (rows @ u[..., None])[..., 0]).reshape(count, models, -1)
         top = u[:, n] + lack[:, :, :goals].max(axis=(1, 2))
         missed = np.maximum(lack[:, :, goals:].max(axis=1), 0.0).sum(axis=1)
         now = np.maximum(-self.here.rooms, 0.0).sum(axis=1)
@@ -161,26 +161,26 @@ class _Searches:
             [goals > here.goals[:, None] - top + _SLIGHT, rooms < here.rooms[:, None] - _SLIGHT], axis=2
         )
         false |= (np.abs(off).max(axis=2) > REACH * self.width[:, None])[..., None]
-        least = np.concatenate([goals, -rooms], axis=2) / self.width[:, None, None]
+        bounds = np.concatenate([goals, -rooms], axis=2) / self.width[:, None, None]
         slopes = np.concatenate([-tried.goal_slopes, tried.room_slopes], axis=2)
-        up = np.zeros(least.shape)
+        up = np.zeros(bounds.shape)
         up[:, :, : goals.shape[2]] = 1.0
         rows = np.concatenate([slopes, up[..., None]], axis=3)
-        false |= ~np.isfinite(least) | ~np.isfinite(slopes).all(axis=3)
+        false |= ~np.isfinite(bounds) | ~np.isfinite(slopes).all(axis=3)
         rows = np.where(false[..., None], 0.0, rows).reshape(len(off), -1, rows.shape[3])
-        return rows, np.where(false, -_FAR, np.maximum(least, -_FAR)).reshape(len(off), -1)
+        return rows, np.where(false, -_FAR, np.maximum(bounds, -_FAR)).reshape(len(off), -1)
 
     def _learn(self, before: Model, after: Model, forces: tuple[Floats, Floats]) -> None:
         """The curvature of the Lagrangian, but for what is known of it, from the slopes at two places (damped BFGS,
         Powell 1978; beside a known part no larger before than the step shows, Dennis, Gay and Welsch 1981)."""
-        own, kept = forces
+        objective_forces, demand_forces = forces
 
         def slope(model: Model) -> Floats:
-            pushed = (own[:, None] @ model.goal_slopes)[:, 0]
-            return np.asarray(pushed - (kept[:, None] @ model.room_slopes)[:, 0])
+            pushed = (objective_forces[:, None] @ model.goal_slopes)[:, 0]
+            return np.asarray(pushed - (demand_forces[:, None] @ model.room_slopes)[:, 0])
 
         s = after.x - before.x
-        known = (own[:, :, None] * (after.bends @ s[:, None, :, None])[..., 0]).sum(axis=1)
+        known = (objective_forces[:, :, None] * (after.bends @ s[:, None, :, None])[..., 0]).sum(axis=1)
         y = slope(after) - slope(before) - known
         length, along = (s * s).sum(axis=1), (s * y).sum(axis=1)
         new = np.isfinite(y).all(axis=1) & (length > 0.0)

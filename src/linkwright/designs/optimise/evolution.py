@@ -147,10 +147,10 @@ def fronts(judged: Judged) -> Integers:
 
 def crowding(goals: Floats) -> Floats:
     """How far apart the neighbours of each design lie in the objectives."""
-    return _apart(goals, [np.argsort(column, kind="stable") for column in goals.T])
+    return _crowding(goals, [np.argsort(column, kind="stable") for column in goals.T])
 
 
-def _apart(goals: Floats, orders: list[Indices]) -> Floats:
+def _crowding(goals: Floats, orders: list[Indices]) -> Floats:
     """The same of the designs in the orders of each objective; 0 for others."""
     found = np.zeros(len(goals))
     for column, order in zip(goals.T, orders, strict=True):
@@ -166,13 +166,13 @@ def survivors(judged: Judged, size: int) -> Judged:
     if len(judged.x) <= size:
         return judged
     level = fronts(judged)
-    kept = np.argsort(level, kind="stable")
-    cut = level[kept[size - 1]]
+    order = np.argsort(level, kind="stable")
+    cut = level[order[size - 1]]
     sure, last = np.flatnonzero(level < cut), np.flatnonzero(level == cut)
     goals, left = judged.goals[last], np.arange(len(last))
     orders = [np.argsort(column, kind="stable") for column in goals.T]
     while len(sure) + len(left) > size:
-        crowded = left[np.argmin(_apart(goals, orders)[left])]
+        crowded = left[np.argmin(_crowding(goals, orders)[left])]
         left, *orders = (each[each != crowded] for each in (left, *orders))
     return taken(judged, np.concatenate([sure, last[left]]))
 

@@ -22,7 +22,7 @@ class Scale:
     """The least values of the objectives and the way from them to the worst of the designs that are best in one,
     (goals,) each."""
 
-    least: Floats
+    minimum: Floats
     span: Floats
 
     @classmethod
@@ -34,18 +34,18 @@ class Scale:
         else:
             missed = judged.total[moving]
             goals = judged.goals[moving[missed <= max(0.0, float(np.quantile(missed, 0.05)))]]
-        least = goals.min(axis=0)
-        span = goals[goals.argmin(axis=0)].max(axis=0) - least
-        size = np.where(np.abs(least) > 0.0, np.abs(least), 1.0)
-        return cls(least, np.where(span > 1e-9 * size, span, size))
+        minimum = goals.min(axis=0)
+        span = goals[goals.argmin(axis=0)].max(axis=0) - minimum
+        size = np.where(np.abs(minimum) > 0.0, np.abs(minimum), 1.0)
+        return cls(minimum, np.where(span > 1e-9 * size, span, size))
 
     def shares(self, goals: Floats) -> Floats:
         """Objectives (N, goals) as shares of the way."""
-        return np.asarray((goals - self.least) / self.span)
+        return np.asarray((goals - self.minimum) / self.span)
 
     def aims(self, points: Floats) -> Floats:
         """Objectives at shares (R, goals)."""
-        return np.asarray(self.least + self.span * points)
+        return np.asarray(self.minimum + self.span * points)
 
 
 def spread(goals: int, count: int) -> Floats:
@@ -71,7 +71,7 @@ def nearest(judged: Judged, scale: Scale, points: Floats) -> Floats:
     return np.asarray(np.nan_to_num(found + behind, nan=np.inf, posinf=np.inf))
 
 
-def picked(judged: Judged, distance: Floats, count: int, apart: float) -> list[int]:
+def picked(judged: Judged, distance: Floats, count: int, separation: float) -> list[int]:
     """Rows of at most ``count`` designs, of which no two lie nearer than ``apart`` in the cube: by turns the nearest
     to each point."""
     left, rows = distance.copy(), list[int]()
@@ -80,14 +80,14 @@ def picked(judged: Judged, distance: Floats, count: int, apart: float) -> list[i
         if not np.isfinite(left[turn % len(left), row]):
             break
         rows.append(row)
-        left[:, np.abs(judged.x - judged.x[row]).max(axis=1) <= apart] = np.inf
+        left[:, np.abs(judged.x - judged.x[row]).max(axis=1) <= separation] = np.inf
     return rows
 
 
 def without_own(judged: Judged, points: Floats) -> Indices:
     """Points (R) whose nearest design is nearer to another one, so that the front has a gap there."""
     distance = nearest(judged, Scale.of(judged), points)
-    rows, least = distance.argmin(axis=1), distance.min(axis=1)
-    order = np.lexsort((least, rows))
+    rows, nearest_distance = distance.argmin(axis=1), distance.min(axis=1)
+    order = np.lexsort((nearest_distance, rows))
     _, first = np.unique(rows[order], return_index=True)
     return np.setdiff1d(np.arange(len(points)), order[first])

@@ -19,10 +19,10 @@ from linkwright.analysis.outputs import mechanism_outputs, usual_output
 from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse
 from linkwright.designs.alternatives import Alternative
+from linkwright.designs.checkpoints import current_checkpoints, identity
 from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import criterion
 from linkwright.designs.design_numbers import side_by_side
-from linkwright.designs.finished_parts import identity, surrounding
 from linkwright.designs.optimise.paths import PathErrors
 from linkwright.designs.optimise.problem import Problem
 from linkwright.designs.varied_dimensions import refuse_moved_positions
@@ -70,7 +70,7 @@ class Measures:
             raise RequestError(missing)
         self.cycles = [] if self._moves_positions() else self._cycles()
         self.side_by_side = bool(self.cycles) or not self.numbers
-        self.passing = [] if self.numbers or self._moves_positions() else self._whole_cycle()
+        self.passing = [] if self.numbers or self._moves_positions() else self._full_cycle()
         self.backend: Backend = "llvm" if available() else "numpy"
         self.paths = PathErrors(self.mechanism, problem.addresses, problem.paths, self.backend)
         self.evaluations = 0
@@ -83,13 +83,13 @@ class Measures:
     def _expression(self, text: str) -> tuple[Expression | None, dict[str, str]]:
         """An expression with the design numbers of its names; None for a number that stands alone."""
         paths = self.problem.paths
-        given = text if text in paths else str(self.problem.define.get(text, text))
-        if self._is_number(given):
-            return None, {"": given}
+        definition = text if text in paths else str(self.problem.define.get(text, text))
+        if self._is_number(definition):
+            return None, {"": definition}
         defined = {name: name if name in paths else str(value) for name, value in self.problem.define.items()}
         known = [*defined, *self.mechanism.parameters]
-        if _WORDS.fullmatch(given) and given not in known:
-            criterion(given)  # raises, and offers the nearest
+        if _WORDS.fullmatch(definition) and definition not in known:
+            criterion(definition)  # raises, and offers the nearest
         found = parse(text, known)
         names = {name: defined.get(name, name) for name in found.names}
         for name in names.values():
@@ -132,7 +132,7 @@ class Measures:
         found = self._side_by_side(self.numbers) if self.numbers else []
         return found if {name for each in found for name in each.kinds} == set(self.numbers) else []
 
-    def _whole_cycle(self) -> list[MetricsOfDesigns]:
+    def _full_cycle(self) -> list[MetricsOfDesigns]:
         """What tells which designs pass the whole cycle where no number of the problem does."""
         moves = mechanism_outputs(self.mechanism)
         return self._side_by_side([f"{self._asked.output.name} max"]) if moves else []
@@ -145,8 +145,8 @@ class Measures:
         """Values of every text, NaN where a design does not pass the whole cycle."""
         for each in self.passing:
             with np.errstate(all="ignore"):
-                seen, certain = each.evaluate(columns, backend=self.backend)
-            passes = certain & np.isfinite([*seen.values()]).all(axis=0)
+                values_found, certain = each.evaluate(columns, backend=self.backend)
+            passes = certain & np.isfinite([*values_found.values()]).all(axis=0)
             values = {text: np.where(passes, value, np.nan) for text, value in values.items()}
         return values
 
@@ -185,18 +185,22 @@ class Measures:
             return {}
         if self.cycles:
             with np.errstate(all="ignore"):
-                seen = [cycle.evaluate(columns, backend=self.backend) for cycle in self.cycles]
-            return {name: np.where(sure, v, np.nan) for own, sure in seen for name, v in own.items()}
+                evaluated = [cycle.evaluate(columns, backend=self.backend) for cycle in self.cycles]
+            return {name: np.where(sure, v, np.nan) for own, sure in evaluated for name, v in own.items()}
         designs = [*zip(*(column.tolist() for column in columns.values()), strict=True)]
-        kept = surrounding()
-        there = {each: kept and kept.part(identity(*each)) for each in designs if each not in self.judged}
+        checkpoints = current_checkpoints()
+        there = {
+            each: checkpoints and checkpoints.part(identity(*each))
+            for each in designs
+            if each not in self.judged
+        }
         self.judged |= {each: part[0] for each, part in there.items() if part}
         for each, numbers in self._measured(
             tuple(columns), [each for each, part in there.items() if not part]
         ):
             self.judged[each] = numbers
-            if kept is not None:
-                kept.add(identity(*each), numbers)
+            if checkpoints is not None:
+                checkpoints.add(identity(*each), numbers)
         rows = [self.judged[each] for each in designs]
         return {name: np.array([row[k] for row in rows]) for k, name in enumerate(self.numbers)}
 

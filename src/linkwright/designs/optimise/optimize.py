@@ -14,7 +14,7 @@ import numpy as np
 from linkwright.core.arguments import require
 from linkwright.core.arrays import Floats
 from linkwright.core.progress import Progress, current_progress, reporting
-from linkwright.designs.finished_parts import kept_in, surrounding
+from linkwright.designs.checkpoints import checkpointing, current_checkpoints
 from linkwright.designs.optimise.evolution import (
     State,
     begin,
@@ -45,7 +45,7 @@ from linkwright.words import Message, _
 SLOW, POPULATION = 400, "population"
 #: Share of the evaluations that the first designs take, and the most that one sweep has; how many of them the local
 #: search starts from, its steps, and how far apart they lie in the cube.
-SAMPLED, AT_ONCE, STARTS, FEW, APART = 0.5, 20_000, 16, 10, 0.1
+SAMPLED, AT_ONCE, STARTS, FEW, SEPARATION = 0.5, 20_000, 16, 10, 0.1
 #: Designs that are polished in the end for each objective; places along a front.
 POLISHED, FRONT = 3, 48
 #: What a step along a front must gain, as share of its width, and how often places without a design of their own are
@@ -61,7 +61,7 @@ AGAIN, FINER = 6, 2048
 ALL, ALL_WRITTEN = 1024, 1_000_000
 _NO_ROWS = np.array([], dtype=np.intp)
 #: Designs of a front are alike whose objectives differ by less than this share.
-ALIKE = 1e-5
+SAME_OBJECTIVES = 1e-5
 #: Objectives below this share of the start's are none; so many times its size an objective lies below its aim that
 #: does not count but where nothing else does.
 NOTHING, ASIDE = 1e-9, 10.0
@@ -105,16 +105,16 @@ def optimize(
             from its file ``state``.
         LinkwrightError: a state of another problem; nothing moves.
     """
-    mechanism, document, given = _source(source, settings)
+    mechanism, document, section = _source(source, settings)
     with _at_their_lines(document, settings):
-        asked = problem(mechanism, given, "" if document is None else document.name)
+        asked = problem(mechanism, section, "" if document is None else document.name)
     machine = dump(replace(asked.mechanism, optimize={}))
-    depends = {key: value for key, value in given.items() if key != "evaluations"}
+    depends = {key: value for key, value in section.items() if key != "evaluations"}
     progress = progress or current_progress()
-    with kept_in(state, asked.mechanism.name, machine, depends), reporting(None):
+    with checkpointing(state, asked.mechanism.name, machine, depends), reporting(None):
         with _at_their_lines(document, settings):
             task = Task(asked)
-        if not task.measures.side_by_side and "evaluations" not in given:
+        if not task.measures.side_by_side and "evaluations" not in section:
             asked = replace(asked, evaluations=SLOW)
         size = asked.population or (
             64 if len(asked.goals) > 1 else min(64, max(24, 8 * len(asked.variables)))
@@ -132,8 +132,8 @@ def _source(
         document = source if isinstance(source, Document) else read_document(source)
         mechanism = document.mechanism
     own = {key: value for key, value in settings.items() if value is not None}
-    given = {**mechanism.optimize, **own} if own else mechanism.optimize
-    if not given:
+    section = {**mechanism.optimize, **own} if own else mechanism.optimize
+    if not section:
         raise RequestError(
             _(
                 '{name} has no section "optimize"; add one with vary: and minimize:, or give them here',
@@ -141,7 +141,7 @@ def _source(
                 name=mechanism.name,
             )
         )
-    return mechanism, document, given
+    return mechanism, document, section
 
 
 @contextmanager
@@ -152,15 +152,17 @@ def _at_their_lines(document: Document | None, settings: Mapping[str, Any]) -> I
     except ModelError as error:
         if document is None:
             raise
-        given = [f"optimize.{key}" for key, value in settings.items() if value is not None]
-        raise document.located(error, given) from None
+        replaced = [f"optimize.{key}" for key, value in settings.items() if value is not None]
+        raise document.located(error, replaced) from None
 
 
-def _apart(judged: Judged) -> Judged:
+def _distinct(judged: Judged) -> Judged:
     """Without designs whose objectives differ less than ``ALIKE`` from those of the one before."""
     rows = [0]
     for k in range(1, len(judged.x)):
-        if (np.abs(judged.goals[k] - judged.goals[rows[-1]]) > ALIKE * np.abs(judged.goals[k])).any():
+        if (
+            np.abs(judged.goals[k] - judged.goals[rows[-1]]) > SAME_OBJECTIVES * np.abs(judged.goals[k])
+        ).any():
             rows.append(k)
     return taken(judged, np.array(rows, dtype=np.intp))
 
@@ -180,9 +182,9 @@ class _Run:
         self.task, self.size, self.most = task, size, most
         self.progress, self.document, self.leading = progress, document, leading
         self.stopped: Path | None = None
-        kept = surrounding()
-        assert kept is not None
-        self.kept = kept
+        checkpoints = current_checkpoints()
+        assert checkpoints is not None
+        self.checkpoints = checkpoints
         self.polish = Polish(task)
         alone = not task.measures.side_by_side
         self.best, self.places = (POLISHED_ALONE, FRONT_ALONE) if alone else (POLISHED, FRONT)
@@ -196,7 +198,7 @@ class _Run:
             left = self._left()
             if left is None:
                 raise
-            self.stopped = self.kept.left()
+            self.stopped = self.checkpoints.left()
             return self._found(left, left.judged)
 
     def _found(self, state: State, judged: Judged) -> Optimum:
@@ -219,7 +221,7 @@ class _Run:
         if feasible.any() and several:
             good = taken(judged, np.flatnonzero(feasible))
             chosen = taken(good, np.flatnonzero(fronts(good) == 0))
-            return _apart(taken(chosen, np.lexsort(chosen.goals.T[::-1])))
+            return _distinct(taken(chosen, np.lexsort(chosen.goals.T[::-1])))
         return taken(judged, ranked(judged)[:1])
 
     def _tell(self, state: State) -> None:
@@ -241,7 +243,7 @@ class _Run:
 
     def _keep(self, state: State) -> None:
         """Keeps a population, with the number of designs measured for it, and tells of it."""
-        self.kept.add(POPULATION, {**state.data(), "measured": self.task.measures.evaluations})
+        self.checkpoints.add(POPULATION, {**state.data(), "measured": self.task.measures.evaluations})
         self._tell(state)
 
     def _left(self) -> State | None:
@@ -252,7 +254,7 @@ class _Run:
             self.task.measures.evaluations = int(data["measured"])
             return state
 
-        return self.kept.resumed(POPULATION, made)
+        return self.checkpoints.resumed(POPULATION, made)
 
     def _fresh(self) -> State:
         """The first population: the best of many designs, some of them after a short local search; all designs, and
@@ -267,7 +269,7 @@ class _Run:
             return begin(self.task, self.size)
         state = begin(self.task, max(self.size, min(int(SAMPLED * self.most), AT_ONCE)))
         goals = state.judged.goals.shape[1]
-        better = self._descended(state.judged, spread(goals, STARTS), STARTS, APART, FEW)
+        better = self._descended(state.judged, spread(goals, STARTS), STARTS, SEPARATION, FEW)
         judged = joined(state.judged, better, _NO_ROWS, np.arange(len(better.x)))
         distance = nearest(judged, Scale.of(judged), spread(goals, self.size))
         rows = picked(judged, distance, self.size, 0.0)
@@ -275,10 +277,10 @@ class _Run:
         state.judged = taken(judged, np.array(rows, dtype=np.intp))
         return state
 
-    def _descended(self, judged: Judged, points: Floats, count: int, apart: float, steps: int) -> Judged:
+    def _descended(self, judged: Judged, points: Floats, count: int, separation: float, steps: int) -> Judged:
         """Designs by turns nearest to points between the best and the worst of each objective, moved nearer."""
         scale = Scale.of(judged)
-        rows = picked(judged, nearest(judged, scale, points), count, apart)
+        rows = picked(judged, nearest(judged, scale, points), count, separation)
         before = taken(judged, np.array(rows, dtype=np.intp))
         if before.goals.shape[1] == 1:
             return self.polish.polished(
@@ -290,9 +292,9 @@ class _Run:
     def _sizes(self, judged: Judged, goal: int) -> Floats:
         """What counts as much of an objective, (K,): its value, but for values next to nothing beside the start's."""
         start = abs(self.task.at_start[self.task.problem.goals[goal].text])
-        least = NOTHING * start if np.isfinite(start) and start > 0.0 else NOTHING
+        floor = NOTHING * start if np.isfinite(start) and start > 0.0 else NOTHING
         found = np.abs(judged.goals[:, goal])
-        return np.maximum(np.where(np.isfinite(found), found, 1.0), least)
+        return np.maximum(np.where(np.isfinite(found), found, 1.0), floor)
 
     def _sure(self, state: State) -> Judged:
         """The population, for a yield judged by as many samples as the result is checked with."""
@@ -314,7 +316,7 @@ class _Run:
             best = self._chosen(found)
             if not np.isfinite(best.goals).all():
                 break
-            lack = task.problem.least_yield - task.yield_of(task.place(best.x)[0])
+            lack = task.problem.min_yield - task.yield_of(task.place(best.x)[0])
             if lack <= 0.0:
                 return replace(best, violations=np.zeros_like(best.violations))
             task.wanted = min(task.wanted + lack, 1.0) if task.samples == FINER else task.wanted
@@ -420,11 +422,13 @@ class _Run:
         addresses = [each.address for each in asked.variables]
         for values in self.task.place(judged.x).tolist():
             design = dict(zip(addresses, values, strict=True))
-            said = ", ".join(f"{each.address} {each.shown(design[each.address])}" for each in asked.variables)
+            dimensions = ", ".join(
+                f"{each.address} {each.shown(design[each.address])}" for each in asked.variables
+            )
             try:
                 solve_motion(asked.mechanism.with_dimensions(design), steps=asked.steps)
             except PositionError as error:
-                nearest.append((len(error.failed), said, error))
+                nearest.append((len(error.failed), dimensions, error))
             except LinkwrightError:
                 continue
             else:
@@ -443,14 +447,14 @@ class _Run:
                 "start from a machine that moves",
                 name=name,
             )
-        failed, said, stuck = min(nearest, key=lambda each: each[0])
+        failed, dimensions, stuck = min(nearest, key=lambda each: each[0])
         reason = stuck.sentence if stuck.outcome is None else stuck.outcome.sentence
         counts = {"failed": failed, "steps": asked.steps}
         return _(
             "no design of {name} within the bounds passes the whole cycle; the nearest that was "
             "tried ({design}) fails in {failed} of {steps} positions: {reason}; widen the bounds",
             code="optimize.none_whole",
-        ).format(name=name, design=said, reason=reason, **counts)
+        ).format(name=name, design=dimensions, reason=reason, **counts)
 
     def _failing(self, found: Optimum) -> Message:
         """Which demands the nearest design misses, and by how much."""
@@ -458,7 +462,7 @@ class _Run:
 
         best, asked = found.best, found.problem
         if best.made is not None and not best.missed:
-            shares = {"share": f"{100 * best.made:.1f}", "wanted": f"{100 * asked.least_yield:.6g}"}
+            shares = {"share": f"{100 * best.made:.1f}", "wanted": f"{100 * asked.min_yield:.6g}"}
             return _(
                 "of the machines made within the tolerances {share} % meet all demands at best, not "
                 "{wanted} %; tighten the tolerances, ask for a smaller yield:, or widen the bounds",

@@ -56,10 +56,10 @@ def path_curvature(
     """That of a path error of a point at so many positions of the cycle, by those of the dimensions ``names`` on
     which it depends; None where there is none, and where positions follow from others before them."""
     key = (names, point, positions, backend)
-    return _kept.get(mechanism, key, lambda: _made(mechanism, names, point, positions, backend))
+    return _cache.get(mechanism, key, lambda: _made(mechanism, names, point, positions, backend))
 
 
-_kept: Recent[Mechanism, PathCurvature | None] = Recent(16)
+_cache: Recent[Mechanism, PathCurvature | None] = Recent(16)
 
 
 def _made(

@@ -20,7 +20,7 @@ AT_BOUND = 1e-8
 FINE = 1e-3
 #: What demands leave to a machine that does not move, and the share of the machines on either side of a quantile
 #: whose slopes count for it, one in so many.
-STUCK, BESIDE = -1.0, 64
+STUCK, QUANTILE_SHARE = -1.0, 64
 #: The value of an objective without weight: below all others.
 _NONE = -1e6
 
@@ -55,17 +55,17 @@ class Polish:
             return before
 
         def evaluate(free: Floats, rows: Indices) -> Model:
-            return self._model(self._whole(before.x[rows], free), weights[rows], aims[rows])
+            return self._model(self._all_variables(before.x[rows], free), weights[rows], aims[rows])
 
         moved = descended(evaluate, before.x[:, self.free], steps, little)
         moved = np.where(np.minimum(moved, 1.0 - moved) < AT_BOUND, np.round(moved), moved)
-        after = self.task.judge(self._whole(before.x, moved))
+        after = self.task.judge(self._all_variables(before.x, moved))
         was, now = (_weighed(each.goals, weights, aims).max(axis=1) for each in (before, after))
         with np.errstate(invalid="ignore"):
             better = (after.total < before.total) | ((after.total == before.total) & (now <= was))
         return joined(before, after, np.flatnonzero(better), np.array([], dtype=np.intp))
 
-    def _whole(self, x: Floats, free: Floats) -> Floats:
+    def _all_variables(self, x: Floats, free: Floats) -> Floats:
         found = x.copy()
         found[:, self.free] = free
         return found
@@ -106,16 +106,18 @@ class Polish:
         values, slopes = self.task.measures.with_slopes(made, self.names)
         sides = {(text, sign): (values[text], slopes[text] * self.span) for text, sign in self.task.sides}
         rooms, climbs = self._left(sides)
-        least = np.argmin(np.where(np.isnan(rooms), -np.inf, rooms), axis=1)
-        room = np.take_along_axis(rooms, least[:, None], 1).reshape(count, -1)[:, 1:]
-        climb = np.take_along_axis(climbs, least[:, None, None], 1).reshape(count, -1, len(self.names))[:, 1:]
+        tightest = np.argmin(np.where(np.isnan(rooms), -np.inf, rooms), axis=1)
+        room = np.take_along_axis(rooms, tightest[:, None], 1).reshape(count, -1)[:, 1:]
+        climb = np.take_along_axis(climbs, tightest[:, None, None], 1).reshape(count, -1, len(self.names))[
+            :, 1:
+        ]
         lost = ~np.isfinite(room)
         room, climb = np.where(lost, STUCK, room), np.where(lost[:, :, None], 0.0, climb)
         order, machines = np.argsort(room, axis=1), room.shape[1]
         last = min(int((1.0 - self.task.wanted) * machines + 1e-9), machines - 1)
-        near = machines // BESIDE
-        beside = order[:, max(0, last - near) : last + near + 1]
-        slope = np.take_along_axis(climb, beside[:, :, None], 1).mean(axis=1)
+        near = machines // QUANTILE_SHARE
+        around = order[:, max(0, last - near) : last + near + 1]
+        slope = np.take_along_axis(climb, around[:, :, None], 1).mean(axis=1)
         return np.take_along_axis(room, order[:, last : last + 1], 1), slope[:, None, :]
 
     def _bends(self, columns: Mapping[str, Floats], weights: Floats) -> Floats:
@@ -139,9 +141,9 @@ class Polish:
         if self.task.at_corners:
             columns, _ = self.task.corners(columns)
         values, slopes = measures.with_slopes(columns, self.names)
-        apart, found = len(next(iter(columns.values()))) // len(x), {}
+        per_design, found = len(next(iter(columns.values()))) // len(x), {}
         for k, (text, sign) in enumerate(sides):
-            rows = slice(k if apart > 1 else 0, None, apart)
+            rows = slice(k if per_design > 1 else 0, None, per_design)
             found[text, sign] = values[text][rows], slopes[text][rows] * self.span
         return found
 

@@ -88,11 +88,11 @@ class DemandText(Either):
         value = super().read(reader, node, place, siblings)
         found = None if value is None else _demand(value)
         if value is not None and found is None:
-            told = _(
+            message = _(
                 'invalid demand "{text}"; write at least 40 deg, at most 60 kN, 1..2 m, or same within 1 %',
                 text=flow(value),
             )
-            reader.error(node, place, told, "", "demand")
+            reader.error(node, place, message, "", "demand")
         return found
 
 
@@ -135,7 +135,7 @@ class Problem:
         ),
         "",
     )
-    least_yield: float = file_key(
+    min_yield: float = file_key(
         Number(
             above=0.0,
             maximum=1.0,
@@ -202,25 +202,25 @@ SECTION = Keys({
 })  # fmt: skip
 
 
-def problem(mechanism: Mechanism, given: Mapping[str, Any] | None = None, source: str = "") -> Problem:
+def problem(mechanism: Mechanism, settings: Mapping[str, Any] | None = None, source: str = "") -> Problem:
     """A problem from the section ``optimize``, or from what is ``given`` in its place.
 
     Raises ModelError with all findings.
     """
     return _Reading(
-        mechanism, mechanism.optimize if given is None else given, source or mechanism.name
+        mechanism, mechanism.optimize if settings is None else settings, source or mechanism.name
     ).problem()
 
 
 class _Reading(SectionReading):
     """The settings for a mechanism; those that may be objects in programs are taken as they are given."""
 
-    def __init__(self, mechanism: Mechanism, given: Mapping[str, Any], source: str) -> None:
+    def __init__(self, mechanism: Mechanism, settings: Mapping[str, Any], source: str) -> None:
         self.mechanism = mechanism
         known = SECTION.fields.keys() | {"yield"}
-        self.given = {key: each for key, each in given.items() if key not in known or not _empty(each)}
-        whole = len(self.given) == len(given)
-        super().__init__(SECTION, "optimize", given if whole else self.given, source)
+        self.given = {key: each for key, each in settings.items() if key not in known or not _empty(each)}
+        unchanged = len(self.given) == len(settings)
+        super().__init__(SECTION, "optimize", settings if unchanged else self.given, source)
 
     def problem(self) -> Problem:
         variables = self._variables()
@@ -246,8 +246,8 @@ class _Reading(SectionReading):
                 _("{text} is sought twice; give it once, under minimize: or under maximize:", text=text),
                 "goal-twice",
             )
-        kept, tolerances = self._read("keep"), self._tolerances()
-        demands = tuple(replace(each, text=text) for text, each in kept.items())
+        demanded, tolerances = self._read("keep"), self._tolerances()
+        demands = tuple(replace(each, text=text) for text, each in demanded.items())
         if "robust" in self.given and not tolerances:
             self.note(
                 "tolerance",
@@ -348,9 +348,9 @@ class _Reading(SectionReading):
             )
         return Variable(address, found.low, found.high, None, found.unit)
 
-    def _chosen(self, address: str, key: str, given: Any) -> Variable:
+    def _chosen(self, address: str, key: str, value: Any) -> Variable:
         """One of some values, or of the whole numbers of a range."""
-        text = ", ".join(map(str, given)) if isinstance(given, tuple) else str(given)
+        text = ", ".join(map(str, value)) if isinstance(value, tuple) else str(value)
         found = parse_range(self.mechanism, address, text)
         choices = np.unique(found.values)
         if key == "whole":
@@ -382,12 +382,12 @@ def _rising(found: Range) -> None:
     """Raises where the first bound is greater than the last one."""
     first, last = float(found.values[0]), float(found.values[-1])
     if first > last:
-        said = {"first": found.shown(first), "last": found.shown(last)}
+        bounds = {"first": found.shown(first), "last": found.shown(last)}
         raise RequestError(
             _(
                 "the bounds of {address} fall from {first} to {last}; write the lower one first",
                 code="optimize.falling",
-            ).format(address=found.address, **said)
+            ).format(address=found.address, **bounds)
         )
 
 

@@ -16,7 +16,7 @@ STEADY = 1e-13
 
 
 def quadratic(
-    curved: Floats, slope: Floats, rows: Floats, least: Floats, low: Floats, high: Floats, price: Floats
+    curved: Floats, slope: Floats, rows: Floats, bounds: Floats, low: Floats, high: Floats, price: Floats
 ) -> tuple[Floats, Floats]:
     """The u (K, n) between ``low`` and ``high`` that make ½ u·C·u + s·u + Σ p max(l − R·u, 0) least, and the
     multipliers (K, m) of the rows, 0 to p.
@@ -25,10 +25,10 @@ def quadratic(
     ``low`` < ``high``; ``price`` p (K, m), exact where it is above the multipliers.
     Source: Nocedal and Wright, *Numerical Optimization*, 2006, ch. 16.6.
     """
-    (count, m), n = least.shape, slope.shape[1]
+    (count, m), n = bounds.shape, slope.shape[1]
     own, turned = range(n), np.ascontiguousarray(rows.swapaxes(1, 2))
     u = 0.5 * (low + high)
-    lack = np.maximum(least - _times(rows, u), 0.0) + 1.0
+    lack = np.maximum(bounds - _times(rows, u), 0.0) + 1.0
     force = np.minimum(1.0, 0.5 * price)
     # positive numbers in pairs whose products go to zero: multipliers in the first half, what they hold in the second
     values = np.concatenate(
@@ -36,7 +36,7 @@ def quadratic(
             force,
             price - force,
             np.ones((count, 2 * n)),
-            _times(rows, u) + lack - least,
+            _times(rows, u) + lack - bounds,
             lack,
             u - low,
             high - u,

@@ -9,8 +9,8 @@ from dataclasses import replace
 from linkwright import units
 from linkwright.core.quantity import in_kind, number, unit_of_kind, with_unit, written
 from linkwright.core.table import Cell, Table
+from linkwright.designs.checkpoints import RESUME
 from linkwright.designs.criteria import Criterion
-from linkwright.designs.finished_parts import RESUME
 from linkwright.designs.optimise.optimum import Choice, Optimum
 from linkwright.errors import speaker
 from linkwright.words import Say, _
@@ -63,11 +63,11 @@ def _notes(found: Optimum) -> Iterator[str]:
 
 def _goals(found: Optimum, language: str) -> str:
     words = {1.0: _("least {number}"), -1.0: _("greatest {number}")}
-    said = (
+    texts = (
         words[goal.sign].format(number=label(found, goal.text, language)).translate(language)
         for goal in found.problem.goals
     )
-    return _("; ").translate(language).join(said)
+    return _("; ").translate(language).join(texts)
 
 
 def label(found: Optimum, text: str, language: str) -> str:
@@ -98,12 +98,12 @@ def comparison(found: Optimum, choice: Choice, language: str) -> Table:
 
 def _limits(found: Optimum, choice: Choice, text: str, tell: Say) -> str:
     goals = {goal.text: goal.sign for goal in found.problem.goals}
-    said = [tell(_("made least") if goals[text] > 0 else _("made greatest"))] if text in goals else []
+    texts = [tell(_("made least") if goals[text] > 0 else _("made greatest"))] if text in goals else []
     if text in found.limits:
-        said.append(_between(found, text)[0])
+        texts.append(_between(found, text)[0])
     if text in choice.missed:
-        said.append(tell(_("missed")))
-    return ", ".join(said)
+        texts.append(tell(_("missed")))
+    return ", ".join(texts)
 
 
 def _change(was: float, now: float) -> str:
@@ -136,21 +136,21 @@ def _front(found: Optimum, language: str) -> Table:
 
 def _worst(found: Optimum) -> list[str]:
     """What the numbers of the first design come to at the worst within the tolerances."""
-    said = []
+    texts = []
     for text, ends in found.best.worst.items():
         unit, factor = unit_of_kind(found.kinds[text])
-        said.append(f"{text} {with_unit('..'.join(number(end * factor) for end in sorted(ends)), unit)}")
-    return said
+        texts.append(f"{text} {with_unit('..'.join(number(end * factor) for end in sorted(ends)), unit)}")
+    return texts
 
 
 def missing(found: Optimum) -> list[str]:
     """The demands that the first design misses, with what is demanded and what it has."""
-    said = []
+    texts = []
     for text in found.best.missed:
         ends = sorted(found.best.worst.get(text, (found.best.numbers[text],)))
         has = "..".join(in_kind(end, found.kinds[text]) for end in ends)
-        said.append(f"{text} {with_unit(*_between(found, text))} ({has})")
-    return said
+        texts.append(f"{text} {with_unit(*_between(found, text))} ({has})")
+    return texts
 
 
 def _between(found: Optimum, text: str) -> tuple[str, str]:

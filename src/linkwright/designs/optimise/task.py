@@ -70,7 +70,7 @@ class Task:
         self.problem = problem
         self.measures = Measures(problem)
         self.samples = SAMPLES if self.measures.side_by_side else SAMPLES_ALONE
-        self.wanted = problem.least_yield
+        self.wanted = problem.min_yield
         self.low = np.array([each.low for each in problem.variables])
         self.high = np.array([each.high for each in problem.variables])
         self.at_start = {
@@ -234,7 +234,7 @@ class Task:
     def _deviations(self, samples: int) -> dict[str, Floats]:
         """The same deviations for all designs: drawn evenly, uniform within ±; for the worst all corners where these
         are no more."""
-        if samples not in self._kept:
+        if samples not in self._shares:
             from scipy.stats import qmc
 
             names = list(self.problem.tolerances)
@@ -244,14 +244,14 @@ class Task:
             else:
                 draw = np.random.default_rng((self.problem.seed, samples == OTHERS))
                 share = qmc.Sobol(len(names), rng=draw).random(samples)
-            self._kept[samples] = {
+            self._shares[samples] = {
                 name: np.concatenate([[0.0], self.problem.tolerances[name] * (2 * share[:, k] - 1)])
                 for k, name in enumerate(names)
             }
-        return self._kept[samples]
+        return self._shares[samples]
 
     @cached_property
-    def _kept(self) -> dict[int, dict[str, Floats]]:
+    def _shares(self) -> dict[int, dict[str, Floats]]:
         return {}
 
     def worst_of(self, values: Floats) -> dict[str, tuple[float, ...]]:
@@ -323,12 +323,12 @@ class Task:
         low = self._value(demand.low, kind, demand.text) if demand.low else -np.inf
         high = self._value(demand.high, kind, demand.text) if demand.high else np.inf
         if low > high:
-            told = _(
+            message = _(
                 "the range falls from {low} to {high}; write the lower value first",
                 low=demand.low,
                 high=demand.high,
             )
-            raise QuantityError(told, code="falling-demand")
+            raise QuantityError(message, code="falling-demand")
         sizes = [abs(each) for each in (low, high) if np.isfinite(each) and each] or [abs(start)]
         return Bounds(
             demand.text, low, high, max(sizes) if np.isfinite(max(sizes)) and max(sizes) > 0 else 1.0
@@ -336,10 +336,10 @@ class Task:
 
     def _value(self, text: str, kind: units.Dimension, name: str) -> float:
         number, unit = _split(text)
-        factor, given = units.unit(unit) if unit else (1.0, units.NONE)
-        if given != kind:
+        factor, dimension = units.unit(unit) if unit else (1.0, units.NONE)
+        if dimension != kind:
             symbol = units.usual_symbol(kind)
-            said = {
+            values = {
                 "text": name,
                 "need": units.name_of(kind),
                 "given": text,
@@ -350,7 +350,7 @@ class Task:
                     _(
                         '"{text}" is {need}, and "{given}" is not; write its unit, as in {right}',
                         code="optimize.unit",
-                        **said,
+                        **values,
                     ),
                     code="wrong-dimension",
                 )
@@ -358,7 +358,7 @@ class Task:
                 _(
                     '"{text}" is {need}, and "{given}" is not; write a number without a unit',
                     code="optimize.no_unit",
-                    **said,
+                    **values,
                 ),
                 code="missing-unit",
             )

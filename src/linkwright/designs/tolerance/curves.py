@@ -23,8 +23,8 @@ class CurveSpread:
 
     mean: Floats
     deviation: Floats
-    least: Floats
-    largest: Floats
+    minimum: Floats
+    maximum: Floats
     low: Floats
     high: Floats
     machines: int
@@ -33,13 +33,13 @@ class CurveSpread:
         """The same about other values."""
         places = (
             self.mean + shift,
-            self.least + shift,
-            self.largest + shift,
+            self.minimum + shift,
+            self.maximum + shift,
             self.low + shift,
             self.high + shift,
         )
-        mean, least, largest, low, high = places
-        return CurveSpread(mean, self.deviation, least, largest, low, high, self.machines)
+        mean, minimum, maximum, low, high = places
+        return CurveSpread(mean, self.deviation, minimum, maximum, low, high, self.machines)
 
 
 class Counted:
@@ -50,7 +50,7 @@ class Counted:
         self.width = np.where(sigma > 0.0, sigma, np.abs(middle) + 1.0) * (2.0 * REACH / BINS)
         self.count = 0
         self.sums = np.zeros((2, len(middle)))
-        self.least, self.largest = np.full(len(middle), np.inf), np.full(len(middle), -np.inf)
+        self.minimum, self.maximum = np.full(len(middle), np.inf), np.full(len(middle), -np.inf)
         self.bins: Integers = np.zeros((len(middle), BINS), dtype=np.int64)
 
     def add(self, values: Floats) -> None:
@@ -58,9 +58,9 @@ class Counted:
         away = values - self.middle
         self.count += len(values)
         self.sums += away.sum(axis=0), (away * away).sum(axis=0)
-        self.least, self.largest = (
-            np.minimum(self.least, values.min(axis=0)),
-            np.maximum(self.largest, values.max(axis=0)),
+        self.minimum, self.maximum = (
+            np.minimum(self.minimum, values.min(axis=0)),
+            np.maximum(self.maximum, values.max(axis=0)),
         )
         place = np.clip(away / self.width + BINS / 2, 0, BINS - 1).astype(np.int64)
         place += BINS * np.arange(len(self.middle))
@@ -72,7 +72,7 @@ class Counted:
         variance = np.maximum(self.sums[1] - self.count * mean * mean, 0.0) / max(self.count - 1, 1)
         low, high = (self._quantile(share) for share in shares)
         return CurveSpread(
-            self.middle + mean, np.sqrt(variance), self.least, self.largest, low, high, self.count
+            self.middle + mean, np.sqrt(variance), self.minimum, self.maximum, low, high, self.count
         )
 
     def _quantile(self, share: float) -> Floats:
@@ -83,7 +83,7 @@ class Counted:
         before = below[rows, place] - self.bins[rows, place]
         part = (wanted - before) / np.maximum(self.bins[rows, place], 1)
         found = self.middle + (place + part - BINS / 2) * self.width
-        return np.asarray(np.clip(found, self.least, self.largest))
+        return np.asarray(np.clip(found, self.minimum, self.maximum))
 
 
 def curve_spreads(

@@ -37,8 +37,8 @@ class TurnedByReaction(Law):
         from scipy.interpolate import CubicSpline
 
         count, first = len(self.angles), self.jumps[0] + 1 if self.jumps else 0
-        whole = np.roll(np.array(self.angles), -first)
-        turned: Floats = np.unwrap(np.append(whole, whole[0]))
+        ordered = np.roll(np.array(self.angles), -first)
+        turned: Floats = np.unwrap(np.append(ordered, ordered[0]))
         times: Floats = self.period / count * (first + np.arange(count + 1, dtype=np.float64))
         drift = 0.0 if self.jumps else (turned[-1] - turned[0]) / self.period
         if self.jumps:

@@ -30,7 +30,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 
 #: Most rounds in which the pins follow their forces, and the residual, rad, that ends them.
-ROUNDS, FOLLOWED = 6, 1e-9
+ROUNDS, SETTLED = 6, 1e-9
 #: A position with a larger residual, rad, has no rates and forces: the reaction turns faster than the pin can.
 LAG = 0.02
 #: Halvings of an interval in which the reaction's direction may jump, and the share of the change that is left then.
@@ -118,7 +118,7 @@ def follow(study: Tolerances, nominal: Forces) -> FollowedPins:
         if best is not None and not _better(residual, best.residual):
             break
         best, angles = FollowedPins(study, mechanism, residual), found
-        if residual.max() < FOLLOWED:
+        if residual.max() < SETTLED:
             break
     assert best is not None
     return best
@@ -225,9 +225,9 @@ def _at_hole(load: Load, pin: str, on: str, hole: str) -> Load:
         return load
     moved: dict[str, object] = {}
     for one in fields(load):
-        given = getattr(load, one.name)
-        if one.name not in ("name", "on") and pin in (given if isinstance(given, tuple) else (given,)):
+        value = getattr(load, one.name)
+        if one.name not in ("name", "on") and pin in (value if isinstance(value, tuple) else (value,)):
             moved[one.name] = (
-                tuple(hole if g == pin else g for g in given) if isinstance(given, tuple) else hole
+                tuple(hole if g == pin else g for g in value) if isinstance(value, tuple) else hole
             )
     return replace(load, **moved)  # type: ignore[arg-type]

@@ -26,7 +26,7 @@ from linkwright.words import _
 #: Standard deviation of each distribution as a share of its tolerance ±t.
 DEVIATIONS = {"normal": 1 / 3, "uniform": 1 / math.sqrt(3), "triangular": 1 / math.sqrt(6)}
 #: Fewer samples than this tell nothing about a spread.
-LEAST = 64
+MIN_SAMPLES = 64
 
 
 @dataclass(frozen=True)
@@ -124,7 +124,9 @@ class Tolerances(OfMechanism):
     limits: Mapping[str, Limit] = file_key(
         ByAddress(Table(LIMIT, _limit), doc="limits by summary: {lower: 59 deg, upper: 61 deg}"), dict
     )
-    samples: int = file_key(Integer(LEAST, doc="machines of the Monte Carlo study, 8192 unless given"), 8192)
+    samples: int = file_key(
+        Integer(MIN_SAMPLES, doc="machines of the Monte Carlo study, 8192 unless given"), 8192
+    )
     seed: int = file_key(Integer(0, 2**32 - 1, doc="seed of the random numbers"), 1)
     steps: int = file_key(Integer(4, doc="positions of the curves over the cycle, 360 unless given"), STEPS)
     name: str = ""
@@ -137,8 +139,8 @@ class Tolerances(OfMechanism):
         moved = {c.on for c in self.clearances.values() if c.on in links}
         for name in moved:
             links[name] = _by_coordinates(links[name])
-        kept = {a: e for a, e in mechanism.expressions.items() if a.partition(".")[0] not in moved}
-        return replace(mechanism, links=links, expressions=kept)
+        expressions = {a: e for a, e in mechanism.expressions.items() if a.partition(".")[0] not in moved}
+        return replace(mechanism, links=links, expressions=expressions)
 
     def alias(self, address: str) -> str:
         """Where a dimension is found in the prepared mechanism: a length as its second point's x."""

@@ -289,8 +289,8 @@ class Spread(Result):
         if self.swept is None:
             return np.array([self.nominal(text) + self.shift(text)])
         summary, shift = self.summaries[text], self.shift(text)
-        kept = self.swept[summary.name][self.swept.ok]
-        return np.asarray(kept + (0.0 if math.isnan(shift) else shift))
+        passing = self.swept[summary.name][self.swept.ok]
+        return np.asarray(passing + (0.0 if math.isnan(shift) else shift))
 
     def monte_carlo(self, text: str) -> float:
         """Standard deviation of a summary among the machines."""
@@ -400,22 +400,22 @@ class Spread(Result):
         """Why the two spreads differ: the bend b of y over ±2σ makes its spread 1 + b²/4 times as large; where that
         is far less than the difference, it is too few machines."""
         name, bend = self.bend(text)
-        said = {"name": text, "ratio": f"{self.ratio(text):.4g}", "dimension": name}
-        said["bend"] = f"{100 * bend:.3g} %" if math.isfinite(bend) else "—"
+        values = {"name": text, "ratio": f"{self.ratio(text):.4g}", "dimension": name}
+        values["bend"] = f"{100 * bend:.3g} %" if math.isfinite(bend) else "—"
         if self.failed or not 0.25 * bend**2 < SMALL * abs(self.ratio(text) - 1.0):
             return say(
                 _(
                     "{name}: Monte Carlo gives {ratio} times the linear spread, because the number is "
                     "not linear in the tolerances: over ±2σ of {dimension} it bends by {bend} of its "
                     "change.",
-                ).format(**said)
+                ).format(**values)
             )
         return say(
             _(
                 "{name}: Monte Carlo gives {ratio} times the linear spread, and the number hardly "
                 "bends over the tolerances ({bend} over ±2σ of {dimension}): {count} machines tell "
                 "the spread no better; give more samples.",
-            ).format(count=len(self.values(text)), **said)
+            ).format(count=len(self.values(text)), **values)
         )
 
     @property
@@ -498,13 +498,13 @@ class Spread(Result):
             else found
         )
 
-    def _followed_remark(self, output: str, say: Say) -> tuple[str, ...]:
+    def _pins_remark(self, output: str, say: Say) -> tuple[str, ...]:
         """How near the pins lie to where their reactions press them, and where they cannot."""
         if not self.study.holes("pressed") or is_position(self.study, output):
             return ()
-        kept = self.followed.followed
-        off = float(self.followed.residual[kept].max()) if kept.any() else math.nan
-        said = (
+        settled = self.followed.followed
+        off = float(self.followed.residual[settled].max()) if settled.any() else math.nan
+        sentences = (
             [
                 say(
                     _(
@@ -513,21 +513,21 @@ class Spread(Result):
                     )
                 )
             ]
-            if kept.any()
+            if settled.any()
             else []
         )
-        if not kept.all():
-            said.append(
+        if not settled.all():
+            sentences.append(
                 say(
                     _(
                         "At {count} of {steps} positions a reaction jumps or turns faster than the pin can "
                         "follow in its hole: no value there.",
-                        count=int((~kept).sum()),
-                        steps=len(kept),
+                        count=int((~settled).sum()),
+                        steps=len(settled),
                     )
                 )
             )
-        return (" ".join(said),)
+        return (" ".join(sentences),)
 
     def _curve_block(self, output: str, say: Say) -> Block:
         kind = self.dimension(output)
@@ -550,9 +550,7 @@ class Spread(Result):
                 else places.format(place=at)
             )
             rows.append(Row(key, float(values[i]), kind, "", note))
-        return Block(
-            f"curve {output}", _("Curve {name}", name=output), rows, self._followed_remark(output, say)
-        )
+        return Block(f"curve {output}", _("Curve {name}", name=output), rows, self._pins_remark(output, say))
 
     def steps(self, say: Say) -> list[Step]:
         found: list[Step] = []

@@ -8,7 +8,7 @@ from linkwright import units
 from linkwright.analysis.base import METRICS
 from linkwright.analysis.by_name import is_metric, wanted
 from linkwright.designs.ranges import dimension_of
-from linkwright.designs.tolerance.problem import LEAST, Clearance, Tolerance, Tolerances
+from linkwright.designs.tolerance.problem import MIN_SAMPLES, Clearance, Tolerance, Tolerances
 from linkwright.designs.tolerance.result import Spread
 from linkwright.designs.varied_dimensions import misfits
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError, fault
@@ -77,14 +77,14 @@ class ToleranceStudy(Tolerances):
             for name, limit in self.limits.items()
             if limit.lower >= limit.upper
         ]
-        if self.samples < LEAST:
+        if self.samples < MIN_SAMPLES:
             found.append(
                 fault(
                     "few_samples",
                     "samples",
                     _("too few machines to tell a spread"),
                     pgettext("tolerance", "give at least {least}"),
-                    least=LEAST,
+                    least=MIN_SAMPLES,
                 )
             )
         return found
@@ -141,7 +141,7 @@ class ToleranceStudy(Tolerances):
         needed = dimension_of(self.mechanism, address)
         if tolerance.dimension not in (None, units.NONE, needed) and needed is not None:
             assert tolerance.dimension is not None
-            given, wanted = units.name_of(tolerance.dimension), units.name_of(needed)
+            found, wanted = units.name_of(tolerance.dimension), units.name_of(needed)
             return [
                 fault(
                     "wrong_kind",
@@ -149,7 +149,7 @@ class ToleranceStudy(Tolerances):
                     _("the tolerance of {name} is {given}, where {needed} is needed"),
                     _("write it in the unit of the dimension"),
                     name=address,
-                    given=given,
+                    given=found,
                     needed=wanted,
                 )
             ]

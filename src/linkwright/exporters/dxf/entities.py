@@ -38,15 +38,15 @@ def content_of(document: Any) -> bytes:
 
 def add(space: Any, item: Item, layer: str, **attributes: str) -> None:
     """An item of a picture as a line, a polyline, a circle or a text on a layer."""
-    given = {"layer": layer, **attributes}
+    dxf_attributes = {"layer": layer, **attributes}
     if isinstance(item, Text):
         _text(space, item, layer)
     elif isinstance(item, Circle):
-        space.add_circle(tuple(item.at), item.radius, dxfattribs=given)
+        space.add_circle(tuple(item.at), item.radius, dxfattribs=dxf_attributes)
     elif len(item.points) == 2 and not item.closed:
-        space.add_line(*item.points.tolist(), dxfattribs=given)
+        space.add_line(*item.points.tolist(), dxfattribs=dxf_attributes)
     elif len(item.points) > 1:
-        space.add_lwpolyline(item.points.tolist(), close=item.closed, dxfattribs=given)
+        space.add_lwpolyline(item.points.tolist(), close=item.closed, dxfattribs=dxf_attributes)
 
 
 def _text(space: Any, item: Text, layer: str) -> None:

@@ -112,7 +112,9 @@ def _index(results: Results, position: int | None) -> int:
 FORMATS.register("dxf")(Format((".dxf",), dxf))
 
 
-def html(results: Results, *, text: str | None = None, beside: Sequence[Mechanism | Document] = ()) -> bytes:
+def html(
+    results: Results, *, text: str | None = None, compared: Sequence[Mechanism | Document] = ()
+) -> bytes:
     """The living page of a machine.
 
     ``text``: the model file's own text, which the page gives back with the changed numbers; ``beside``: further
@@ -121,7 +123,7 @@ def html(results: Results, *, text: str | None = None, beside: Sequence[Mechanis
     from linkwright.page.content import page, solved
 
     steps = max(results.motion.steps - (0 if results.motion.positions.closed else 1), 1)
-    models = [(results.motion, text), *(solved(each, steps) for each in beside)]
+    models = [(results.motion, text), *(solved(each, steps) for each in compared)]
     return page(models, results.language).encode()
 
 

@@ -41,7 +41,7 @@ def written(root: ET.Element) -> bytes:
 
 
 #: Mass and inertia of links without any, as a share of the largest mass.
-LEAST = 1e-3
+MIN_MASS = 1e-3
 #: Inertia of a driver against all that it moves; a heavy driver keeps its speed.
 HEAVY = 1000.0
 
@@ -76,7 +76,7 @@ class Bodies:
                 if cut.slides:
                     self.riders.setdefault(cut.a, []).append(cut)
         masses = [link.mass for link in self.mechanism.links.values()]
-        self.least_mass = LEAST * (max(masses, default=0.0) or 1.0)
+        self.least_mass = MIN_MASS * (max(masses, default=0.0) or 1.0)
         spans = [span(link) for link in self.mechanism.links.values()]
         self.size = max([*spans, span(self.mechanism.frame)], default=0.0) or 1.0
 

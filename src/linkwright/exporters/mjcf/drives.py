@@ -74,7 +74,7 @@ def key(results: Results, bodies: Bodies, index: int) -> ET.Element:
     attributes = {"name": "start", "time": numbers([results.motion.time[index]]),
                   "qpos": numbers(each.value for each in bodies.coordinates),
                   "qvel": numbers(each.rate for each in bodies.coordinates)}  # fmt: skip
-    given = {"act": states, "ctrl": controls}
-    attributes |= {name: numbers(values) for name, values in given.items() if values}
+    signals = {"act": states, "ctrl": controls}
+    attributes |= {name: numbers(values) for name, values in signals.items() if values}
     ET.SubElement(frame, "key", attributes)
     return frame

@@ -108,8 +108,8 @@ def _roots_within(polynomial: Polynomial, length: float) -> list[float]:
     size = np.abs(coefficients).max()
     if size == 0.0 or len(coefficients) < 2:
         return []
-    kept = np.trim_zeros(np.where(np.abs(coefficients) < 1e-14 * size, 0.0, coefficients), "b")
-    roots = np.polynomial.polynomial.polyroots(kept) if len(kept) > 1 else np.zeros(0)
+    trimmed = np.trim_zeros(np.where(np.abs(coefficients) < 1e-14 * size, 0.0, coefficients), "b")
+    roots = np.polynomial.polynomial.polyroots(trimmed) if len(trimmed) > 1 else np.zeros(0)
     real = roots.real[np.abs(roots.imag) < 1e-7]
     return [float(u) * length for u in real if 0.0 < u < 1.0]
 

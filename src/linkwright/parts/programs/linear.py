@@ -140,11 +140,11 @@ def conflict(
         for side in ("low", "high")
         if math.isfinite(getattr(v, side)) and not v.choices and open_ends
     ]
-    kept: list[str] = []
+    needed: list[str] = []
     for name in constraints:
         fewer = model.without(constraint=name)
         if feasible(fewer):
-            kept.append(name)
+            needed.append(name)
         else:
             model = fewer
     held: list[tuple[str, str]] = []
@@ -154,4 +154,4 @@ def conflict(
             held.append(bound)
         else:
             model = fewer
-    return kept, held
+    return needed, held

@@ -14,7 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.parts.programs.problem import Model
 
 #: A scaled excess up to this size counts as none.
-KEPT = 1e-7
+CONSTRAINT_TOLERANCE = 1e-7
 #: Starts of a search, combinations that are enumerated, nodes that are branched at most.
 STARTS, ENUMERATED, NODES = 24, 2_000_000, 400
 
@@ -121,7 +121,7 @@ def solve_nonlinear(model: Model, starts: int = STARTS) -> Found | None:
                 method="SLSQP", constraints=scaled.constraints(), options={"maxiter": 300, "ftol": 1e-13},
             )  # fmt: skip
         y = np.clip(found.x, low, high)
-        if np.isfinite(y).all() and scaled.violation(y) <= KEPT:
+        if np.isfinite(y).all() and scaled.violation(y) <= CONSTRAINT_TOLERANCE:
             ends.append((scaled.value(y), y))
     if not ends:
         return None
@@ -181,7 +181,7 @@ def _values(variable: Any) -> Sequence[float]:
 def combinations(model: Model) -> int | None:
     """How many combinations there are; None where a variable is continuous or without bounds."""
     if not all(
-        v.discrete and math.isfinite(v.least) and math.isfinite(v.most) for v in model.variables.values()
+        v.discrete and math.isfinite(v.minimum) and math.isfinite(v.maximum) for v in model.variables.values()
     ):
         return None
     return math.prod(len(_values(v)) for v in model.variables.values())
@@ -208,7 +208,7 @@ def branch(model: Model) -> Found | None:
 def _relaxed(model: Model) -> Model:
     """All variables continuous within their bounds."""
     free = {
-        name: replace(v, low=v.least, high=v.most, integer=False, choices=(), start=None)
+        name: replace(v, low=v.minimum, high=v.maximum, integer=False, choices=(), start=None)
         for name, v in model.variables.items()
     }
     return Model(free, model.objective, model.sign, model.constraints)
@@ -226,10 +226,10 @@ def _split(model: Model, x: Floats) -> list[Model] | None:
         below = [each for each in allowed if each < value]
         above = [each for each in allowed if each > value]
         parts = []
-        for kept, side in ((below, "high"), (above, "low")):
-            if kept:
-                choices = tuple(kept) if variable.choices else ()
-                end = {"choices": choices} if choices else {side: kept[-1] if side == "high" else kept[0]}
+        for values, side in ((below, "high"), (above, "low")):
+            if values:
+                choices = tuple(values) if variable.choices else ()
+                end = {"choices": choices} if choices else {side: values[-1] if side == "high" else values[0]}
                 changed = {**model.variables, name: replace(variable, **end)}
                 parts.append(Model(changed, model.objective, model.sign, model.constraints))
         return parts if not below or (above and value - below[-1] > above[0] - value) else parts[::-1]

@@ -31,12 +31,12 @@ class Variable:
         return self.integer or bool(self.choices)
 
     @property
-    def least(self) -> float:
+    def minimum(self) -> float:
         """Lower bound."""
         return self.choices[0] if self.choices else self.low
 
     @property
-    def most(self) -> float:
+    def maximum(self) -> float:
         """Upper bound."""
         return self.choices[-1] if self.choices else self.high
 
@@ -45,19 +45,21 @@ class Variable:
         """Where a search begins: the start, the middle of the bounds, or near the one bound."""
         if self.start is not None:
             return self.start
-        if math.isfinite(self.least) and math.isfinite(self.most):
-            return (self.least + self.most) / 2
-        if math.isfinite(self.least):
-            return self.least + self.size
-        return self.most - self.size if math.isfinite(self.most) else 1.0
+        if math.isfinite(self.minimum) and math.isfinite(self.maximum):
+            return (self.minimum + self.maximum) / 2
+        if math.isfinite(self.minimum):
+            return self.minimum + self.size
+        return self.maximum - self.size if math.isfinite(self.maximum) else 1.0
 
     @property
     def size(self) -> float:
         """Its scale: the width of its bounds, else the size of its start or bound, else 1."""
-        if math.isfinite(self.least) and math.isfinite(self.most):
-            return (self.most - self.least) or abs(self.most) or 1.0
+        if math.isfinite(self.minimum) and math.isfinite(self.maximum):
+            return (self.maximum - self.minimum) or abs(self.maximum) or 1.0
         ends = [
-            abs(v) for v in (self.start, self.least, self.most) if v is not None and math.isfinite(v) and v
+            abs(v)
+            for v in (self.start, self.minimum, self.maximum)
+            if v is not None and math.isfinite(v) and v
         ]
         return max(ends, default=1.0)
 
@@ -78,12 +80,12 @@ class Model:
     @cached_property
     def lows(self) -> Floats:
         """Lower bounds."""
-        return np.array([v.least for v in self.variables.values()])
+        return np.array([v.minimum for v in self.variables.values()])
 
     @cached_property
     def highs(self) -> Floats:
         """Upper bounds."""
-        return np.array([v.most for v in self.variables.values()])
+        return np.array([v.maximum for v in self.variables.values()])
 
     @cached_property
     def sizes(self) -> Floats:
@@ -119,10 +121,10 @@ class Model:
         """The same without one constraint, or without one bound (``low`` or ``high``) of a variable."""
         from dataclasses import replace
 
-        kept = tuple(c for c in self.constraints if c.name != constraint)
+        remaining = tuple(c for c in self.constraints if c.name != constraint)
         variables = dict(self.variables)
         if bound is not None:
             name, side = bound
             open_end = -math.inf if side == "low" else math.inf
             variables[name] = replace(variables[name], **{side: open_end})  # type: ignore[arg-type]
-        return Model(variables, self.objective, self.sign, kept)
+        return Model(variables, self.objective, self.sign, remaining)

@@ -63,13 +63,13 @@ UNBOUNDED = _("no limit: the objective improves without end along {variables}")
 STOPS_THEM = _("give these variables bounds, or a constraint that stops them")
 
 
-def _variable(**given: Any) -> Variable:
-    ends = {name: given[name][0] for name in ("low", "high", "start") if given.get(name)}
-    choices = tuple(sorted(value for value, _unused in given.get("choices", ())))
-    kinds = [given[name][1] for name in ("low", "high", "start") if given.get(name) and given[name][0]]
-    kinds += [kind for _unused, kind in given.get("choices", ())]
+def _variable(**values: Any) -> Variable:
+    ends = {name: values[name][0] for name in ("low", "high", "start") if values.get(name)}
+    choices = tuple(sorted(value for value, _unused in values.get("choices", ())))
+    kinds = [values[name][1] for name in ("low", "high", "start") if values.get(name) and values[name][0]]
+    kinds += [kind for _unused, kind in values.get("choices", ())]
     kinds = [kind for kind in kinds if kind != units.NONE] or [units.NONE]
-    return Variable(**ends, integer=bool(given.get("integer")), choices=choices, dimension=kinds[0])
+    return Variable(**ends, integer=bool(values.get("integer")), choices=choices, dimension=kinds[0])
 
 
 VARIABLE = {
@@ -187,15 +187,15 @@ class Program(Problem):
                 )
             )
         for name, v in self.variables.items():
-            if v.least > v.most:
+            if v.minimum > v.maximum:
                 found.append(
                     fault(
                         "bounds",
                         f"variables.{name}",
                         _("the lower bound {low} lies above the upper bound {high}"),
                         _("exchange them"),
-                        low=self.shown(name, v.least),
-                        high=self.shown(name, v.most),
+                        low=self.shown(name, v.minimum),
+                        high=self.shown(name, v.maximum),
                     )
                 )
         return found
@@ -258,7 +258,7 @@ class Program(Problem):
             texts = (_("the whole numbers or choices of the variables"),)
         key = f"subject_to.{names[0]}" if names else "variables"
         if from_starts:
-            told = fault(
+            finding = fault(
                 "not_found",
                 key,
                 _(
@@ -268,14 +268,14 @@ class Program(Problem):
                 set=texts,
             )
         else:
-            told = fault(
+            finding = fault(
                 "infeasible",
                 key,
                 _("no solution: these cannot hold together: {set}"),
                 _("loosen one of them; any one is enough for these"),
                 set=texts,
             )
-        return ModelError([told])
+        return ModelError([finding])
 
 
 def _unbounded(variables: tuple[str, ...]) -> ModelError:
@@ -400,8 +400,8 @@ class Optimum(Result):
     def _at_bound(self, name: str, say: Say) -> str:
         variable, value = self.program.variables[name], self.x[name]
         for bound, word in (
-            (variable.least, _("at its lower bound")),
-            (variable.most, _("at its upper bound")),
+            (variable.minimum, _("at its lower bound")),
+            (variable.maximum, _("at its upper bound")),
         ):
             if math.isfinite(bound) and abs(value - bound) <= ACTIVE * max(variable.size, abs(bound)):
                 return say(word)
@@ -431,7 +431,7 @@ class Optimum(Result):
                 )
                 gain = f"{abs(price) * size / factor:.6g} {own}".rstrip()
                 best = say(_("minimum") if self.program.minimize else _("maximum"))
-                told = (
+                effect = (
                     _(
                         "Raising the right side of {name} by {step} raises the {best} by {price} (shadow price)."
                     )
@@ -440,7 +440,9 @@ class Optimum(Result):
                         "Raising the right side of {name} by {step} lowers the {best} by {price} (shadow price)."
                     )
                 )
-                lines.append(say(told.format(name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain)))
+                lines.append(
+                    say(effect.format(name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain))
+                )
         return tuple(lines)
 
     def _allowed(self, name: str, variable: Variable) -> str:

@@ -195,11 +195,11 @@ class BeltTensions(Result):
         belt, flung = self.belt, "Tc + " if self.belt.centrifugal else ""
         above = ("(", " − Tc)") if flung else ("", "")
         if belt.tight is not None:
-            given = {"T1": (self.tight, "force")}
-            step.put("T2", f"{flung}{above[0]}T1{above[1]}/q", self.slack, "force", of=given)
+            known = {"T1": (self.tight, "force")}
+            step.put("T2", f"{flung}{above[0]}T1{above[1]}/q", self.slack, "force", of=known)
         elif belt.slack is not None:
-            given = {"T2": (self.slack, "force")}
-            step.put("T1", f"{flung}{above[0]}T2{above[1]}·q", self.tight, "force", of=given)
+            known = {"T2": (self.slack, "force")}
+            step.put("T1", f"{flung}{above[0]}T2{above[1]}·q", self.tight, "force", of=known)
         else:
             step.put("F", "M/r", self.pull, "force", of={"M": (belt.torque or 0.0, "torque")})
             step.put("T1", f"{flung}F·q/(q − 1)", self.tight, "force")

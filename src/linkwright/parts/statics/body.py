@@ -249,16 +249,16 @@ class _Balance:
             for part, column in support.columns(self.scale)
         ]
         self.names = [name for name, _unused in pairs]
-        kept = [0, 1, 5] if body.planar else list(range(6))
+        rows = [0, 1, 5] if body.planar else list(range(6))
         self.columns = (
-            np.array([column for _unused, column in pairs]).T[kept] if pairs else np.zeros((len(kept), 0))
+            np.array([column for _unused, column in pairs]).T[rows] if pairs else np.zeros((len(rows), 0))
         )
         load = np.zeros(6)
         for each in body.forces.values():
             load += np.concatenate([each.vector, np.cross(each.place, each.vector) / self.scale])
         for couple in body.couples.values():
             load[3:] += spatial(couple) / self.scale
-        self.load = load[kept]
+        self.load = load[rows]
         u, s, _unused = np.linalg.svd(self.columns, full_matrices=True)
         self.rank = int((s > ZERO * (s[0] if len(s) else 1.0)).sum())
         self.free = plain_motions(u[:, self.rank :].T)

@@ -33,9 +33,9 @@ class Description:
     count: int
     mean: float
     deviation: float
-    least: float
+    minimum: float
     quartiles: tuple[float, float, float]
-    largest: float
+    maximum: float
     skewness: float
     kurtosis: float
 

@@ -28,7 +28,7 @@ class Hypothesis:
     """A kind of test: how many samples it takes (None for two or more), the values each needs, its function."""
 
     samples: int | None
-    least: int
+    min_values: int
     apply: Callable[[Sequence[Floats], float], Outcome]
     varies: bool = True
 

@@ -43,7 +43,7 @@ from linkwright.words.sentence import in_language
 #: A probability below this one is not told apart from nothing.
 TINY = 1e-12
 #: Values that a fitted distribution needs at least.
-FIT_LEAST = 8
+FIT_MINIMUM = 8
 #: What the numbers are called.
 LABELS: Mapping[str, Message] = {
     "count": _("number n"),
@@ -211,12 +211,12 @@ class Samples(Problem):
             if name not in self.samples
         ]
 
-    def _small(self, key: str, names: tuple[str, ...], what: str, least: int) -> list[Finding]:
+    def _small(self, key: str, names: tuple[str, ...], what: str, minimum: int) -> list[Finding]:
         """A finding for every sample that is too small, or that does not vary."""
         found = []
         for name in names:
             values = self.values(name)
-            if len(values) < least:
+            if len(values) < minimum:
                 found.append(
                     fault(
                         "too_small",
@@ -226,7 +226,7 @@ class Samples(Problem):
                         sample=name,
                         count=len(values),
                         what=what,
-                        least=least,
+                        least=minimum,
                     )
                 )
             elif np.ptp(values) == 0.0:
@@ -278,7 +278,7 @@ class Samples(Problem):
             )
         if found:
             return found
-        found = self._small(key, test.of, test.kind, kind.least)
+        found = self._small(key, test.of, test.kind, kind.min_values)
         kinds = {self.samples[n].dimension for n in test.of} | ({test.dimension} if test.dimension else set())
         if test.kind != "correlation" and len(kinds) > 1:
             found.append(
@@ -349,8 +349,8 @@ class Samples(Problem):
                     counts=" : ".join(map(str, sorted(counts))),
                 )
             ]
-        least = len(self.columns_of(fitting)[1]) + 1
-        if min(counts) < least:
+        minimum = len(self.columns_of(fitting)[1]) + 1
+        if min(counts) < minimum:
             return [
                 fault(
                     "too_small",
@@ -360,7 +360,7 @@ class Samples(Problem):
                     sample=fitting.y,
                     count=min(counts),
                     what="regression",
-                    least=least,
+                    least=minimum,
                 )
             ]
         return (
@@ -394,7 +394,7 @@ class Samples(Problem):
         return self._small(key, (name,), "capability", 2 * (limits.subgroup or 1))
 
     def _fit_findings(self, word: str) -> list[Finding]:
-        found = self._small("fit", tuple(self.samples), word, FIT_LEAST)
+        found = self._small("fit", tuple(self.samples), word, FIT_MINIMUM)
         found += [
             fault(
                 "not_positive",
@@ -519,10 +519,10 @@ class Statistics(Result):
                 low, high = interval(self.problem.values(name), self.problem.confidence)
                 label = say(INTERVALS[key].format(level=level))
                 rows.append(Row(f"{key}_interval", low, label=label, scale=scale, end=high))
-        rows += [Row("least", d.least, scale=scale), Row("median", d.quartiles[1], scale=scale)]
+        rows += [Row("least", d.minimum, scale=scale), Row("median", d.quartiles[1], scale=scale)]
         rows.append(Row("quartiles", d.quartiles[0], scale=scale, end=d.quartiles[2]))
-        rows.append(Row("largest", d.largest, scale=scale))
-        if d.count > 2 and d.least < d.largest:
+        rows.append(Row("largest", d.maximum, scale=scale))
+        if d.count > 2 and d.minimum < d.maximum:
             rows += [Row("skewness", d.skewness), Row("kurtosis", d.kurtosis)]
         return Block(f"sample.{name}", _("Sample {name}", name=name), rows)
 
@@ -533,8 +533,8 @@ class Statistics(Result):
     def _limits_of(self, name: str) -> dict[str, Value]:
         """Limits, mean and deviation of a capability, in the unit of the sample."""
         own, c, factor = self.problem.capability[name], self.capabilities[name], self.scale(name).factor
-        given = {"U": own.upper, "L": own.lower, "x̄": self.descriptions[name].mean, "σ": c.deviation}
-        return {key: value / factor for key, value in given.items() if value is not None}
+        values = {"U": own.upper, "L": own.lower, "x̄": self.descriptions[name].mean, "σ": c.deviation}
+        return {key: value / factor for key, value in values.items() if value is not None}
 
     def _nearest(self, name: str) -> str:
         """Formula of the capability towards the nearer limit."""

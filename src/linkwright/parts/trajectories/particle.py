@@ -19,7 +19,7 @@ from linkwright.fields.base import FileKeys, Quantity, Text, file_key
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem, Result
-from linkwright.parts.mechanism_field import load_beside
+from linkwright.parts.mechanism_field import load_referenced
 from linkwright.units import GRAVITY
 from linkwright.words import Message, Say, _, pgettext
 
@@ -102,7 +102,7 @@ class Particle(Problem):
             raise ModelError(found)
         if thrower["mechanism"] is None:
             return cls(**own)
-        return cls.thrown(load_beside(thrower["mechanism"], folder), thrower, own)
+        return cls.thrown(load_referenced(thrower["mechanism"], folder), thrower, own)
 
     @classmethod
     def thrown(cls, mechanism: Mechanism, by: Mapping[str, Any], own: Mapping[str, Any]) -> Particle:

@@ -115,7 +115,7 @@ class _Load:
         f, normal = now
         df, dn = rates
         if self.mode == REST:
-            time = min(self._slip(left, f, normal, df, dn), self._lift(left, normal, dn))
+            time = min(self._time_to_sliding(left, f, normal, df, dn), self._lift(left, normal, dn))
             if time < left:
                 ends = f + df * time
                 self.mode = (
@@ -137,7 +137,7 @@ class _Load:
         self.s += time * (self.v + time * (a / 2 + time * da / 6))
         self.v += time * (a + time * da / 2)
 
-    def _slip(self, left: float, f: float, normal: float, df: float, dn: float) -> float:
+    def _time_to_sliding(self, left: float, f: float, normal: float, df: float, dn: float) -> float:
         """When the needed friction reaches what friction can hold."""
         times = [left]
         for sense in (1.0, -1.0):

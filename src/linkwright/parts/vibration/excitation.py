@@ -31,9 +31,9 @@ class Excitation:
     forces: tuple[float, ...] = ()
 
 
-def excitation_of(given: Mapping[str, Any]) -> Excitation:
+def excitation_of(values: Mapping[str, Any]) -> Excitation:
     """The excitation of what a file gives: quantities with their dimensions."""
-    own = {name: value[0] if name in ("force", "base") else value for name, value in given.items()}
+    own = {name: value[0] if name in ("force", "base") else value for name, value in values.items()}
     hertz, speed, table = (own.pop(name, None) for name in ("hertz", "speed", "table"))
     found = {"times": table["times"], "forces": tuple(f for f, _ in table["forces"])} if table else {}
     return Excitation(**own, **found, frequency=2 * math.pi * hertz if hertz is not None else speed)
@@ -78,13 +78,14 @@ EXCITATION = {
 }
 
 
-def spread(given: Excitation | None, end: float, step: float) -> tuple[Floats, Floats]:
+def sampled_force(excitation: Excitation | None, end: float, step: float) -> tuple[Floats, Floats]:
     """Times (t,) to the end, no further apart than a step, those of a measured force among them, and that force.
 
     The force is zero before and after its table; a time at which it jumps stands twice.
     """
     times, forces = (
-        np.array(each) for each in ((given.times, given.forces) if given is not None else ((), ()))
+        np.array(each)
+        for each in ((excitation.times, excitation.forces) if excitation is not None else ((), ()))
     )
     knots, values = [0.0], [0.0]
     for k in np.flatnonzero((times >= 0.0) & (times < end)):

@@ -30,7 +30,7 @@ from linkwright.parts.vibration.linear import Linear, largest_between
 from linkwright.words import Message, Say, _
 
 #: Points of curves; distance from a break at which a law has the value of its side.
-POINTS, BESIDE = 801, 1e-13
+POINTS, SIDE_STEP = 801, 1e-13
 #: What the numbers are called.
 LABELS: Mapping[str, Message] = {
     "own_frequency": _("natural frequency"),
@@ -95,7 +95,7 @@ class FollowerSpring(Problem):
         return motion_law(self.law) if self.law in MOTION_LAWS else ExpressionLaw(parse(self.law, ("u",)))
 
     @property
-    def said(self) -> str:
+    def law_name(self) -> str:
         """The law as worked solutions name it."""
         return self.law if isinstance(self.law, str) else self.law.key
 
@@ -202,7 +202,7 @@ class FollowerVibration(Result):
         ]
         later = np.linspace(1.0, 1.0 + after, math.ceil(count))
         u = np.concatenate([*pieces, later])
-        inner = np.concatenate([np.clip(each, each[0] + BESIDE, each[-1] - BESIDE) for each in pieces])
+        inner = np.concatenate([np.clip(each, each[0] + SIDE_STEP, each[-1] - SIDE_STEP) for each in pieces])
         pull = np.append(own.lift / span**2 * self._law(2, inner), np.zeros(len(later)))
         first, last = (own.lift / span * self._law(1, np.array([0.0, 1.0]))).tolist()
         w, zeta, one = self.frequency, own.damping_ratio, np.ones((1, 1))
@@ -242,7 +242,7 @@ class FollowerVibration(Result):
 
     def steps(self, say: Say) -> list[Step]:
         step = Step("1", say(_("A mass driven through a spring")))
-        step.say(say(_("Rise s(u) = h·f(u) with u = t/T; law f: {law}.", law=self.problem.said)))
+        step.say(say(_("Rise s(u) = h·f(u) with u = t/T; law f: {law}.", law=self.problem.law_name)))
         step.law("z = x − s; z̈ + 2·ζ·ω·ż + ω²·z = −s̈")
         of = {"k": (self.problem.stiffness, "stiffness"), "m": (self.problem.mass, "mass")}
         step.put("ω", "√(k/m)", self.frequency, "angular_velocity", of=of)

@@ -34,8 +34,8 @@ class Linear:
     def poles(self) -> Complexes:
         """Eigenvalues of the damped system with positive imaginary part or on the real axis, by size."""
         values = np.linalg.eigvals(self.state)
-        kept = values[values.imag >= -1e-9 * np.abs(values).max()]
-        return np.asarray(kept[np.argsort(np.abs(kept))])
+        upper = values[values.imag >= -1e-9 * np.abs(values).max()]
+        return np.asarray(upper[np.argsort(np.abs(upper))])
 
     @cached_property
     def damping_ratios(self) -> Floats:
@@ -123,21 +123,21 @@ class Linear:
         key = float(f"{h:.11g}")
         if key not in known:
             n = len(self.mass)
-            whole = np.zeros((4 * n, 4 * n))
-            whole[: 2 * n, : 2 * n] = self.state
-            whole[n : 2 * n, 2 * n : 3 * n] = np.linalg.inv(self.mass)
-            whole[2 * n : 3 * n, 3 * n :] = np.eye(n)
-            known[key] = expm(whole * h)[: 2 * n]
+            augmented = np.zeros((4 * n, 4 * n))
+            augmented[: 2 * n, : 2 * n] = self.state
+            augmented[n : 2 * n, 2 * n : 3 * n] = np.linalg.inv(self.mass)
+            augmented[2 * n : 3 * n, 3 * n :] = np.eye(n)
+            known[key] = expm(augmented * h)[: 2 * n]
         return known[key]
 
 
 def largest_between(time: Floats, value: Floats, rate: Floats) -> tuple[float, float]:
     """Place and value of largest size of a curve of values and rates (t,), between its places by cubics."""
     h = np.diff(time)
-    kept = h > 0
-    h, low = h[kept], value[:-1][kept]
-    first, last = rate[:-1][kept] * h, rate[1:][kept] * h
-    rise = value[1:][kept] - low
+    increasing = h > 0
+    h, low = h[increasing], value[:-1][increasing]
+    first, last = rate[:-1][increasing] * h, rate[1:][increasing] * h
+    rise = value[1:][increasing] - low
     square, cube = 3 * rise - 2 * first - last, first + last - 2 * rise
     with np.errstate(all="ignore"):
         root = np.sqrt(square**2 - 3 * cube * first)
@@ -147,7 +147,7 @@ def largest_between(time: Floats, value: Floats, rate: Floats) -> tuple[float, f
     share = np.concatenate([share, [np.zeros_like(h), np.ones_like(h)]])
     found = low + share * (first + share * (square + share * cube))
     i, k = np.unravel_index(int(np.abs(found).argmax()), found.shape)
-    return float(time[:-1][kept][k] + share[i, k] * h[k]), float(found[i, k])
+    return float(time[:-1][increasing][k] + share[i, k] * h[k]), float(found[i, k])
 
 
 def tuned(mass: float, stiffness: float, absorber: float) -> tuple[float, float]:

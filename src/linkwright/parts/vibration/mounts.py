@@ -192,12 +192,12 @@ class Mounts(OfMechanism):
         """Stiffness of the mounts against x, y and turning of the mass centre, (2, 2) or (3, 3)."""
         if not self.mounts:
             return np.diag(np.array([self.stiffness_x, self.stiffness_y], dtype=float))
-        whole = np.zeros((3, 3))
+        total = np.zeros((3, 3))
         for each in self.mounts.values():
             x, y = np.subtract(each.at, self.mass_centre or (0.0, 0.0))
             moved = np.array([[1.0, 0.0, -y], [0.0, 1.0, x]])
-            whole += moved.T @ np.diag([each.stiffness_x, each.stiffness_y]) @ moved
-        return whole
+            total += moved.T @ np.diag([each.stiffness_x, each.stiffness_y]) @ moved
+        return total
 
     def solve(self) -> Shaken:
         """The machine's vibration. Raises ModelError with all findings, also for a resonance without damping."""
@@ -303,8 +303,10 @@ class Shaken(Result):
     def moved(self) -> Complexes:
         """Amplitudes of the motion of the machine's mass centre, m, and of its turning, rad, as ``harmonics``."""
         w = self.orders[:, None, None]
-        whole = self.problem.stiffness - np.diag(self.problem.inertias) * w**2 + 1j * w * self._damping
-        return np.asarray(np.linalg.solve(whole, self.harmonics[:, :, None])[:, :, 0])
+        dynamic_stiffness = (
+            self.problem.stiffness - np.diag(self.problem.inertias) * w**2 + 1j * w * self._damping
+        )
+        return np.asarray(np.linalg.solve(dynamic_stiffness, self.harmonics[:, :, None])[:, :, 0])
 
     @property
     def passed(self) -> Complexes:
@@ -314,17 +316,17 @@ class Shaken(Result):
 
     def _curve(self, amplitudes: Complexes) -> Floats:
         n = len(self.problem.forces.motion.time)
-        whole = amplitudes * n / 2
-        whole[0] *= 2
-        return np.asarray(np.fft.irfft(whole, n, axis=0))
+        spectrum = amplitudes * n / 2
+        spectrum[0] *= 2
+        return np.asarray(np.fft.irfft(spectrum, n, axis=0))
 
     def _largest(self, amplitudes: Complexes) -> float:
         """Largest size over the cycle of Σ Re A_k e^(ikωt), between its places as well; amplitudes (h,)."""
         n = 16 * len(self.problem.forces.motion.time)
-        whole = amplitudes * n / 2
-        whole[0] *= 2
+        spectrum = amplitudes * n / 2
+        spectrum[0] *= 2
         turn = np.linspace(0.0, 2 * math.pi, n + 1)
-        value, rate = (np.fft.irfft(each, n) for each in (whole, 1j * np.arange(len(whole)) * whole))
+        value, rate = (np.fft.irfft(each, n) for each in (spectrum, 1j * np.arange(len(spectrum)) * spectrum))
         return abs(largest_between(turn, np.append(value, value[0]), np.append(rate, rate[0]))[1])
 
     def columns(self) -> dict[str, Floats]:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -30,7 +31,7 @@ from linkwright.parts.vibration.excitation import (
     Excitation,
     either,
     excitation_of,
-    spread,
+    sampled_force,
 )
 from linkwright.parts.vibration.linear import Linear, largest_between, tuned
 from linkwright.units import DIMENSIONS, SMALLEST
@@ -143,26 +144,26 @@ class VibratingSystem(Problem):
 
     @classmethod
     def of_file(cls, values: Mapping[str, Any], folder: Path) -> VibratingSystem:
-        given = dict(values)
-        discs = given.pop("inertias", None) or {}
-        given["masses"] = {**(given.get("masses") or {}), **discs}
-        turning = any(kind == DIMENSIONS["inertia"] for _unused, kind in given["masses"].values())
-        wrong = _mixed(given, dict.fromkeys(discs, "inertias"), turning)
+        data = dict(values)
+        discs = data.pop("inertias", None) or {}
+        data["masses"] = {**(data.get("masses") or {}), **discs}
+        turning = any(kind == DIMENSIONS["inertia"] for _unused, kind in data["masses"].values())
+        wrong = _mixed(data, dict.fromkeys(discs, "inertias"), turning)
         if wrong:
             raise ModelError(wrong)
-        given["masses"] = {name: value for name, (value, _unused) in given["masses"].items()}
+        data["masses"] = {name: value for name, (value, _unused) in data["masses"].items()}
         for what in ("springs", "dampers"):
-            ties = given.get(what, {})
-            given[what] = {name: Tie(tie["between"], tie["rate"][0]) for name, tie in ties.items()}
-        starts = given.get("start", {})
-        given["start"] = {
+            ties = data.get(what, {})
+            data[what] = {name: Tie(tie["between"], tie["rate"][0]) for name, tie in ties.items()}
+        starts = data.get("start", {})
+        data["start"] = {
             name: Start(**{word: value for word, (value, _unused) in each.items()})
             for name, each in starts.items()
         }
-        if given.get("excitation") is not None:
-            given["excitation"] = excitation_of(given["excitation"])
-        absorber = given.pop("absorber", None)
-        system = cls(**given, turning=turning)
+        if data.get("excitation") is not None:
+            data["excitation"] = excitation_of(data["excitation"])
+        absorber = data.pop("absorber", None)
+        system = cls(**data, turning=turning)
         if absorber is None or system.findings():
             return system
         return system.quieted(absorber["on"], absorber["mass"])
@@ -261,12 +262,12 @@ class VibratingSystem(Problem):
         )
 
     def _excitation_findings(self) -> list[Finding]:
-        given = self.excitation
-        if given is None:
+        excitation = self.excitation
+        if excitation is None:
             return []
-        forms = [n for n in ("force", "base", "unbalance") if getattr(given, n) is not None]
-        forms += ["table"] if given.times else []
-        if len(forms) != 1 or (forms[0] != "table" and given.frequency is None):
+        forms = [n for n in ("force", "base", "unbalance") if getattr(excitation, n) is not None]
+        forms += ["table"] if excitation.times else []
+        if len(forms) != 1 or (forms[0] != "table" and excitation.frequency is None):
             return [
                 fault(
                     "excitation_form",
@@ -275,7 +276,7 @@ class VibratingSystem(Problem):
                     _("give one of force, base, unbalance with frequency or speed, or a table"),
                 )
             ]
-        if 0.0 in (given.force, given.base):
+        if 0.0 in (excitation.force, excitation.base):
             return [
                 fault(
                     "no_amplitude",
@@ -284,19 +285,20 @@ class VibratingSystem(Problem):
                     _("give another amplitude, or leave the excitation out"),
                 )
             ]
-        if forms[0] != "base" and given.on not in self.masses:
+        if forms[0] != "base" and excitation.on not in self.masses:
             return [
                 fault(
                     "no_such_mass",
                     "excitation.on",
                     _('there is no mass "{name}"'),
                     _("one of: {known}"),
-                    name=given.on,
+                    name=excitation.on,
                     known=tuple(self.masses),
                 )
             ]
-        if given.times and (len(given.times) != len(given.forces) or len(given.times) < 2 or
-                            any(b <= a for a, b in zip(given.times, given.times[1:], strict=False))):  # fmt: skip
+        times, forces = excitation.times, excitation.forces
+        falling = any(b <= a for a, b in pairwise(times))
+        if times and (len(times) != len(forces) or len(times) < 2 or falling):
             return [
                 fault(
                     "table",
@@ -307,7 +309,10 @@ class VibratingSystem(Problem):
             ]
         linear = self.linear
         for i, own in enumerate(linear.modes[0]):
-            near = given.frequency is not None and abs(own - given.frequency) <= RESONANCE * given.frequency
+            near = (
+                excitation.frequency is not None
+                and abs(own - excitation.frequency) <= RESONANCE * excitation.frequency
+            )
             if near and linear.damping_ratios[i] == 0.0:
                 return [
                     fault(
@@ -357,17 +362,17 @@ class VibratingSystem(Problem):
         return Vibration(self)
 
 
-def _mixed(given: Mapping[str, Any], where: Mapping[str, str], turning: bool) -> list[Finding]:
+def _mixed(data: Mapping[str, Any], where: Mapping[str, str], turning: bool) -> list[Finding]:
     """Findings where straight and turning motion, or wrong units, come together."""
     kinds = TURNING if turning else STRAIGHT
     values = {
-        f"{where.get(n, 'masses')}.{n}": (kind, "mass") for n, (_unused, kind) in given["masses"].items()
+        f"{where.get(n, 'masses')}.{n}": (kind, "mass") for n, (_unused, kind) in data["masses"].items()
     }
     for what, key in (("springs", "stiffness"), ("dampers", "damping")):
-        values |= {f"{what}.{n}.{key}": (t["rate"][1], key) for n, t in given.get(what, {}).items()}
-    for name, start in given.get("start", {}).items():
+        values |= {f"{what}.{n}.{key}": (t["rate"][1], key) for n, t in data.get(what, {}).items()}
+    for name, start in data.get("start", {}).items():
         values |= {f"start.{name}.{word}": (kind, word) for word, (_unused, kind) in start.items()}
-    shaken = given.get("excitation") or {}
+    shaken = data.get("excitation") or {}
     values |= {f"excitation.{key}": (shaken[key][1], key) for key in ("force", "base") if key in shaken}
     table = (shaken.get("table") or {}).get("forces", ())
     values |= {f"excitation.table.force.{i}": (kind, "force") for i, (_unused, kind) in enumerate(table)}
@@ -429,16 +434,18 @@ class Vibration(Result):
 
     def forces(self, frequency: Floats) -> Complexes:
         """Amplitudes (f, n) of the exciting forces at angular frequencies (f,)."""
-        given = self.system.excitation
+        excitation = self.system.excitation
         names = list(self.system.masses)
         found = np.zeros((len(frequency), len(names)), dtype=complex)
-        if given is None or given.times:
+        if excitation is None or excitation.times:
             return found
-        if given.base is not None:
+        if excitation.base is not None:
             spring, damper = (self.system.to_ground(t) for t in (self.system.springs, self.system.dampers))
-            return np.asarray((spring + 1j * frequency[:, None] * damper) * given.base)
-        strength = given.force if given.force is not None else (given.unbalance or 0.0) * frequency**2
-        found[:, names.index(given.on)] = strength
+            return np.asarray((spring + 1j * frequency[:, None] * damper) * excitation.base)
+        strength = (
+            excitation.force if excitation.force is not None else (excitation.unbalance or 0.0) * frequency**2
+        )
+        found[:, names.index(excitation.on)] = strength
         return found
 
     def amplitudes(self, frequency: Floats) -> Complexes:
@@ -447,9 +454,9 @@ class Vibration(Result):
 
     def transmissibility(self, frequency: Floats) -> Floats:
         """Force on the ground over exciting force; with a moving base the first mass' amplitude over the base's."""
-        moved, given = self.amplitudes(frequency), self.system.excitation
-        if given is not None and given.base is not None:
-            return np.asarray(np.abs(moved[:, 0]) / given.base)
+        moved, excitation = self.amplitudes(frequency), self.system.excitation
+        if excitation is not None and excitation.base is not None:
+            return np.asarray(np.abs(moved[:, 0]) / excitation.base)
         spring, damper = (self.system.to_ground(t) for t in (self.system.springs, self.system.dampers))
         passed = ((spring + 1j * frequency[:, None] * damper) * moved).sum(axis=1)
         return np.asarray(np.abs(passed) / np.abs(self.forces(frequency)).sum(axis=1))
@@ -484,16 +491,16 @@ class Vibration(Result):
     def _response(self) -> tuple[Floats, Floats, Floats]:
         """Times (t,), displacements and velocities (t, n); a time at which the force jumps stands twice."""
         system = self.system
-        given = system.excitation
-        last = given.times[-1] if given is not None and given.times else 0.0
+        excitation = system.excitation
+        last = excitation.times[-1] if excitation is not None and excitation.times else 0.0
         moving = self.frequencies[self.frequencies > 0]
         slow = 2 * math.pi / moving[0] if len(moving) else 1.0
         end = system.duration or max(last, 6 * slow)
         fine = min(float(moving[-1]) / (2 * math.pi) * end * PER_PERIOD, MOST) if len(moving) else 0.0
-        time, measured = spread(given, end, end / max(fine, 4.0 * POINTS))
+        time, measured = sampled_force(excitation, end, end / max(fine, 4.0 * POINTS))
         force = np.zeros((len(time), len(system.masses)))
-        if given is not None and given.times:
-            force[:, list(system.masses).index(given.on)] = measured
+        if excitation is not None and excitation.times:
+            force[:, list(system.masses).index(excitation.on)] = measured
         starts = [system.start.get(name, Start()) for name in system.masses]
         first = np.array([s.displacement for s in starts]), np.array([s.velocity for s in starts])
         return time, *self.linear.in_time(time, force, *first)
@@ -558,9 +565,9 @@ class Vibration(Result):
         return found
 
     def _forced(self, say: Say) -> Block:
-        given = self.system.excitation
-        assert given is not None and given.frequency is not None
-        at = np.array([given.frequency])
+        excitation = self.system.excitation
+        assert excitation is not None and excitation.frequency is not None
+        at = np.array([excitation.frequency])
         moved = self.amplitudes(at)[0]
         length = "angle" if self.system.turning else "length"
         rows = []
@@ -574,7 +581,7 @@ class Vibration(Result):
         rows.append(Row("transmissibility", float(self.transmissibility(at)[0])))
         return Block(
             "forced",
-            _("Forced vibration at {hertz} Hz", hertz=number(given.frequency / (2 * math.pi))),
+            _("Forced vibration at {hertz} Hz", hertz=number(excitation.frequency / (2 * math.pi))),
             rows,
         )
 

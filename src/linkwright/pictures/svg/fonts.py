@@ -54,10 +54,10 @@ def chinese_fonts(files: Iterable[Path]) -> tuple[Path, ...]:
     return tuple(file for file in files if known(file))
 
 
-def chinese_file(given: Iterable[Path]) -> Path | None:
+def chinese_file(paths: Iterable[Path]) -> Path | None:
     """The font file that writes Chinese: of those that are given, else of the installed ones, the one whose name is
     most that of a sans serif of regular weight; None without one."""
-    files = tuple(given)
+    files = tuple(paths)
     found = chinese_fonts(files) or tuple(filter(_writes_chinese, files)) or installed_chinese()
     special = {file: sum(word in file.stem.lower() for word in _SPECIAL) for file in found}
     return min(found, key=lambda file: (special[file], len(file.stem)), default=None)
@@ -77,10 +77,10 @@ def needs_chinese(text: str) -> bool:
     return any("\u2e80" <= c <= "\u9fff" or "\uf900" <= c <= "\ufaff" for c in text)
 
 
-def font_files(given: Iterable[str | Path]) -> tuple[Path, ...]:
+def font_files(paths: Iterable[str | Path]) -> tuple[Path, ...]:
     """The font files that are given, of folders all in them; raises RequestError for what is neither."""
     found: list[Path] = []
-    for each in map(Path, given):
+    for each in map(Path, paths):
         files = [each] if each.is_file() else sorted(each.rglob("*")) if each.is_dir() else []
         fonts = [file for file in files if file.suffix.lower() in _SUFFIXES]
         if not fonts:
@@ -95,25 +95,25 @@ def font_files(given: Iterable[str | Path]) -> tuple[Path, ...]:
     return tuple(found)
 
 
-_given: ContextVar[tuple[Path, ...]] = ContextVar("fonts", default=())
+_own_fonts: ContextVar[tuple[Path, ...]] = ContextVar("fonts", default=())
 
 
 @contextmanager
-def more_fonts(given: Iterable[str | Path]) -> Iterator[None]:
+def more_fonts(paths: Iterable[str | Path]) -> Iterator[None]:
     """Texts inside are drawn with these font files, and those in these folders, before the system's.
 
     Raises RequestError for a path without fonts.
     """
-    token = _given.set((*font_files(given), *_given.get()))
+    token = _own_fonts.set((*font_files(paths), *_own_fonts.get()))
     try:
         yield
     finally:
-        _given.reset(token)
+        _own_fonts.reset(token)
 
 
-def given_fonts() -> tuple[Path, ...]:
+def own_fonts() -> tuple[Path, ...]:
     """The files of :func:`more_fonts`."""
-    return _given.get()
+    return _own_fonts.get()
 
 
 def installed_chinese() -> tuple[Path, ...]:
@@ -125,13 +125,13 @@ def installed_chinese() -> tuple[Path, ...]:
     return found
 
 
-def check_fonts(text: str, given: Sequence[Path] = ()) -> None:
+def check_fonts(text: str, own: Sequence[Path] = ()) -> None:
     """Refuse to draw boxes: raise where no font is found, or none for the Chinese characters in the text."""
     remedy = _(
         "install one (Debian: fonts-noto-cjk), or name its file or folder: --fonts FOLDER on "
         "the command line, fonts=['NotoSansSC-Regular.ttf'] in Python",
     )
-    if given or given_fonts():
+    if own or own_fonts():
         return
     if needs_chinese(text) and not installed_chinese():
         raise RequestError(

@@ -16,15 +16,15 @@ from linkwright.pictures.svg.fonts import (
     chinese_file,
     chinese_fonts,
     font_files,
-    given_fonts,
     needs_chinese,
+    own_fonts,
     system_fonts,
 )
 from linkwright.words import _
 
 Paths = Sequence[str | Path]
 #: Most pixels of one picture, and smallest width.
-MOST_PIXELS, LEAST_WIDTH = 100_000_000, 8
+MOST_PIXELS, MIN_WIDTH = 100_000_000, 8
 
 
 def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths = ()) -> bytes:
@@ -69,9 +69,9 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
         ) from None
 
 
-def _for_chinese(given: list[Path]) -> list[Path]:
+def _for_chinese(fonts: list[Path]) -> list[Path]:
     """Fonts of which one writes Chinese, in its regular face; of several resvg takes whichever it meets first."""
-    chosen, others = chinese_file(given), (*given, *system_fonts())
+    chosen, others = chinese_file(fonts), (*fonts, *system_fonts())
     rest = [file for file in others if file not in {*chinese_fonts(others), chosen}]
     return rest if chosen is None else [chosen, *rest]
 
@@ -80,13 +80,13 @@ def check_width(width: int | None, wide: float, tall: float, zoom: float = 1.0) 
     """Raises LinkwrightError for a picture, ``wide`` × ``tall`` by nature, that is drawn too small or too large."""
     across = zoom * wide if width is None else float(width)
     most = math.floor(math.sqrt(MOST_PIXELS * wide / tall))
-    if not LEAST_WIDTH <= across <= most:
+    if not MIN_WIDTH <= across <= most:
         raise RequestError(
             _(
                 "a picture cannot be {across:.12g} pixels wide; give a width from {least} to {most}",
                 code="picture.bad_width",
                 across=across,
-                least=LEAST_WIDTH,
+                least=MIN_WIDTH,
                 most=most,
             )
         )
@@ -145,4 +145,4 @@ def save_picture(svg: str, path: str | Path, *, force: bool, **options: Any) -> 
 
 
 def _font_files(fonts: Paths) -> list[Path]:
-    return [*font_files(fonts), *given_fonts()]
+    return [*font_files(fonts), *own_fonts()]

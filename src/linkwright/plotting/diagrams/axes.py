@@ -49,7 +49,7 @@ def unit_of(dimension: str, arrays: Iterable[Floats] = ()) -> Unit:
     if dimension not in _PREFIXED:
         return Unit(si_unit(dimension), 1.0)
     size = max(map(largest, arrays), default=0.0)
-    prefix, factor = next((p, f) for least, p, f in _PREFIXES if size >= least or (size == 0.0 and f == 1.0))
+    prefix, factor = next((p, f) for limit, p, f in _PREFIXES if size >= limit or (size == 0.0 and f == 1.0))
     return Unit(prefix + _PREFIXED[dimension], factor)
 
 

@@ -57,11 +57,11 @@ class Request:
 
     def titled(self, name: str, subject: str = "") -> str:
         """The title of a diagram, ``Crank-rocker: joint forces``: its subject is its kind unless given."""
-        told = subject or self.say(title_of(self.kind))
+        name_shown = subject or self.say(title_of(self.kind))
         return (
-            self.say(_("{name}: {subject}", name=in_language(name, self.language), subject=told))
+            self.say(_("{name}: {subject}", name=in_language(name, self.language), subject=name_shown))
             if name
-            else told
+            else name_shown
         )
 
     def heading(self, title: str) -> str:

@@ -77,7 +77,7 @@ def plot(
     name = own or kind or _usual(cast(_Solved, result))
     if not own:
         require_kind(name)
-    given = {
+    options = {
         "of": of,
         "joint": joint,
         "on": on,
@@ -87,7 +87,7 @@ def plot(
         "static": static,
     }
     require_options(
-        name, [option for option, value in given.items() if value not in (None, (), "", [], False)]
+        name, [option for option, value in options.items() if value not in (None, (), "", [], False)]
     )
     if size is not None:
         _require_inches(size)
@@ -104,8 +104,8 @@ def plot(
         size=size,
         language=language,
     )
-    if len(sources) > 1 and (said := DIAGRAMS[name].single) is not None:
-        raise RequestError(said)
+    if len(sources) > 1 and (single_message := DIAGRAMS[name].single) is not None:
+        raise RequestError(single_message)
     with drawing_in(language):
         drawn = (
             RESULT_DIAGRAMS[name].draw(result, request) if own else DIAGRAMS[name]().draw(sources, request)
@@ -115,8 +115,8 @@ def plot(
 
 def _require_inches(size: object) -> None:
     """Raises RequestError for what are no width and height of a diagram."""
-    given = size if isinstance(size, Sequence) and not isinstance(size, str) else ()
-    if len(given) != 2 or not all(1.0 <= real("size", each) <= 100.0 for each in given):
+    numbers = size if isinstance(size, Sequence) and not isinstance(size, str) else ()
+    if len(numbers) != 2 or not all(1.0 <= real("size", each) <= 100.0 for each in numbers):
         raise RequestError(
             _(
                 "a diagram cannot be {size} inches large; give width and height, 1 to 100 each, as "
@@ -146,10 +146,10 @@ def require_kind(name: str) -> None:
     )
 
 
-def require_options(name: str, given: Sequence[str]) -> None:
+def require_options(name: str, options: Sequence[str]) -> None:
     """Raises LinkwrightError where a kind has no use for an option, with the kinds that have."""
     known = DIAGRAMS[name].options if name in DIAGRAMS else RESULT_DIAGRAMS[name].options
-    for option in given:
+    for option in options:
         if option not in known:
             users = tuple(each for each in DIAGRAMS if option in DIAGRAMS[each].options)
             raise RequestError(
@@ -186,16 +186,16 @@ def _own_kind(result: object, kind: str | None) -> str | None:
 
 
 def _sources(result: object, *, static: bool) -> list[Source]:
-    given: list[tuple[str | None, Any]]
+    results: list[tuple[str | None, Any]]
     if isinstance(result, Mapping):
-        given = [(label, each) for label, each in result.items()]
+        results = [(label, each) for label, each in result.items()]
     elif isinstance(result, Sequence) and not isinstance(result, str):
-        given = [(None, each) for each in result]
+        results = [(None, each) for each in result]
     else:
-        given = [(None, result)]
-    for _unused, each in given:
+        results = [(None, result)]
+    for _unused, each in results:
         require(each, Mechanism, Motion, Forces, SteadyRunning)
-    found = [Source(each, label, static=static) for label, each in given]
+    found = [Source(each, label, static=static) for label, each in results]
     if not found:
         raise RequestError(
             _("there is nothing to draw; give at least one result", code="picture.nothing_given")

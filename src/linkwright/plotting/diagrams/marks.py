@@ -144,8 +144,8 @@ def _mark(axes: Axes, curve: Curve, axis: InputAxis, unit: Unit) -> None:
 def _peaks(curve: Curve, axis: InputAxis) -> list[tuple[float, float, bool]]:
     """Place and value of the extremes that are marked, and whether their texts stand above."""
     if not curve.peak:
-        least = float(np.nanmin(curve.values)) + 1e-9 * largest(curve.values)
-        return [(place, value, value > least) for place, value in curve.marks]
+        minimum = float(np.nanmin(curve.values)) + 1e-9 * largest(curve.values)
+        return [(place, value, value > minimum) for place, value in curve.marks]
     high, low = _extreme(curve, axis, "max"), _extreme(curve, axis, "min")
     if curve.peak == "largest":
         first, last = sorted([(*high, True), (*low, False)])
@@ -214,13 +214,13 @@ def _round_places(axis: InputAxis, good: Flags) -> list[tuple[int, str]]:
         return []
     step = 30.0 if axis.dimension == "angle" and 90 <= span <= 400 else round_up(span / 12.0)
     first, last = np.ceil(shown.min() / step - 1e-9), np.floor(shown.max() / step + 1e-9)
-    found, seen = [], set()
+    found, values_found = [], set()
     values = np.arange(first, last + 1) * step
     for value in values[::-1] if axis.backwards else values:
         index = int(np.nanargmin(np.abs(shown - value)))
         turned = round(value % 360.0, 6) if axis.dimension == "angle" else value
-        if good[index] and turned not in seen:
-            seen.add(turned)
+        if good[index] and turned not in values_found:
+            values_found.add(turned)
             suffix = "°" if axis.dimension == "angle" else f" {axis.unit.name}"
             found.append((index, f"{significant(float(value), 6)}{suffix}"))
     return found

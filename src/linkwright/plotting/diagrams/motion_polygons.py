@@ -162,15 +162,15 @@ def image_names(points: Iterable[str], prime: str = "") -> tuple[str, dict[str, 
     The pole is p, or where a point's image is p: π, then o. Points whose small letters are the same keep their links'
     names, or their capitals.
     """
-    given = list(points)
+    own_points = list(points)
     ways: tuple[Callable[[str], str], ...] = (lambda point: point.rpartition(".")[2].lower(), str.lower, str)
     names: dict[str, str] = {}
     for way in ways:
-        tried = {point: with_index(way(point)) for point in given if point not in names}
+        tried = {point: with_index(way(point)) for point in own_points if point not in names}
         count = Counter([*tried.values(), *names.values()])
         names |= {point: name for point, name in tried.items() if count[name] == 1 or way is str}
     pole = next(each for each in POLES if each not in names.values())
-    return pole + prime, {point: names[point] + prime for point in given}
+    return pole + prime, {point: names[point] + prime for point in own_points}
 
 
 def gathered(polygon: MotionPolygon, scale: float, prime: str) -> list[tuple[list[str], Floats]]:

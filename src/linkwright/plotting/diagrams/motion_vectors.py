@@ -155,8 +155,8 @@ class _Polygon:
             self.found.put("v", f"{joint.at}{under}", "sliding", velocity, own)
             return
         acceleration = (still if point is None else point.acceleration[i]) + alpha * across - omega**2 * arm
-        slip = np.asarray(self.motion.point(f"{joint.block}.{joint.at}").velocity[i]) - velocity
-        corner = acceleration + 2 * omega * np.array([-slip[1], slip[0]])
+        sliding = np.asarray(self.motion.point(f"{joint.block}.{joint.at}").velocity[i]) - velocity
+        corner = acceleration + 2 * omega * np.array([-sliding[1], sliding[0]])
         self.found.images[under] = acceleration
         self.found.put("a", joint.at, "coriolis", acceleration, corner)
         self.found.put("a", joint.at, "sliding", corner, own)

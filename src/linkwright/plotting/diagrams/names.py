@@ -66,10 +66,10 @@ def _write(names: Names, scale: float) -> None:
 
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
     edges = np.array([(left, high), (left, low), (right, low)])
-    kept = _kept(names.names, [paper(each.place[None])[0] for each in names.names])
-    labels = [Label(each.text, (vec(at),), "", SIZE, CLEARANCE, leader=False) for each, at in kept]
+    shown = _with_room(names.names, [paper(each.place[None])[0] for each in names.names])
+    labels = [Label(each.text, (vec(at),), "", SIZE, CLEARANCE, leader=False) for each, at in shown]
     places = place(labels, Obstacles.of([paper(line) for line in (*names.lines, edges)]))
-    for (each, at), chosen in zip(kept, places, strict=True):
+    for (each, at), chosen in zip(shown, places, strict=True):
         box = np.array(chosen.box)
         offset = (0.5 * (box[:2] + box[2:]) - at) * (1.0, -1.0)
         axes.annotate(with_index(each.text), vec(each.place), vec(offset), textcoords="offset points", ha="center",
@@ -77,7 +77,7 @@ def _write(names: Names, scale: float) -> None:
                       bbox=_HALO if each.spare else None).set_in_layout(False)  # fmt: skip
 
 
-def _kept(names: Sequence[Name], places: Sequence[Floats]) -> list[tuple[Name, Floats]]:
+def _with_room(names: Sequence[Name], places: Sequence[Floats]) -> list[tuple[Name, Floats]]:
     """Names with their places on the paper, without spare ones for which there is no room."""
     found: list[tuple[Name, Floats]] = []
     for name, at in zip(names, places, strict=True):

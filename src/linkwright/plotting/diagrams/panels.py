@@ -235,8 +235,8 @@ def _set_range(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
     if not len(every):
         return
     low, high = float(every.min()), float(every.max())
-    least = 1e-9 * max(abs(low), abs(high)) + 1e-12 * unit.factor
-    if high - low <= least:
+    threshold = 1e-9 * max(abs(low), abs(high)) + 1e-12 * unit.factor
+    if high - low <= threshold:
         room = max(0.1 * abs(high), 1.0)
         axes.set_ylim(low - room, high + room)
         return

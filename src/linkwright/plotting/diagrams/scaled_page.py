@@ -25,7 +25,7 @@ from linkwright.words import Say, _
 #: Printed width of a unit of the paper, mm.
 MILLIMETRE = 0.25
 #: Least width of a page and of a cell, space between cells, length of the line that shows a scale: units.
-LEAST, NARROWEST, APART, BAR = 600.0, 168.0, 36.0, 80.0
+MIN_WIDTH, NARROWEST, SPACING, BAR = 600.0, 168.0, 36.0, 80.0
 #: Sizes of letters and heights of lines: of the heading, of titles, of what stands below.
 HEADING, TITLE, SIZE, LINE = 15.0, 12.0, 11.0, 17.6
 #: A picture flatter than FLAT mm is drawn up to WIDE mm long, one that stands upright up to HIGH mm, so that its page
@@ -35,7 +35,7 @@ FLAT, WIDE, HIGH, THIN, SIDE = 12.0, 190.0, 110.0, 3.0, 3.0
 #: one its name may stand.
 EXTENT, SHORT, SHARES = 58.0, 1.5, (0.5, 0.35, 0.65, 0.2, 0.8)
 #: Shorter arrows are not drawn, mm; longest extent of a position, mm, without and with its symbols.
-LEAST_ARROW, POSITION, WITH_SYMBOLS = 0.1, 75.0, 95.0
+MIN_ARROW, POSITION, WITH_SYMBOLS = 0.1, 75.0, 95.0
 #: A text in a style.
 Written = tuple[Words, str]
 #: Lines of texts below a page, each with its place in the line.
@@ -70,7 +70,7 @@ class Cell:
     def width(self) -> float:
         """Its width, units."""
         left, _unused, right, _unused2 = self.sketch.box
-        return max(right - left, NARROWEST) + APART
+        return max(right - left, NARROWEST) + SPACING
 
     def put(self, page: Sketch, left: float, top: float, head: int) -> float:
         """Puts it on the page below ``head`` lines of its title; where it ends below."""
@@ -79,7 +79,7 @@ class Cell:
             y += LINE
             page.text((left, y), line, size=TITLE)
         x0, y0, x1, y1 = self.sketch.box
-        page.put_sketch(self.sketch, (left + 0.5 * (self.width - APART - (x1 - x0)) - x0, y + 20.0 - y0))
+        page.put_sketch(self.sketch, (left + 0.5 * (self.width - SPACING - (x1 - x0)) - x0, y + 20.0 - y0))
         y += 20.0 + (y1 - y0)
         if self.bar:
             y += 24.0
@@ -126,7 +126,7 @@ def page(
 def page_width(cells: Sequence[Placed], columns: int) -> float:
     """The width of a page of cells, units."""
     rows = (cells[i : i + columns] for i in range(0, len(cells), columns))
-    return max(LEAST, *(sum(cell.width for cell in row) for row in rows))
+    return max(MIN_WIDTH, *(sum(cell.width for cell in row) for row in rows))
 
 
 def key(entries: Sequence[tuple[str, str]]) -> list[tuple[Written, float]]:
@@ -191,8 +191,8 @@ def side_by_side(pairs: list[tuple[Floats, Floats]]) -> list[tuple[Floats, Float
     if len(pairs) < 2 or float(np.ptp(spread @ across)) >= THIN:
         return pairs
     across = across if across[1] + 1e-9 * across[0] > 0 else -across
-    seen = [float(np.hypot(*(end - start))) > LEAST_ARROW for start, end in pairs]
-    shifts = [(0.5 * (sum(seen) - 1) - sum(seen[:number])) * SIDE * across for number in range(len(pairs))]
+    drawn = [float(np.hypot(*(end - start))) > MIN_ARROW for start, end in pairs]
+    shifts = [(0.5 * (sum(drawn) - 1) - sum(drawn[:number])) * SIDE * across for number in range(len(pairs))]
     return [(start + shift, end + shift) for (start, end), shift in zip(pairs, shifts, strict=True)]
 
 
@@ -222,16 +222,19 @@ def vector_cell(
     letter: str,
     text: Callable[[float], str],
     *,
-    whole: Vector | None = None,
+    resultant: Vector | None = None,
 ) -> Cell:
     """Vectors end to end with their sizes, and their sum from start to end where it is given as the ``whole``;
     ``letter``: what they are, ``text`` a value with its unit."""
     rows = [each.value for each in vectors]
     scale = scale_of_picture(corners(rows), EXTENT)
     pairs = side_by_side(
-        [*pairwise(corners(rows) / scale), *([] if whole is None else [(np.zeros(2), whole.value / scale)])]
+        [
+            *pairwise(corners(rows) / scale),
+            *([] if resultant is None else [(np.zeros(2), resultant.value / scale)]),
+        ]
     )
-    shown = [*vectors, *([] if whole is None else [whole])]
+    shown = [*vectors, *([] if resultant is None else [resultant])]
     sketch = Sketch()
     for each, (start, end) in zip(shown, pairs, strict=True):
         sketch.arrow(units(start), units(end), each.style)

@@ -113,7 +113,7 @@ def draw(
     )
     shown = _shown(motion, position, at, time)
     ghosts, style = _overlay(motion, overlay)
-    scene, index, others = laid_out_beside(
+    scene, index, others = laid_out_with_ghosts(
         motion, shown, ghosts, inputs=inputs, centres=centres, diagonal=diagonal
     )
     sketch = MachineSketch(scene, index, shown.index)
@@ -205,7 +205,7 @@ class MachineSketch(Sketch):
         self.extent += below.extent
 
 
-def laid_out_beside(
+def laid_out_with_ghosts(
     motion: Motion,
     shown: Shown,
     ghosts: Sequence[Shown],
@@ -215,8 +215,8 @@ def laid_out_beside(
     diagonal: float = DIAGONAL,
 ) -> tuple[Scene, int, list[int]]:
     """The scene of a motion with positions beside it; their indices in the scene."""
-    beside = [each for each in (shown, *ghosts) if each.motion is not motion]
-    places = {(id(each.motion), each.index): motion.steps + k for k, each in enumerate(beside)}
+    others = [each for each in (shown, *ghosts) if each.motion is not motion]
+    places = {(id(each.motion), each.index): motion.steps + k for k, each in enumerate(others)}
 
     def place(each: Shown) -> int:
         return places.get((id(each.motion), each.index), each.index)
@@ -226,7 +226,7 @@ def laid_out_beside(
         place(shown),
         inputs=inputs,
         centres=centres,
-        beside=[(each.motion, each.index) for each in beside],
+        others=[(each.motion, each.index) for each in others],
         diagonal=diagonal,
     )
     return scene, place(shown), [place(each) for each in ghosts]
@@ -296,8 +296,8 @@ def _overlay(motion: Motion, overlay: Sequence[int] | str) -> tuple[list[Shown],
 def _spread(motion: Motion, count: int) -> list[int]:
     """Positions over the motion, as many as asked for or reached."""
     reached = np.flatnonzero(motion.ok)
-    whole = motion.positions.closed and len(reached) == motion.steps
-    places = np.linspace(0, len(reached) - (0 if whole else 1), count, endpoint=not whole)
+    full_cycle = motion.positions.closed and len(reached) == motion.steps
+    places = np.linspace(0, len(reached) - (0 if full_cycle else 1), count, endpoint=not full_cycle)
     return [int(each) for each in np.unique(reached[places.round().astype(int) % max(len(reached), 1)])]
 
 

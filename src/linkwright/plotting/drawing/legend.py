@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 SIZE, ROW = 12.0, 19.0
 #: A line of text is at least as wide as this.
-LEAST = 300.0
+MIN_WIDTH = 300.0
 #: What the arrows of a kind are.
 FAMILIES = {
     "force": _("joint forces"),
@@ -37,7 +37,7 @@ class Legend(Sketch):
     def __init__(self, box: Box) -> None:
         super().__init__()
         self._left, self._y = box[0], box[3] + 12.0
-        self._wide = max(box[2] - box[0], LEAST)
+        self._wide = max(box[2] - box[0], MIN_WIDTH)
 
     def scales(self, arrows: Iterable[Arrows], indices: Sequence[int], language: str) -> None:
         """One arrow of a round value for every kind of vectors that are drawn."""
@@ -91,9 +91,9 @@ def _sizes(family: Vectors | Torques, index: int) -> list[tuple[Runs, str]]:
     """Symbol with its value, and style of all that is known; torques that are nothing but rounding are left out."""
     found = []
     for name, (stem, low) in family.symbols.items():
-        size, seen = family.size(name, index), family.seen(name, [index])
-        if math.isfinite(size) and (seen or isinstance(family, Vectors)):
-            text = with_unit(size if seen else 0.0, family.unit, 4)
+        size, nonzero = family.size(name, index), family.nonzero(name, [index])
+        if math.isfinite(size) and (nonzero or isinstance(family, Vectors)):
+            text = with_unit(size if nonzero else 0.0, family.unit, 4)
             symbol = indexed(stem, low) if low else name_runs(stem)
             found.append((joined(symbol, f" = {text}"), f"{family.style}-name"))
     return found

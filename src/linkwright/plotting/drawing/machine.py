@@ -119,12 +119,12 @@ class Machine:
     motion: Motion
     placed: dict[str, Placement]
     view: View
-    beside: Sequence[tuple[Motion, int]] = ()
+    others: Sequence[tuple[Motion, int]] = ()
 
     def mark(self, load: Load, index: int) -> Mark | None:
         """What a load draws of itself at a position."""
         last = self.motion.steps
-        return mark_of(load, *(self.beside[index - last] if index >= last else (self.motion, index)))
+        return mark_of(load, *(self.others[index - last] if index >= last else (self.motion, index)))
 
     @property
     def pins(self) -> Mapping[str, TurningJoint]:

@@ -95,12 +95,12 @@ def moving_torques(scene: Scene, torques: Torques, frames: Sequence[int], second
     for name, values in torques.values.items():
         places = scene.machine.view.paper(torques.places[name][rows])
         for turning in (1, -1):
-            seen = ["visible" if np.sign(value) == turning else "hidden" for value in values[rows]]
-            if "visible" not in seen:
+            visibility = ["visible" if np.sign(value) == turning else "hidden" for value in values[rows]]
+            if "visible" not in visibility:
                 continue
             arc = SYMBOLS["moment"](turning=turning, radius=torques.radius, style=torques.style)
-            switch = animate_element("visibility", seen, seconds)
-            content = group([switch, *arc.elements], visibility=seen[0])
+            switch = animate_element("visibility", visibility, seconds)
+            content = group([switch, *arc.elements], visibility=visibility[0])
             found.append(shifted(places, seconds, [content]))
     return found
 
@@ -166,10 +166,12 @@ def panel(
 
 def _caption(output: Output, values: Floats, ends: tuple[float, float], language: str, *, alone: bool) -> str:
     """The quantity with its unit, and its ends."""
-    said = output.sentence(alone=alone).say(language) if output.kind in QUANTITIES else output.column
+    quantity = output.sentence(alone=alone).say(language) if output.kind in QUANTITIES else output.column
     unit = unit_of(output.dimension, [values])
     low, high = (significant(end * unit.factor) for end in ends)
-    return _("{quantity}: {low} … {high}", quantity=unit.label(said), low=low, high=high).translate(language)
+    return _("{quantity}: {low} … {high}", quantity=unit.label(quantity), low=low, high=high).translate(
+        language
+    )
 
 
 def _row(text: str, values: Floats, left: float, span: float, top: float) -> list[SvgNode]:

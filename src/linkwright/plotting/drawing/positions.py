@@ -44,11 +44,11 @@ def at_input(motion: Motion, at: At) -> Shown:
 
     Within the cycle it is the position that the motion passes, in the same assembly.
     """
-    given = {name: [value] for name, value in at.items()} if isinstance(at, Mapping) else [at]
-    time = at_inputs(motion.mechanism, given).time
+    inputs = {name: [value] for name, value in at.items()} if isinstance(at, Mapping) else [at]
+    time = at_inputs(motion.mechanism, inputs).time
     several = isinstance(at, Mapping) and len(at) > 1
     return (None if several else _passed(motion, float(time[0]))) or Shown(
-        solve_motion(motion.mechanism, at=given, failures="mark"), 0
+        solve_motion(motion.mechanism, at=inputs, failures="mark"), 0
     )
 
 
@@ -119,7 +119,9 @@ def parting(machine: Machine, run: list[int]) -> float:
 
     Shift and turn of each link change evenly from one keyframe to the next, so its pins run along flat arcs.
     """
-    largest = max((_beside_guide(machine, joint, run) for joint in machine.guides.values()), default=0.0)
+    largest = max(
+        (_distance_from_guide(machine, joint, run) for joint in machine.guides.values()), default=0.0
+    )
     for name, joint in machine.pins.items():
         places = [
             _half_way(machine, link, machine.motion.mechanism.link(link).points[name], run)
@@ -130,7 +132,7 @@ def parting(machine: Machine, run: list[int]) -> float:
     return largest
 
 
-def _beside_guide(machine: Machine, joint: SlidingJoint, run: list[int]) -> float:
+def _distance_from_guide(machine: Machine, joint: SlidingJoint, run: list[int]) -> float:
     """How far a block's point is from the line of its guide half-way between keyframes."""
     link = machine.motion.mechanism.link
     block = _half_way(machine, joint.block, link(joint.block).points[joint.at], run)

@@ -106,7 +106,7 @@ def laid_out(
     *,
     inputs: bool = True,
     centres: bool = False,
-    beside: Sequence[tuple[Motion, int]] = (),
+    others: Sequence[tuple[Motion, int]] = (),
     diagonal: float = DIAGONAL,
     view: View | None = None,
 ) -> Scene:
@@ -115,8 +115,8 @@ def laid_out(
     ``beside``: positions of other motions of the mechanism, counted on after its own; ``view``: instead of one in
     which the machine has the ``diagonal``.
     """
-    placed = with_placements_of(placements(motion), beside)
-    machine = Machine(motion, placed, view or fitted(motion, placed, diagonal), beside)
+    placed = with_placements_of(placements(motion), others)
+    machine = Machine(motion, placed, view or fitted(motion, placed, diagonal), others)
     parts = parts_of(machine)
     if inputs:
         parts += input_arrows(machine, index)
@@ -142,13 +142,13 @@ LINK_SIZE = 12.0
 
 def point_labels(machine: Machine, index: int, links: Iterable[str] | None = None) -> Iterator[Label]:
     """Names of all pins and points of moving links at one position; of some links where these are named."""
-    seen: set[tuple[str, float, float]] = set()
+    labelled: set[tuple[str, float, float]] = set()
     for link in machine.motion.mechanism.links if links is None else links:
         for point in machine.motion.mechanism.links[link].points:
             x, y = machine.paper(link, point, index)
             key = (point, round(x), round(y))
-            if key not in seen:
-                seen.add(key)
+            if key not in labelled:
+                labelled.add(key)
                 yield Label(point, ((x, y),), clearance=8.0, point=f"{link}.{point}")
 
 

@@ -58,10 +58,10 @@ class Family(ABC):
     def size(self, name: str, index: int) -> float:
         """The size at one position, SI."""
 
-    def seen(self, name: str, run: Sequence[int]) -> bool:
+    def nonzero(self, name: str, run: Sequence[int]) -> bool:
         """Whether one of them is more than zero at some positions."""
-        least = max(NOTHING * self.largest(run), self.floor)
-        return any(self.size(name, index) > least for index in run)
+        threshold = max(NOTHING * self.largest(run), self.floor)
+        return any(self.size(name, index) > threshold for index in run)
 
 
 @dataclass(frozen=True)
@@ -150,13 +150,13 @@ class Torques(Family):
 
     def shape(self, index: int, view: View) -> Shape:
         """An arc in the sense of every torque at one position."""
-        return joined(self._arc(name, index, view) for name in self.values if self.seen(name, [index]))
+        return joined(self._arc(name, index, view) for name in self.values if self.nonzero(name, [index]))
 
     def labels(self, index: int, view: View) -> list[Label]:
         """Names of the arcs."""
         found = []
         for name, (stem, low) in self.symbols.items():
-            if self.seen(name, [index]):
+            if self.nonzero(name, [index]):
                 place = (vec(view.paper(self.places[name][index])),)
                 found.append(
                     Label(stem, place, f"{self.style}-name", NAME_SIZE, self.clear, False, index=low)
@@ -199,7 +199,7 @@ class Arrows:
         for family in self.families:
             for name, (stem, low) in family.symbols.items():
                 track = family.track(name, view, scale)
-                if family.seen(name, run) and np.isfinite(track[list(run)]).all():
+                if family.nonzero(name, run) and np.isfinite(track[list(run)]).all():
                     place = (vec(track[run[0]]),)
                     label = Label(
                         stem, place, f"{family.style}-name", NAME_SIZE, family.clear, False, index=low
@@ -275,12 +275,12 @@ def _of_inertia(forces: Forces) -> float:
     return ROUNDING * mass * largest
 
 
-def _above_rounding(vectors: tuple[Vectors, ...], torques: tuple[Torques, ...], least: float) -> Arrows:
+def _above_rounding(vectors: tuple[Vectors, ...], torques: tuple[Torques, ...], rounding: float) -> Arrows:
     """The same, where a force counts from a billionth of the largest on, a torque from that at the machine's size."""
     feet = np.concatenate([np.zeros((1, 2)), *(foot for each in vectors for foot in each.feet.values())])
     feet = feet[np.isfinite(feet).all(axis=1)]
     everywhere = range(len(next(iter(vectors[0].values.values()), feet)))
-    force = max(NOTHING * max(each.largest(everywhere) for each in vectors), least)
+    force = max(NOTHING * max(each.largest(everywhere) for each in vectors), rounding)
     torque = force * float(np.ptp(feet, axis=0).max())
     return Arrows(
         "force",

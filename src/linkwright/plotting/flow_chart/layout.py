@@ -25,7 +25,7 @@ LEAN, BARS = 14.0, 7.0
 #: From the middle of a column: its edges, the lanes of the jumps back (innermost first) and of the jump forward.
 LEFT, RIGHT, BACK, FORWARD = -154.0, 206.0, (-124.0, -136.0, -148.0), 146.0
 #: Distance of columns.
-APART = 14.0
+SPACING = 14.0
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ class _Seat:
     @property
     def middle(self) -> float:
         """The middle of its column."""
-        return self.column * (RIGHT - LEFT + APART) - LEFT
+        return self.column * (RIGHT - LEFT + SPACING) - LEFT
 
     @property
     def entry(self) -> tuple[float, float]:

@@ -99,13 +99,17 @@ def free_bodies(forces: Forces, index: int) -> list[FreeBody]:
     force = max((each.size for body in found for each in body.forces), default=0.0)
     torque = max((abs(each.torque) for body in found for each in body.couples), default=0.0)
     reach = max((link.reach for link in forces.mechanism.links.values()), default=0.0)
-    least, turning = NOTHING * force, NOTHING * max(torque, force * reach)
-    kept = []
+    force_threshold, torque_threshold = NOTHING * force, NOTHING * max(torque, force * reach)
+    drawn = []
     for body in found:
-        seen = tuple(a for a in body.actions if (abs(a.torque) > turning if a.couple else a.size > least))
-        if seen:
-            kept.append(FreeBody(body.link, body.number, body.centre, seen))
-    return kept
+        actions = tuple(
+            a
+            for a in body.actions
+            if (abs(a.torque) > torque_threshold if a.couple else a.size > force_threshold)
+        )
+        if actions:
+            drawn.append(FreeBody(body.link, body.number, body.centre, actions))
+    return drawn
 
 
 def idle_loads(forces: Forces, index: int) -> list[str]:

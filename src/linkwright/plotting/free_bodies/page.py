@@ -30,7 +30,7 @@ from linkwright.words import Say, _, pgettext
 from linkwright.words.sentence import link_label
 
 #: Width of a cell, space between cells, height of a page's pictures, mm.
-WIDE, APART, TALLEST = 82.0, 6.0, 216.0
+WIDE, SPACING, TALLEST = 82.0, 6.0, 216.0
 #: Width and height, units of the paper, that a picture may take.
 ROOM = (WIDE / MILLIMETRE, 260.0)
 #: Sizes of letters and heights of lines: of titles, of tables.
@@ -60,12 +60,12 @@ class Cell:
     shortened: bool
 
     title: ClassVar[tuple[str, ...]] = ()
-    width: ClassVar[float] = ROOM[0] + APART / MILLIMETRE
+    width: ClassVar[float] = ROOM[0] + SPACING / MILLIMETRE
 
     def put(self, page: Sketch, left: float, top: float, head: int) -> float:
         """Puts it on the page; where it ends below."""
         page.put_sketch(self.sketch, (left, top))
-        return top + self.height + APART / MILLIMETRE
+        return top + self.height + SPACING / MILLIMETRE
 
 
 def free_body_pages(
@@ -204,7 +204,7 @@ def _sheets(cells: Sequence[Cell], columns: int, first: float, tallest: float) -
     sheets: list[list[list[Cell]]] = [[]]
     used = 0.0
     for row in rows:
-        height = max(cell.height for cell in row) + APART / MILLIMETRE
+        height = max(cell.height for cell in row) + SPACING / MILLIMETRE
         if sheets[-1] and used + height > (first if len(sheets) == 1 else tallest) / MILLIMETRE:
             sheets.append([])
             used = 0.0
@@ -216,7 +216,7 @@ def _sheets(cells: Sequence[Cell], columns: int, first: float, tallest: float) -
 def _page(rows: Sequence[Sequence[Cell]], say: Say, heading: str) -> str:
     columns = max(map(len, rows))
     cells = [cell for row in rows for cell in row]
-    wide = columns * Cell.width - APART / MILLIMETRE
+    wide = columns * Cell.width - SPACING / MILLIMETRE
     key = fold(say(_("; ")).join(_key(cells, say)), wide, SIZE)
     below = [[((sentence_runs(line), "lw-legend"), 0.0)] for line in key]
     return page(cells, columns, below, heading, say(_("Free-body diagrams of the links"))).svg

@@ -185,7 +185,7 @@ class LinkShapes:
         """The longer side of a link as it stands, with its wheels and racks, m; zero of one that is a point."""
         body = self.motion.mechanism.links[link]
         places = [self._placed[link].world(at)[self.index] for at in (*body.points.values(), body.centre)]
-        scene = self.scene(self._whole / FINE)
+        scene = self.scene(self._extent / FINE)
         wheels = tuple(part for part in scene.parts if part.carrier == link and part.layer == "ground")
         view = scene.machine.view
         ink = [view.paper(np.array(places)), *Scene(scene.machine, wheels).ink(self.index)]
@@ -193,7 +193,7 @@ class LinkShapes:
         return max(right - left, bottom - top) / view.scale
 
     @cached_property
-    def _whole(self) -> float:
+    def _extent(self) -> float:
         """The longer side of all points as they stand, m."""
         links = self.motion.mechanism.links.values()
         places = [

@@ -33,13 +33,13 @@ def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
     """s, v, a and j over the cam's angle: over time at its speed, over the angle without one."""
     speed = result.loading.speed
     kinds = (RATES if speed else _PER_ANGLE)[result.cam.follower.lift_dimension]
-    given = []
+    panels = []
     for order, title in enumerate(_MOTION):
         values = result.motion[order] * (speed**order if speed else 1.0)
         ends = [result.cam.program.extreme(order, kind) for kind in ("max", "min")]
         peaks = tuple((each.place, each.value * (speed**order if speed else 1.0)) for each in ends)
-        given.append(Panel(request.say(title), kinds[order], (Curve("", values, marks=peaks),)))
-    return stacked(given, _turn(result, request), request, request.titled(result.title))
+        panels.append(Panel(request.say(title), kinds[order], (Curve("", values, marks=peaks),)))
+    return stacked(panels, _turn(result, request), request, request.titled(result.title))
 
 
 @result_diagram("cam_checks", _("checks over the turn"), CamDesign, usual=False)
@@ -48,25 +48,25 @@ def draw_cam_checks(result: CamDesign, request: Request) -> Figure:
     contact = result.contact
     steepest = _peaks(result.pressure_angle_rise, result.pressure_angle_fall)
     pressed = Curve("", contact.pressure_angle, marks=steepest if contact.pressure_angle.any() else ())
-    given = [Panel(request.say(_("pressure angle α")), "angle", (pressed,))]
+    panels = [Panel(request.say(_("pressure angle α")), "angle", (pressed,))]
     largest = 5.0 * result.size
     with np.errstate(divide="ignore"):
         radius = 1.0 / contact.bend
     bent = np.where(np.abs(radius) < largest, radius, np.nan)
-    given.append(Panel(request.say(_("radius of curvature ρ")), "length", (Curve("", bent),)))
+    panels.append(Panel(request.say(_("radius of curvature ρ")), "length", (Curve("", bent),)))
     if result.loaded and result.cam.barrel_radius is None:
         force, torque = (
             _peaks(extreme("max"), extreme("min"))
             for extreme in (result.extreme_force, result.extreme_torque)
         )
-        given.append(
+        panels.append(
             Panel(request.say(_("contact force N")), "force", (Curve("", result.contact_force, marks=force),))
         )
         if result.pressure is not None and result.largest_pressure is not None:
             line = Curve("", result.pressure, marks=_peaks(result.largest_pressure))
-            given.append(Panel(request.say(_("contact pressure p")), "pressure", (line,)))
-        given.append(Panel(request.say(_("torque T")), "torque", (Curve("", result.torque, marks=torque),)))
-    return stacked(given, _turn(result, request), request, request.titled(result.title))
+            panels.append(Panel(request.say(_("contact pressure p")), "pressure", (line,)))
+        panels.append(Panel(request.say(_("torque T")), "torque", (Curve("", result.torque, marks=torque),)))
+    return stacked(panels, _turn(result, request), request, request.titled(result.title))
 
 
 def _turn(result: CamDesign, request: Request) -> InputAxis:
@@ -132,7 +132,7 @@ def draw_cam_vibration(result: CamDesign, request: Request) -> Figure:
     speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
     left = result.residual_vibration(speeds)
     kind = result.cam.follower.lift_dimension
-    given = [
+    panels = [
         Panel(request.say(_("deviation z")), kind, (Curve("", result.steady_deviation(speeds)),)),
         Panel(
             request.say(_("amplitude left A")),
@@ -144,4 +144,4 @@ def draw_cam_vibration(result: CamDesign, request: Request) -> Figure:
         ),
     ]
     axis = InputAxis("angular_velocity", speeds, request.say(_("speed of the cam")))
-    return stacked(given, axis, request, request.titled(result.title))
+    return stacked(panels, axis, request, request.titled(result.title))

@@ -60,10 +60,10 @@ def _front(axes: Any, result: Optimum, text: str, language: str) -> None:
     if np.isfinite([x0, y0]).all():
         wide, high = max(np.ptp([*x, x0]), 1e-300), max(np.ptp([*y, y0]), 1e-300)
         near = len(x) == 1 or (np.ptp(x) > NEAR * wide and np.ptp(y) > NEAR * high)
-        said = (
+        caption = (
             _("start") if near else _("start ({x}, {y}) lies outside", x=f"{x0:.5g}", y=f"{y0:.5g}")
         ).translate(language)
-        axes.plot([x0] if near else [], [y0] if near else [], "s", ms=7, mfc="none", color=INK, label=said)
+        axes.plot([x0] if near else [], [y0] if near else [], "s", ms=7, mfc="none", color=INK, label=caption)
     axes.margins(0.06)
     axes.set(xlabel=x_label, ylabel=y_label)
     axes.legend()
@@ -78,8 +78,8 @@ def _progress(axes: Any, result: Optimum, language: str) -> None:
     if met and np.isfinite(result.start[goal.text]):
         generations = np.arange(len(history) + 1)
         history = np.append(result.start[goal.text] * factor, history)
-    said = _("best of the search").translate(language)
-    axes.step(generations, history, where="post", color=COLOURS[0], label=said)
+    caption = _("best of the search").translate(language)
+    axes.step(generations, history, where="post", color=COLOURS[0], label=caption)
     best = result.best.numbers[goal.text] * factor
     axes.plot(
         [len(result.history)],

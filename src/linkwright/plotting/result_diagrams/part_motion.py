@@ -36,13 +36,13 @@ def draw_flight(result: Flight, request: Request) -> Figure:
 def draw_transport(result: Transport, request: Request) -> Figure:
     """Displacement and velocity of the load on the trough over a cycle, and its height where it is thrown."""
     time, position, velocity, height = result.columns().values()
-    given = [
+    panels = [
         Panel("s", "length", (Curve("", position),)),
         Panel("v", "velocity", (Curve("", velocity),), fill=True),
     ]
     if height.any():
-        given.append(Panel("n", "length", (Curve("", height),)))
-    return _over_time(time, given, result.title, request)
+        panels.append(Panel("n", "length", (Curve("", height),)))
+    return _over_time(time, panels, result.title, request)
 
 
 @result_diagram("vibration_response", _("vibration"), Vibration)
@@ -60,33 +60,33 @@ def draw_vibration_response(result: Vibration, request: Request) -> Figure:
         size = tuple(map(Curve, names, np.abs(amplitudes.T)))
         turn = tuple(map(Curve, names, np.unwrap(np.angle(amplitudes.T))))
         passed = (Curve("", result.transmissibility(frequency)),)
-        given = [
+        panels = [
             Panel("|X|", length, size, log=True),
             Panel("∠X", "angle", turn),
             Panel("T", "", passed, log=True),
         ]
         axis = InputAxis("frequency", hertz, request.say(_("frequency")), log=True)
-        return stacked(given, axis, request, request.titled(result.title))
+        return stacked(panels, axis, request, request.titled(result.title))
     modes = [f"{f / (2 * math.pi):.4g} Hz" for f in result.frequencies]
     panel = Panel("φ", "", tuple(map(Curve, modes, result.shapes.T)))
     axis = InputAxis("", np.arange(1.0, len(names) + 1), ", ".join(names))
     return stacked([panel], axis, request, request.titled(result.title))
 
 
-def _over_time(time: Floats, given: Sequence[Panel], title: str, request: Request) -> Figure:
+def _over_time(time: Floats, panels: Sequence[Panel], title: str, request: Request) -> Figure:
     axis = InputAxis("time", time, request.say(_("time")))
-    return stacked(given, axis, request, request.titled(title))
+    return stacked(panels, axis, request, request.titled(title))
 
 
 @result_diagram("follower_vibration", _("cam and follower"), FollowerVibration)
 def draw_follower_vibration(result: FollowerVibration, request: Request) -> Figure:
     """Cam and follower over time, and the residual spectrum of the law."""
     time, cam, follower = result.curves
-    given = [
+    panels = [
         Panel("s, x", "length", (Curve("s", cam), Curve("x", follower, dash="--"))),
         Panel("x − s", "length", (Curve("", follower - cam),)),
     ]
-    return _over_time(time, given, result.title, request)
+    return _over_time(time, panels, result.title, request)
 
 
 @result_diagram("residual_spectrum", _("residual vibration of the law"), FollowerVibration, usual=False)
@@ -102,7 +102,7 @@ def draw_mounts(result: Shaken, request: Request) -> Figure:
     """Shaking force, motion of the machine and force on the ground over a cycle."""
     columns = result.columns()
     time = columns["time [s]"]
-    given = [
+    panels = [
         Panel(symbol, dimension, tuple(Curve(axis, columns[name.format(axis)]) for axis in "xy"))
         for symbol, name, dimension in (
             ("F", "shaking force {} [N]", "force"),
@@ -111,5 +111,5 @@ def draw_mounts(result: Shaken, request: Request) -> Figure:
         )
     ]
     for symbol, (name, dimension) in zip("MθG", TITLES["turn"], strict=True) if "turn" in result.axes else ():
-        given.append(Panel(symbol, dimension, (Curve("", columns[name]),)))
-    return _over_time(time, given, result.title, request)
+        panels.append(Panel(symbol, dimension, (Curve("", columns[name]),)))
+    return _over_time(time, panels, result.title, request)

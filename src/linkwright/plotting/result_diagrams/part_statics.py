@@ -46,7 +46,7 @@ def _polygons(vectors: Mapping[str, Floats], sought: Container[str], total: Floa
             ],
             "F",
             force_text,
-            whole=None if total is None else Vector("R", total[[a, b]], "lw-force"),
+            resultant=None if total is None else Vector("R", total[[a, b]], "lw-force"),
         )
         for a, b in planes
     ]
@@ -137,12 +137,12 @@ def draw_rotor_balance(result: RotorBalance, request: Request) -> Drawing:
 def _reaction(result: Reactions, support: str) -> Floats:
     """Sum of a support's forces in the plane."""
     total = np.zeros(3)
-    given = result.body.supports[support]
-    for word in given.holds:
+    panels = result.body.supports[support]
+    for word in panels.holds:
         if word in HELD[:3]:
             total["xyz".index(word)] += result.values[f"{support}.F{word}"]
-    if given.along:
-        along = spatial(given.along)
+    if panels.along:
+        along = spatial(panels.along)
         total += result.values[f"{support}.S"] * along / np.linalg.norm(along)
     return total[:2]
 
@@ -156,22 +156,22 @@ def draw_beam_line(result: BeamLine, request: Request) -> Figure:
     """V, M, θ and w over the beam."""
     columns = result.columns()
     x = columns["x [m]"]
-    given = []
+    panels = []
     for symbol, name, dimension in PANELS:
         y = columns[name]
         curve = Curve("", y, marks=tuple(dict.fromkeys(result.extremes(name.split(" ")[0]))))
-        given.append(Panel(symbol, dimension, (curve,), fill=symbol in "VM"))
-    return stacked(given, InputAxis("length", x, "x"), request, request.titled(result.title))
+        panels.append(Panel(symbol, dimension, (curve,), fill=symbol in "VM"))
+    return stacked(panels, InputAxis("length", x, "x"), request, request.titled(result.title))
 
 
 @result_diagram("link_stress", _("bending in the worst position, largest stress of the cycle"), LinkStress)
 def draw_link_stress(result: LinkStress, request: Request) -> Figure:
     """Moment, normal force and deflection along a link in the worst position, and the largest stress of the cycle."""
     there, i, _ = result.peaks["largest_stress"]
-    given = [
+    panels = [
         Panel("M", "torque", (Curve("", there.moment[i]),), fill=True),
         Panel("N", "force", (Curve("", there.normal[i]),), fill=True),
         Panel("max σ", "pressure", (Curve("", np.asarray(result.stress.max(axis=0))),)),
         Panel("w", "length", (Curve("", there.deflection[i, :, 1]),), fill=True),
     ]
-    return stacked(given, InputAxis("length", result.stations, "s"), request, request.titled(result.title))
+    return stacked(panels, InputAxis("length", result.stations, "s"), request, request.titled(result.title))

@@ -144,8 +144,8 @@ def _span(variable: Variable, value: float) -> Floats:
     """Places around the optimum, within the bounds."""
     reach = 0.9 * abs(value) if value else variable.size
     low, high = value - reach, value + reach
-    low = max(low, variable.least) if math.isfinite(variable.least) else low
-    high = min(high, variable.most) if math.isfinite(variable.most) else high
+    low = max(low, variable.minimum) if math.isfinite(variable.minimum) else low
+    high = min(high, variable.maximum) if math.isfinite(variable.maximum) else high
     return np.linspace(low, high if high > low else low + 1.0, GRID)
 
 
@@ -157,15 +157,15 @@ def _region(axes: Axes, result: Optimum) -> None:
     units = [Unit(*unit_of_kind(result.program.variables[n].dimension)) for n in names]
     x, y = (span * unit.factor for span, unit in zip(spans, units, strict=True))
     value = result.program.model.objective.value(point).reshape(GRID, GRID)
-    kept = np.ones(len(u), dtype=bool)
+    feasible = np.ones(len(u), dtype=bool)
     for number, c in enumerate(result.program.subject_to):
         excess = c.excess(point)
         if c.sense != "=":
-            kept &= excess <= 0.0
+            feasible &= excess <= 0.0
         if (excess > 0).any() and (excess < 0).any():
             drawn = axes.contour(x, y, excess.reshape(GRID, GRID), [0.0], colors=[COLOURS[(number + 1) % 8]])
             axes.clabel(drawn, fmt={0.0: c.name}, fontsize=7.5)
-    axes.contourf(x, y, kept.reshape(GRID, GRID).astype(float), [0.5, 1.5], colors=[SHADE], alpha=0.6)
+    axes.contourf(x, y, feasible.reshape(GRID, GRID).astype(float), [0.5, 1.5], colors=[SHADE], alpha=0.6)
     axes.contour(x, y, value, 14, colors=[FAINT], linewidths=0.7)
     best = (result.x[name] * unit.factor for name, unit in zip(names, units, strict=True))
     axes.plot(*best, "o", color=INK)

@@ -13,7 +13,7 @@ from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_f
 from linkwright.plotting.diagrams.axes import Legend, make_plane, unit_of
 from linkwright.plotting.diagrams.base import Request, framed, result_diagram
 from linkwright.plotting.diagrams.names import draw_support
-from linkwright.synthesis.result import Candidate, Synthesis, title_said
+from linkwright.synthesis.result import Candidate, Synthesis, title_text
 from linkwright.words import _, pgettext, say
 
 SHOWN = 4
@@ -44,7 +44,7 @@ def draw_synthesis(result: Synthesis, request: Request) -> Figure:
     _plane(axes[0], result, request.language, legend)
     if function:
         _function(axes[1], result, request.language)
-    return framed(figure, title_said(result, speaker(request.language)), request, legend)
+    return framed(figure, title_text(result, speaker(request.language)), request, legend)
 
 
 def _plane(axes: Axes, result: Synthesis, language: str, legend: Legend) -> None:
@@ -135,7 +135,7 @@ def draw_structural_error(result: Synthesis, request: Request) -> Figure:
         axes.locator_params(axis="x", integer=True)
     axes.set(xlabel=label, ylabel=request.say(_("deviation (°)") if angles else _("deviation (mm)")))
     axes.margins(x=0.05, y=0.15)
-    return framed(figure, title_said(result, speaker(request.language)), request)
+    return framed(figure, title_text(result, speaker(request.language)), request)
 
 
 def _abscissa(result: Synthesis, language: str) -> tuple[Floats, str]:

@@ -29,7 +29,7 @@ from linkwright.plotting.result_diagrams.synthesis import CURVES
 from linkwright.synthesis.motion_generation.generate import MotionDerivation
 from linkwright.synthesis.requirements.crank_rocker import CrankRockerDerivation, QuickReturnDerivation
 from linkwright.synthesis.requirements.slider_crank import SliderCrankDerivation
-from linkwright.synthesis.result import Synthesis, title_said
+from linkwright.synthesis.result import Synthesis, title_text
 from linkwright.words import Say, _
 
 #: Longest extent of a construction, mm; size of posed axes, as a share of the poses' extent.
@@ -210,8 +210,8 @@ def motion(plane: Construction, d: MotionDerivation, result: Synthesis) -> None:
     corners = np.concatenate([d.p, *best.positions.values(), pivots])
     middle = corners.mean()
     reach = ROOM * float(np.abs(corners - middle).max())
-    for name, whole in shapes.items():
-        curve = whole[np.abs(whole - middle) <= reach]
+    for name, points in shapes.items():
+        curve = points[np.abs(points - middle) <= reach]
         dot = 1e-3 * reach  # points of one curve, each a short stroke
         plane.line(
             *np.stack([curve, curve + dot, np.full(len(curve), np.nan)], axis=1).ravel(),
@@ -272,5 +272,5 @@ def draw_construction(result: Synthesis, request: Request) -> Drawing:
     plane, say = Construction(), request.say
     DRAWN[type(result.derivation)](plane, result.derivation, result)
     curves = key([(say(CURVES[name]), f"lw-{name}") for name in result.curves])
-    title = title_said(result, say)
+    title = title_text(result, say)
     return page([plane.cell(say)], 1, [curves] if curves else [], request.heading(title), title, CSS)

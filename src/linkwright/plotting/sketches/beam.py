@@ -102,11 +102,11 @@ def _dimensions(paper: Sketch, beam: Beam, scale: float) -> None:
             {load.start, beam.length if load.end is None else load.end} if load.line else {load.at or 0.0}
         )
     ordered = sorted(places)
-    kept = [x for i, x in enumerate(ordered) if i == 0 or x - ordered[i - 1] > 1e-9 * beam.length]
-    paper.chain([((x * scale, ROWS[0]), x) for x in kept], _length, 0.0)
-    if len(kept) > 2:
+    distinct = [x for i, x in enumerate(ordered) if i == 0 or x - ordered[i - 1] > 1e-9 * beam.length]
+    paper.chain([((x * scale, ROWS[0]), x) for x in distinct], _length, 0.0)
+    if len(distinct) > 2:
         paper.dimension((0.0, ROWS[1]), (WIDE, ROWS[1]), _length(beam.length))
-    for x in kept:
+    for x in distinct:
         paper.line([(x * scale, 34.0), (x * scale, ROWS[0] + 5.0)], "lw-dimension")
 
 

@@ -107,25 +107,25 @@ def _shaken(
     paper: Sketch, system: VibratingSystem, left: Mapping[str, float], tall: float, kinds: Mapping[str, str]
 ) -> None:
     """The excitation: a force on a mass, an unbalance in it, or the motion of the ground."""
-    given = system.excitation
-    if given is None:
+    excitation = system.excitation
+    if excitation is None:
         return
-    if given.base is not None:
+    if excitation.base is not None:
         paper.put("slide_arrow", at=(-GAP - 20.0, tall / 2 + 22.0), along=(1.0, 0.0), style="lw-load")
-        text = f"u = {shown(given.base, kinds['base'])}"
+        text = f"u = {shown(excitation.base, kinds['base'])}"
         paper.name(text, (-GAP - 20.0, tall / 2 + 26.0), style="lw-load-name")
         return
-    x = left[given.on]
-    if given.unbalance is not None:
+    x = left[excitation.on]
+    if excitation.unbalance is not None:
         paper.put("moment", at=(x + WIDTH / 2, -tall / 2 - 18.0), radius=12.0, style="lw-load")
-        text = f"U = {shown(given.unbalance, 'mass_radius')}"
+        text = f"U = {shown(excitation.unbalance, 'mass_radius')}"
         paper.name(text, (x + WIDTH / 2, -tall / 2 - 32.0), style="lw-load-name")
         return
     start = (x + WIDTH / 2, -tall / 2 - 14.0)
     paper.arrow(start, (start[0] + 62.0, start[1]), "lw-load")
-    size = max(map(abs, given.forces), default=0.0) if given.times else given.force or 0.0
+    size = max(map(abs, excitation.forces), default=0.0) if excitation.times else excitation.force or 0.0
     text = f"F = {number(size, kinds['force'])} {'N·m' if system.turning else 'N'}"
-    paper.name("F(t)" if given.times else text, (start[0] + 62.0, start[1]), style="lw-load-name")
+    paper.name("F(t)" if excitation.times else text, (start[0] + 62.0, start[1]), style="lw-load-name")
 
 
 @sketched("follower")

@@ -54,8 +54,8 @@ def blocks(case: Case) -> Iterator[Block]:
             yield Code(_program(group), "", say(program))
             yield from _tables(case, group)
     for note in dict.fromkeys(map(str, made.notes)):
-        said = next(each for each in made.notes if str(each) == note)
-        yield Paragraph(literal(case.sentence(said)), "note")
+        message = next(each for each in made.notes if str(each) == note)
+        yield Paragraph(literal(case.sentence(message)), "note")
 
 
 def _points(case: Case, points: Sequence[NumberedPoint]) -> Block:
@@ -107,14 +107,14 @@ def _others(case: Case, made: Calls) -> Iterator[Paragraph]:
             say(_("{signature} ({links})", signature=step.group.signature, links=", ".join(step.group.links)))
         )
     for reason, named in groups.items():
-        said = say(
+        message = say(
             _(
                 "No subprogram of these texts for {groups}: {reason}.",
                 groups=say(_(", ")).join(named),
                 reason=reason,
             )
         )
-        yield Paragraph(literal(said), "note")
+        yield Paragraph(literal(message), "note")
     if made.forces and any(not step.kind for step in made.others):
         yield Paragraph(
             say(

@@ -50,6 +50,6 @@ def blocks(cases: Sequence[Case]) -> Iterator[Block]:
         try:
             picture = first.diagram(kind, found)
         except LinkwrightError as error:
-            yield Paragraph(literal(first.told(error)), "missing")
+            yield Paragraph(literal(first.message(error)), "missing")
             continue
         yield Figure(say(caption), ((picture, 0.95),), kind)

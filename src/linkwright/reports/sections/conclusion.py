@@ -14,7 +14,7 @@ from linkwright.analysis.base import METRICS, MetricValue
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
-from linkwright.designs.evaluation import told
+from linkwright.designs.evaluation import value_text
 from linkwright.errors import LinkwrightError
 from linkwright.plotting.diagrams.outputs import main_outputs
 from linkwright.reports.document import Block, Paragraph, literal
@@ -161,7 +161,7 @@ class _Conclusion:
     def _transmission(self) -> Iterator[str]:
         say = self.say
         if (row := _lowest(self._rows("transmission_angle"))) is not None and row.limit is not None:
-            kept = (
+            message = (
                 _(
                     "The transmission angle falls to {value} (group {subject}, at q = {at}), below the "
                     "recommended {limit}."
@@ -172,7 +172,7 @@ class _Conclusion:
                     "the recommended limit of {limit}."
                 )
             )
-            yield say(kept.format(**_told(row), limit=typeset(shown(row.limit, row.dimension))))
+            yield say(message.format(**_placeholders(row), limit=typeset(shown(row.limit, row.dimension))))
         if (row := _lowest(self._rows("singularity"))) is not None:
             yield say(
                 (
@@ -185,7 +185,7 @@ class _Conclusion:
                         "No group comes close to a singular position: the distance from it is at least "
                         "{value} (group {subject}, at q = {at}; 1 at best, 0 where singular).",
                     )
-                ).format(**_told(row))
+                ).format(**_placeholders(row))
             )
 
     def _limits(self) -> Iterator[Block]:
@@ -333,7 +333,7 @@ class _Conclusion:
                     dimension=literal(each.dimension),
                     way=self.say(_("longer") if each.longer else _("shorter")),
                     value=_value(each.row),
-                    better=typeset(told(each.better, each.row.dimension)),
+                    better=typeset(value_text(each.better, each.row.dimension)),
                 )
             )
             percent = typeset(f"{each.side_effect:.2g}") if abs(each.side_effect) > SMALLEST else "0"
@@ -359,7 +359,7 @@ def _lowest(rows: Sequence[MetricValue]) -> MetricValue | None:
     return min(known, key=lambda row: row.value / (row.limit or 1.0), default=None)
 
 
-def _told(row: MetricValue) -> dict[str, str]:
+def _placeholders(row: MetricValue) -> dict[str, str]:
     return {"value": _value(row), "subject": literal(row.subject), "at": _at(row)}
 
 

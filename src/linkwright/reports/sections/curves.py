@@ -60,5 +60,5 @@ def _figure(case: Case, kind: str, caption: str, **options: object) -> Block | N
     except LinkwrightError as error:
         if error.code in WITHOUT:
             return None
-        return Paragraph(f"{case.say(title_of(kind))}: {literal(case.told(error))}", "missing")
+        return Paragraph(f"{case.say(title_of(kind))}: {literal(case.message(error))}", "missing")
     return Figure(caption, ((shown, SHARE),), "" if options else kind, TALLEST)

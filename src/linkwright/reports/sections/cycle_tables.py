@@ -70,7 +70,7 @@ def blocks(case: Case) -> Iterator[Block]:
     except Missing:
         return
     except LinkwrightError as error:
-        yield Paragraph(literal(case.told(error)), "missing")
+        yield Paragraph(literal(case.message(error)), "missing")
         return
     sizes = [each for each in _of(columns, "reaction", "reaction_direction", "couple") if not each.component]
     efforts = _of(columns, "effort")
@@ -120,14 +120,14 @@ def _unreached(case: Case) -> Iterator[Block]:
         if not outcome.ok:
             reasons.setdefault(outcome.say(case.language), []).append(str(number))
     for reason, numbers in reasons.items():
-        said = case.say(
+        message = case.say(
             _(
                 "No numbers at position {numbers}: {reason}",
                 numbers=case.say(_(", ")).join(numbers),
                 reason=reason,
             )
         )
-        yield Paragraph(literal(said), "missing")
+        yield Paragraph(literal(message), "missing")
 
 
 def varying(

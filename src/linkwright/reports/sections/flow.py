@@ -18,7 +18,7 @@ def blocks(case: Case) -> Iterator[Block]:
     """The steps of the solution over the numbered positions, in as many pages as they need."""
     say, numbered = case.say, case.numbered
     nodes = flow_chart_steps(numbered.motion, numbered.rows, case.language)
-    said = (
+    message = (
         _(
             "{figure} shows in which order the machine is solved: what each step needs is known "
             "from the steps before it. The calls have the names of the teaching texts (bark, "
@@ -31,7 +31,7 @@ def blocks(case: Case) -> Iterator[Block]:
             "rrrf …).",
         )
     )
-    yield Paragraph(say(said.format(figure="[[flow]]")))
+    yield Paragraph(say(message.format(figure="[[flow]]")))
     caption = say(_("Flow chart of the solution"))
     pages = flow_chart_pages(nodes, caption)
     for number, svg in enumerate(pages, 1):

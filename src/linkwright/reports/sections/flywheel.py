@@ -73,6 +73,6 @@ def _speed(case: Case) -> Iterator[Block]:
     try:
         shown = case.diagram("speed", case.running, fluctuation=case.settings.fluctuation)
     except LinkwrightError as error:
-        yield Paragraph(literal(case.told(error)), "missing")
+        yield Paragraph(literal(case.message(error)), "missing")
         return
     yield Figure(case.say(_("True speed over the cycle with the flywheel")), ((shown, 0.92),), "speed")

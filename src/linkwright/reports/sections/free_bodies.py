@@ -26,7 +26,7 @@ def blocks(case: Case) -> Iterator[Block]:
         raise Missing(NO_LOADS)
     pages = free_body_pages(forces, index, say, case.language, first=FIRST)
     place = literal(case.worked_text)
-    said = (
+    message = (
         _(
             "{figure} shows every link by itself, as it stands at {place}, with all that acts on "
             "it; the links come in the order of the force analysis. A joint force F with the "
@@ -39,7 +39,7 @@ def blocks(case: Case) -> Iterator[Block]:
             "exerts on link 2.",
         )
     )
-    yield Paragraph(say(said.format(figure="[[free-bodies]]", place=place)))
+    yield Paragraph(say(message.format(figure="[[free-bodies]]", place=place)))
     if idle := idle_loads(forces, index):
         yield Paragraph(
             literal(say(_("Not acting at this position: {names}.", names=", ".join(idle)))), "note"

@@ -41,7 +41,7 @@ def blocks(case: Case) -> Iterator[Block]:
     yield _sizes(case, pairs)
     for train in case.structure.trains:
         yield from _train(case, train)
-    for names in _alike(pairs):
+    for names in _equal_pairs(pairs):
         yield from _teeth(case, names, pairs[names[0]])
 
 
@@ -123,7 +123,7 @@ def _train(case: Case, train: GearTrain) -> Iterator[Block]:
         )
 
 
-def _alike(pairs: Mapping[str, WheelSizes]) -> list[list[str]]:
+def _equal_pairs(pairs: Mapping[str, WheelSizes]) -> list[list[str]]:
     """Names of gears whose module and whole numbers of teeth are given, those with equal ones together."""
     found: dict[tuple[object, ...], list[str]] = {}
     for name, sizes in pairs.items():
@@ -150,7 +150,7 @@ def _teeth(case: Case, same: Sequence[str], sizes: WheelSizes) -> Iterator[Block
     try:
         mesh = gear_pair(teeth, sizes.module, pressure_angle=sizes.pressure_angle, internal=internal)
     except LinkwrightError as error:
-        yield Paragraph(literal(case.told(error)), "missing")
+        yield Paragraph(literal(case.message(error)), "missing")
         return
     yield Paragraph(
         say(

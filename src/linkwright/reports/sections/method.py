@@ -59,7 +59,7 @@ def blocks(case: Case) -> Iterator[Block]:
             say(
                 _(
                     "The equations of the groups cannot be written here, their loops can: {sentence}",
-                    sentence=literal(case.told(error)),
+                    sentence=literal(case.message(error)),
                 )
             ),
             "missing",

@@ -88,8 +88,8 @@ def loaded_joints(case: Case) -> list[tuple[str, str]]:
     """The joint forces, those of joints that carry nothing left out."""
     peaks = {pair: float(np.nanmax(np.abs(case.forces.reaction(pair[0], on=pair[1])), initial=0.0))
              for pair in reaction_pairs(case.mechanism)}  # fmt: skip
-    least = ROUNDING * max(peaks.values(), default=0.0)
-    carrying = {joint for (joint, _unused), peak in peaks.items() if peak > least}
+    threshold = ROUNDING * max(peaks.values(), default=0.0)
+    carrying = {joint for (joint, _unused), peak in peaks.items() if peak > threshold}
     return [pair for pair in peaks if pair[0] in carrying]
 
 
@@ -102,7 +102,7 @@ def _figures(
         try:
             picture = case.diagram(kind, of=joints)
         except LinkwrightError as error:
-            yield Paragraph(f"{case.say(title_of(kind))}: {literal(case.told(error))}", "missing")
+            yield Paragraph(f"{case.say(title_of(kind))}: {literal(case.message(error))}", "missing")
             continue
         title = case.say(_("{caption} (continued)", caption=caption)) if number else caption
         yield Figure(title, ((picture, share),), "" if number else kind, tallest)

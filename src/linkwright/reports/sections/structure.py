@@ -52,7 +52,7 @@ def _pictures(case: Case) -> Block:
     try:
         pictures = to_one_scale([group_picture(case, group) for group in case.structure.groups])
     except LinkwrightError as error:
-        return Paragraph(literal(case.told(error)), "missing")
+        return Paragraph(literal(case.message(error)), "missing")
     names = ", ".join(f"{n} {group.signature}" for n, group in enumerate(case.structure.groups, 1))
     caption = case.say(
         _("The groups apart from the machine, in solving order: {names}", names=literal(names))

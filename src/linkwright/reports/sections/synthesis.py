@@ -71,9 +71,9 @@ def _chapter(found: Synthesis, language: str) -> Iterator[Block]:
             yield from _figure(found, kind, language)
     yield from _figure(found, "synthesis", language)
     if found.counts:
-        from linkwright.synthesis.result import counts_said
+        from linkwright.synthesis.result import counts_text
 
-        yield Paragraph(literal(counts_said(found, say)))
+        yield Paragraph(literal(counts_text(found, say)))
     for sentence in found.notes:
         yield Paragraph(literal(in_language(sentence, language)))
 

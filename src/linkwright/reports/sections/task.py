@@ -68,7 +68,7 @@ def blocks(case: Case) -> Iterator[Block]:
         (_("Loads"), data.get("loads", {})),
     ):
         if part:
-            body = [(name, kind_of(value, say), given(value, say)) for name, value in part.items()]
+            body = [(name, kind_of(value, say), element_data(value, say)) for name, value in part.items()]
             head = (_("name"), _("kind"), pgettext("report", "given"))
             yield printed(Table(head, body, "<<<", title), case.language)
     if any(mechanism.gravity):
@@ -120,7 +120,7 @@ def kind_of(value: Any, say: Say) -> str:
     return say(PAIRS[kind]) if kind in PAIRS else kind or "–"
 
 
-def given(value: Any, say: Say) -> str:
+def element_data(value: Any, say: Say) -> str:
     """What the model file says of a joint, a driver or a load, but its kind."""
     return written({key: each for key, each in value.items() if key != "kind"}, say)
 
@@ -130,8 +130,8 @@ def written(value: Any, say: Say, key: str = "") -> str:
     their ends."""
     if isinstance(value, Mapping):
         parts = [
-            say(_("{name}: {value}", name=MODEL_KEYS.get(name, name), value=told))
-            for name, told in ((name, written(each, say, name)) for name, each in value.items())
+            say(_("{name}: {value}", name=MODEL_KEYS.get(name, name), value=text))
+            for name, text in ((name, written(each, say, name)) for name, each in value.items())
         ]
         if not key:
             return say(_("; ")).join(parts)

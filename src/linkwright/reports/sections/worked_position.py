@@ -53,7 +53,7 @@ def blocks(case: Case) -> Iterator[Block]:
                 _(
                     "The equations with their numbers cannot be written here, the polygons can be drawn: "
                     "{sentence}",
-                    sentence=literal(case.told(error)),
+                    sentence=literal(case.message(error)),
                 )
             ),
             "missing",
@@ -82,11 +82,11 @@ def _polygons(case: Case) -> Iterator[Block]:
     while pages:
         kind, links = pages.pop(0)
         of = {"of": links} if links else {}
-        given = source if kind == "force_polygon" else None
+        result = source if kind == "force_polygon" else None
         try:
-            picture = case.diagram(kind, given, at=case.worked_place, **of)
+            picture = case.diagram(kind, result, at=case.worked_place, **of)
         except LinkwrightError as error:
-            yield Paragraph(f"{case.say(title_of(kind))}: {literal(case.told(error))}", "missing")
+            yield Paragraph(f"{case.say(title_of(kind))}: {literal(case.message(error))}", "missing")
             continue
         if len(links) > 1 and share_of(picture) < SMALL:
             half = len(links) // 2

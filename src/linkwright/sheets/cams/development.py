@@ -12,7 +12,7 @@ from linkwright.cams.result import CamDesign
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import Picture, Runs, as_runs, indexed, joined
 from linkwright.sheets.cams.division import Paper, divided, pitch_of, sharpest
-from linkwright.sheets.cams.marks import angle_between, graphical, said
+from linkwright.sheets.cams.marks import angle_between, checks_text, graphical
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.words import Say, _
 
@@ -105,6 +105,6 @@ class DevelopmentPanel(Panel):
     def _caption(self, reduction: float) -> Sequence[Runs]:
         lines = [as_runs(self.say(_("Groove of the barrel cam, developed")))]
         lines.append(joined(graphical("l", 1e-3 * reduction, "m"), f"  ({scale_text(reduction)})"))
-        if checks := said(self.design):
+        if checks := checks_text(self.design):
             lines.append(checks)
         return lines

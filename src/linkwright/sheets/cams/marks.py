@@ -33,7 +33,7 @@ def graphical(index: str, value: float, unit: str) -> Runs:
 #: Gap of the followers below which they are close together, rad.
 _CLOSE = math.radians(50)
 #: Distance from a break of the motion at which its curvature is that of a side, rad.
-_BESIDE = 1e-9
+_SIDE_STEP = 1e-9
 #: Length of the lines of the pressure angle and radius of its arc, mm.
 _ARM, _ARC = 24.0, 17.0
 #: Distance of names from what they mean, and how far leaders reach beyond the base circle, mm.
@@ -99,7 +99,7 @@ def _tightest(picture: Picture, paper: Paper, design: CamDesign, outer: float) -
     radius = design.smallest_radius
     if radius is None or radius.value > 2 * outer:
         return
-    contact = design.wall.contact(radius.place + np.array([-_BESIDE, 0.0, _BESIDE]))
+    contact = design.wall.contact(radius.place + np.array([-_SIDE_STEP, 0.0, _SIDE_STEP]))
     side = int(np.argmin(np.abs(contact.bend - 1.0 / radius.value)))
     if not math.isclose(float(contact.bend[side]), 1.0 / radius.value, rel_tol=1e-5):
         return  # it is on another wall
@@ -160,7 +160,7 @@ def _curves(picture: Picture, paper: Paper, design: CamDesign, say: Say) -> Iter
         yield Name(as_runs(say(title)), [end], clear=0.6)
 
 
-def said(design: CamDesign) -> Runs:
+def checks_text(design: CamDesign) -> Runs:
     """``α_max = 30° ≤ [α] = 30° (δ = 24.4°), ρ_min = 14.2 mm``"""
     found, radius = sharpest(design), design.smallest_radius
     parts: list[Runs] = []
@@ -168,8 +168,8 @@ def said(design: CamDesign) -> Runs:
         degrees = math.degrees(found.value)
         angle = equal(indexed("α", "max"), degrees, "°")
         if found.limit is not None:
-            kept = "≤" if degrees <= math.degrees(found.limit) + 5e-4 else ">"
-            angle = joined(angle, f" {kept} [α] = {significant(math.degrees(found.limit))}°")
+            relation = "≤" if degrees <= math.degrees(found.limit) + 5e-4 else ">"
+            angle = joined(angle, f" {relation} [α] = {significant(math.degrees(found.limit))}°")
         parts.append(joined(angle, f" (δ = {significant(math.degrees(found.place))}°)"))
     if radius is not None:
         parts.append(equal(indexed("ρ", "min"), 1e3 * radius.value, "mm"))

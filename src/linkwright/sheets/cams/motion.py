@@ -12,7 +12,7 @@ from linkwright.cams.result import CamDesign
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import significant
 from linkwright.laws.program import TURN
-from linkwright.pictures.picture import LEAST, TEXT, Picture, Runs, as_runs, indexed, joined, runs_width
+from linkwright.pictures.picture import MIN_TEXT, TEXT, Picture, Runs, as_runs, indexed, joined, runs_width
 from linkwright.sheets.cams.division import Phase, divided, phases
 from linkwright.sheets.cams.marks import graphical
 from linkwright.sheets.panel import Drawn, Panel, preferred
@@ -97,7 +97,7 @@ class MotionPanel(Panel):
         for k in range(math.ceil(ends[0] * each / step - 1e-9), math.floor(ends[1] * each / step + 1e-9) + 1):
             level = zero + k * step / each
             picture.line([(-1.2, level), (0.0, level)])
-            picture.text((-2.0, level - 0.5 * LEAST), significant(k * step), LEAST, "end")
+            picture.text((-2.0, level - 0.5 * MIN_TEXT), significant(k * step), MIN_TEXT, "end")
         picture.line(np.stack([x, zero + strip.values / each], axis=1), "thick")
 
     def _divisions(self, picture: Picture, wide: float, zero: float, each: float) -> None:
@@ -112,9 +112,9 @@ class MotionPanel(Panel):
                 [(x, zero), (x, zero + height)] if abs(height) > 0.3 else [(x, zero - 1.0), (x, zero)]
             )
             name = str(number % len(self.places))
-            half = 0.5 * runs_width(as_runs(name), LEAST)
+            half = 0.5 * runs_width(as_runs(name), MIN_TEXT)
             if x - half > last + 0.5:
-                picture.text((x, zero - 1.5 - LEAST), name, LEAST, "middle")
+                picture.text((x, zero - 1.5 - MIN_TEXT), name, MIN_TEXT, "middle")
                 last = x + half
 
     def _boundaries(self, picture: Picture, wide: float, between: tuple[float, float], bottom: float) -> None:
@@ -130,10 +130,10 @@ class MotionPanel(Panel):
         for phase in self.phases:
             symbol = indexed(*phase.symbol) if phase.symbol[0] else ()
             degrees = f"{significant(math.degrees(phase.angle), 5)}°"
-            whole = joined(symbol, f" = {degrees}") if symbol else as_runs(degrees)
+            full = joined(symbol, f" = {degrees}") if symbol else as_runs(degrees)
             span = wide * phase.angle / TURN
-            short = symbol and self._fits(symbol, span) and not self._fits(whole, span)
-            found.append(symbol if short else whole)
+            short = symbol and self._fits(symbol, span) and not self._fits(full, span)
+            found.append(symbol if short else full)
         return found
 
     def _fits(self, text: Runs, room: float) -> bool:

@@ -15,7 +15,7 @@ from linkwright.core.arrays import Complexes, Floats
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import Picture, Runs, as_runs, joined
 from linkwright.sheets.cams.division import Paper, divided, inverted, pair, pitch_of, widest_gap
-from linkwright.sheets.cams.marks import graphical, marked, said
+from linkwright.sheets.cams.marks import checks_text, graphical, marked
 from linkwright.sheets.machine import frame_pin, guide
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.words import Say, _
@@ -182,7 +182,7 @@ class ProfilePanel(Panel):
     def _caption(self, reduction: float) -> Sequence[Runs]:
         lines = [as_runs(self.say(_("Cam profile by inversion")))]
         lines.append(joined(graphical("l", 1e-3 * reduction, "m"), f"  ({scale_text(reduction)})"))
-        if checks := said(self.design):
+        if checks := checks_text(self.design):
             lines.append(checks)
         if self.design.cam.conjugate is not None:
             lines.append(as_runs(self.say(_("dashed: second cam of the pair"))))

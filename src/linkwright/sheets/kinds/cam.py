@@ -12,7 +12,7 @@ from linkwright.cams.result import CamDesign
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.cam import CamJoint
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.pictures.picture import LEAST, TEXT
+from linkwright.pictures.picture import MIN_TEXT, TEXT
 from linkwright.registry import listed
 from linkwright.sheets.cams.development import DevelopmentPanel
 from linkwright.sheets.cams.motion import MotionPanel
@@ -46,7 +46,7 @@ def cam(subject: Subject) -> Content:
         MotionPanel(design, say, _MOTION * min(paper.frame.width, paper.frame.height)),
         profile,
         data_table(design, say, 2 if wide else 1),
-        points_table(design, say, TEXT if large else LEAST, 14 if wide else 10),
+        points_table(design, say, TEXT if large else MIN_TEXT, 14 if wide else 10),
     )
     return Content(panels)
 

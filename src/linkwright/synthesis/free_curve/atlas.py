@@ -1,4 +1,4 @@
-"""The atlas: curves of many random linkages, made once and kept, and how a wanted curve is looked up in it.
+"""The atlas: curves of many random linkages, made once and cached, and how a wanted curve is looked up in it.
 
 A curve is M points even in arc length, centred, rms radius 1. The look-up is the normalised cross-correlation by fast
 Fourier transform with the wanted curve at several window lengths, forwards and backwards, mirrored or not: every
@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from linkwright.core.arrays import Complexes, Floats, Indices, Integers
 from linkwright.formula.cache import folder
 from linkwright.formula.threads import cores, spread_over
-from linkwright.synthesis.free_curve.curve_similarity import ANGLES, MARKS, POINTS, REACH, RINGS, TURNS
+from linkwright.synthesis.free_curve.curve_similarity import ANGLES, LANDMARKS, POINTS, REACH, RINGS, TURNS
 from linkwright.synthesis.free_curve.nodes import (
     Design,
     Draw,
@@ -37,13 +37,13 @@ from linkwright.synthesis.free_curve.target import Target, even_points, normal
 
 #: Points of a curve; lengths of the parts tried for open curves; steps of one byte in a coordinate.
 M, WINDOWS, STEP = 64, (16, 23, 33, 46, 64), 1 / 36
-#: Least sin² of a transmission angle in the atlas, positions of a draw, least radius of a curve in cranks.
+#: Minimum sin² of a transmission angle in the atlas, positions of a draw, minimum radius of a curve in cranks.
 LIMIT, POSITIONS, RADIUS = 0.08, 72, 0.15
 BLOCK = 4096
 #: So many curves nearest to a target come first; of the next so many are about as likely.
 NEAREST, EVENLY = 200, 1000
-#: Parts tried by distance, steps from one to the next; range of the crank where a whole curve lies on an open target.
-PARTS, WHOLE = ((15, 4), (22, 4), (32, 6), (45, 8), (64, 64)), 6.27
+#: Parts tried by distance, steps from one to the next; span of the crank where a complete curve is compared.
+PARTS, FULL_SPAN = ((15, 4), (22, 4), (32, 6), (45, 8), (64, 64)), 6.27
 #: Positions of a turn from which a part's crank angles are read, round to the first one; their angles, rad.
 CRANK = 144
 RING = np.arange(CRANK + 1) % CRANK
@@ -95,12 +95,12 @@ class Atlas:
         """How near each curve, or the best part of it, comes to the target in any order of its strokes."""
         tried = parts(target.closed)
         points = np.array([places(*each) for each in tried], dtype=np.int64)
-        tables, marks = _tables(target)
+        tables, landmarks = _tables(target)
         found = np.zeros((len(self.curves), 2))
 
         def match(first: int, last: int) -> None:
             curves, room = _complex(self.curves[first:last]), np.zeros(1024)
-            arrays = [each.ctypes.data for each in (tables, marks, room, found[first:last])]
+            arrays = [each.ctypes.data for each in (tables, landmarks, room, found[first:last])]
             kernels()(
                 "likeness", curves.ctypes.data, last - first, M, points.ctypes.data, len(tried), *arrays
             )
@@ -125,7 +125,7 @@ class Atlas:
         np.cumsum(np.abs(ring[1:] - ring[:-1]), out=along[1:])
         ends = np.array([lag, (lag + length) % M]) * (along[-1] / M)
         first, last = (np.interp(ends, along, ANGLE)).tolist()
-        span = max((last - first) % (2 * np.pi), 0.35) if length < M else WHOLE
+        span = max((last - first) % (2 * np.pi), 0.35) if length < M else FULL_SPAN
         return Design(nodes, np.append(x, (turn, first, span)), mirror)
 
 
@@ -170,14 +170,14 @@ def _tables(target: Target) -> tuple[Floats, Floats]:
     grid = np.multiply.outer(ring, np.exp(1j * angle))
     # a row holds the angles of one remainder by ANGLES / TURNS after each other, twice
     order = (np.arange(4)[:, None] + 4 * (np.arange(2 * TURNS) % TURNS)).ravel()
-    tables, marks = [], []
+    tables, landmarks = [], []
     for points in (target.points, target.points.conj()):
         tree = cKDTree(np.column_stack([points.real, points.imag]))
         far = tree.query(np.stack([grid.real, grid.imag], axis=-1))[0]
-        some = even_points(points, MARKS, target.closed)
+        some = even_points(points, LANDMARKS, target.closed)
         tables.append(far[:, order].ravel())
-        marks += [some.real, some.imag]
-    return np.concatenate(tables), np.concatenate(marks)
+        landmarks += [some.real, some.imag]
+    return np.concatenate(tables), np.concatenate(landmarks)
 
 
 def _windows(target: Target) -> Iterator[tuple[bool, Complexes]]:
@@ -185,15 +185,15 @@ def _windows(target: Target) -> Iterator[tuple[bool, Complexes]]:
     for length in (M,) if target.closed else WINDOWS:
         points = normal(even_points(target.points, length, target.closed))
         for mirror in (False, True):
-            seen = points.conj() if mirror else points
-            yield mirror, seen
-            yield mirror, seen[::-1]
+            oriented = points.conj() if mirror else points
+            yield mirror, oriented
+            yield mirror, oriented[::-1]
 
 
 def _match(
     curves: NDArray[np.int8], wanted: list[Any], filters: list[Any], closed: bool
 ) -> NDArray[np.float32]:
-    """Greatest correlation of each curve, the number of its window, and its first point, (3, N)."""
+    """Largest correlation of each curve, the number of its window, and its first point, (3, N)."""
     from scipy import fft
 
     z = _complex(curves).astype(np.complex64)
@@ -235,15 +235,15 @@ def make(level: int) -> Atlas:
         for dyads, count, draws in kinds
         for nodes in _structures(dyads, joints, slides, count, draw)
     ]
-    kept: list[tuple[Floats, NDArray[np.int8]] | None] = [None] * len(found)
+    signatures: list[tuple[Floats, NDArray[np.int8]] | None] = [None] * len(found)
     seeds = draw.integers(1 << 60, size=len(found))
 
     def work(first: int, last: int) -> None:
         for number in range(first, last):
-            kept[number] = _draws(*found[number], np.random.default_rng(seeds[number]))
+            signatures[number] = _draws(*found[number], np.random.default_rng(seeds[number]))
 
     spread_over(len(found), 1, cores(), work)
-    parts = [each for each in kept if each is not None]
+    parts = [each for each in signatures if each is not None]
     which = np.concatenate(
         [np.column_stack([np.full(len(x), k), np.arange(len(x))]) for k, (x, _) in enumerate(parts)]
     )
@@ -317,7 +317,7 @@ def _read(path: Path, level: int) -> Atlas:
 
 
 def _write(path: Path, atlas: Atlas) -> None:
-    """Beside it, then renamed."""
+    """Writes a temporary file next to it, then renames it."""
     path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
     widest = max(map(len, atlas.structures))
     structures = np.zeros((len(atlas.structures), 1 + widest), np.int64)

@@ -2,7 +2,7 @@
 
 A part is POINTS points of a curve, laid on the target by centroid and rms radius. Its mean distance from the target
 is read from a table in polar coordinates, for TURNS turns of the picture at once, because a turn shifts the angle; at
-the turn that is best so, the mean distance of MARKS points of the target from the nearest point of the part is added.
+the turn that is best so, the mean distance of LANDMARKS points of the target from the part is added.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from linkwright.formula.kernel import Reals, Wholes, load, maximum, minimum, roo
 from linkwright.synthesis.free_curve.kernels import TURN
 
 #: Points of a part, turns tried, points of the target; angles and rings of the table, radius that it reaches to.
-POINTS, TURNS, MARKS, ANGLES, RINGS, REACH = 24, 16, 24, 64, 48, 3.0
+POINTS, TURNS, LANDMARKS, ANGLES, RINGS, REACH = 24, 16, 24, 64, 48, 3.0
 #: Entries of the table's row of one ring and of one table; π/2 and π.
 ROW, TABLE, QUARTER, HALF_TURN = 128, 6144, 1.5707963267948966, 3.141592653589793
 
@@ -79,21 +79,21 @@ def distance_back(x: Reals, y: Reals, turn: int, mx: Reals, my: Reals, room: Rea
         store(room, t, c * load(x, t) - s * load(y, t))
         store(room, POINTS + t, s * load(x, t) + c * load(y, t))
     sum_ = spread(0.0)
-    for t in range(0, MARKS, 8):
+    for t in range(0, LANDMARKS, 8):
         px, py, low = load(mx, t), load(my, t), spread(1e18)
         for k in range(POINTS):
             ux = px - room[k]
             uy = py - room[POINTS + k]
             low = minimum(low, ux * ux + uy * uy)
         sum_ += root(low)
-    return total(sum_) / MARKS
+    return total(sum_) / LANDMARKS
 
 
 def likeness(
-    curves: Reals, count: int, points: int, parts: Wholes, number: int, tables: Reals, marks: Reals, room: Reals,
+    curves: Reals, count: int, points: int, parts: Wholes, number: int, tables: Reals, landmarks: Reals, room: Reals,
     out: Reals,
 ) -> None:  # fmt: skip
-    """Least distance over all parts, turns and both images of each curve, and (part · 2 + image) · TURNS + turn."""
+    """Minimum distance over all parts, turns and both images of each curve, and (part · 2 + image) · TURNS + turn."""
     x, y, sums, work = room, room + POINTS, room + 2 * POINTS, room + 2 * POINTS + 4 * TURNS
     for each in range(count):
         best, which = 1e9, 0
@@ -109,7 +109,12 @@ def likeness(
                 there = sums[image * TURNS + turn] / POINTS
                 if there < best:
                     both = there + distance_back(
-                        x, y, turn, marks + 2 * image * MARKS, marks + (2 * image + 1) * MARKS, work
+                        x,
+                        y,
+                        turn,
+                        landmarks + 2 * image * LANDMARKS,
+                        landmarks + (2 * image + 1) * LANDMARKS,
+                        work,
                     )
                     if both < best:
                         best = both

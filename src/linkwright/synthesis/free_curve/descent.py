@@ -19,7 +19,7 @@ from linkwright.synthesis.free_curve.distances import (
     target_to_curve,
     weigh,
 )
-from linkwright.synthesis.free_curve.kernels import FAR, LEAST, TURN, deviation, place
+from linkwright.synthesis.free_curve.kernels import FAR, MIN_SINE, TURN, deviation, place
 
 #: Step of differences; share of the curvature added to it; steps after which a descent takes it anew.
 STEP, DAMPING, FRESH = 1e-5, 0.003, 30
@@ -191,7 +191,7 @@ def newton(H: Reals, g: Reals, d: int, last: float, s: Reals) -> float:
 def direction(H: Reals, g: Reals, d: int, closed: int, span: float, s: Reals) -> float:
     """The step s of a descent and the slope along it; the crank's range stays where a step would leave its bounds."""
     way = newton(H, g, d, g[d - 1], s)
-    if closed == 0 and ((span >= TURN and way > 0.0) or (span <= LEAST and way < 0.0)):
+    if closed == 0 and ((span >= TURN and way > 0.0) or (span <= MIN_SINE and way < 0.0)):
         newton(H, g, d, g[d - 1] + way / H[d * d - 1], s)
         s[d - 1] = 0.0
     slope = 0.0
@@ -230,7 +230,7 @@ def descend(
                 for a in range(d):
                     xn[a] = x[a] + t * s[a]
                 if closed == 0:
-                    xn[d - 1] = min(max(xn[d - 1], LEAST), TURN)
+                    xn[d - 1] = min(max(xn[d - 1], MIN_SINE), TURN)
                 fn = deviation(nodes, count, n, N, closed, xn, target, m, options, rest, gn)
                 accepted = 0
                 if fn > f + 1e-4 * t * slope:

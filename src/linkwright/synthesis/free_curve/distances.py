@@ -1,6 +1,6 @@
 """How far a curve lies from the wanted one (kernels): lengths, centroid, nearest points both ways.
 
-Nearest points are sought on every segment. Those beside the nearest corner, or the corner of a table's cell, are not
+Nearest points are sought on every segment. Those next to the nearest corner, or the corner of a table's cell, are not
 always the nearest: where strokes meet or cross, distances would jump, and descents end at jumps.
 """
 

@@ -26,8 +26,8 @@ class Drawing:
     Args:
         along: share of the curve's length that is drawn in the direction of the given points, without strokes that
             these go both ways; 1: as given, 0: all backwards, between: strokes are drawn in another direction.
-        fastest: greatest speed of the drawing point at one turn of the crank per second, m/s.
-        unevenness: greatest over mean speed on the drawn part.
+        fastest: maximum speed of the drawing point at one turn of the crank per second, m/s.
+        unevenness: maximum over mean speed on the drawn part.
     """
 
     along: float
@@ -38,25 +38,25 @@ class Drawing:
 def drawing(placed: Placed) -> Drawing:
     """Order and speed, from positions at even crank angles."""
     target, closed = placed.target, placed.target.closed
-    curve, given = placed.curve(POSITIONS) - target.centre, target.radius * target.points
+    curve, target_points = placed.curve(POSITIONS) - target.centre, target.radius * target.points
     if closed:
-        curve, given = np.append(curve, curve[0]), np.append(given, given[0])
+        curve, target_points = np.append(curve, curve[0]), np.append(target_points, target_points[0])
     steps = np.abs(np.diff(curve))
     span = 2 * np.pi if closed else float(placed.design.x[-1])
     speed = steps / (span / len(steps)) * 2 * np.pi
-    with_it, against = _either_way(curve, given, target.radius)
+    with_it, against = _either_way(curve, target_points, target.radius)
     forward = steps[with_it < against - UNLIKE].sum()
     backward = steps[against < with_it - UNLIKE].sum()
     along = float(forward / (forward + backward)) if forward + backward > BOTH * steps.sum() else 1.0
     return Drawing(along, float(speed.max()), float(speed.max() / speed.mean()))
 
 
-def _either_way(curve: Complexes, given: Complexes, radius: float) -> tuple[Floats, Floats]:
+def _either_way(curve: Complexes, target_points: Complexes, radius: float) -> tuple[Floats, Floats]:
     """How far each step of the curve is from the nearest stroke that goes its way, and from one that goes against."""
     from scipy.spatial import cKDTree
 
     places, ways = _pieces(curve, radius)
-    tree = cKDTree(np.hstack(_pieces(given, radius)))
+    tree = cKDTree(np.hstack(_pieces(target_points, radius)))
     with_it, against = (tree.query(np.hstack([places, sign * ways]))[0] for sign in (1, -1))
     return with_it, against
 

@@ -124,8 +124,8 @@ def lengths(
     low, high = room[0], room[1]
     if low < 0.02 * high or high - low < 1e-4 * high:
         return -1.0
-    both, apart = high * (1.03 + 1.2 * u * u), low * 0.95 * (2.0 * v - 1.0)
-    first, second = 0.5 * (both + apart), 0.5 * (both - apart)
+    total, difference = high * (1.03 + 1.2 * u * u), low * 0.95 * (2.0 * v - 1.0)
+    first, second = 0.5 * (total + difference), 0.5 * (total - difference)
     more[2] = log(first)
     more[3] = log(second)
     found = place_dyad(N, first, second, side, px, py, qx, qy, room, room + N)
@@ -224,7 +224,7 @@ def promises(
     if lay(nodes, count, n, closed, x, free, s + 4 * WIDE, s + 5 * WIDE, at, s, s + WIDE) < 0.0:
         return -1.0
     directions(n, closed, target, m, SOFT, s)
-    whole = dot(rest, rest, rows)
+    rest_squared = dot(rest, rest, rows)
     known = own_columns(nodes, count, n, closed, x, m, s, Q)
     for k in range(known):
         take_off(rest, dot(rest, Q + k * rows, rows), Q + k * rows, rows)
@@ -242,8 +242,8 @@ def promises(
                 along = dot(one, rest, rows)
                 gain += along * along
         counts[k] = size
-        gains[k] = gain / whole
-    return dot(rest, rest, rows) / whole
+        gains[k] = gain / rest_squared
+    return dot(rest, rest, rows) / rest_squared
 
 
 def misses(

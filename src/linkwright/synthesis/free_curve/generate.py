@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes
 from linkwright.core.progress import Progress, current_progress
-from linkwright.designs.finished_parts import RESUME, surrounding
+from linkwright.designs.checkpoints import RESUME, current_checkpoints
 from linkwright.synthesis.free_curve.curve_file import read_curve
 from linkwright.synthesis.free_curve.drawing_order import drawing
 from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
@@ -29,21 +29,21 @@ from linkwright.synthesis.result import (
     Derivation,
     Synthesis,
     SynthesisError,
-    whole,
+    require_integers,
 )
 from linkwright.words import _
 
 #: Positions of a candidate's curve.
 SHOWN = 721
 #: Coordinates of a curve lie below this, m; points nearer than this share of them (of 1 m at least) are one place.
-FARTHEST, LEAST = 1e9, 1e-12
-#: Designs are alike whose error (share), transmission angle (rad) and size (rms radii) differ less.
-ALIKE = 0.02, 0.03, 0.2
+FARTHEST, SMALLEST = 1e9, 1e-12
+#: Designs count as equal whose error (relative), transmission angle (rad) and size (rms radii) differ by less.
+SLACK = 0.02, 0.03, 0.2
 #: What all linkages found keep to, and that none does: where the input turns fully, and where it may swing.
 TURNING = (
     _(
         "The crank turns fully; transmission angle of every dyad at least {angle} deg over the "
-        "whole turn, every joint within {size} rms radii of the curve's centroid.",
+        "full turn, every joint within {size} rms radii of the curve's centroid.",
         code="synthesize.free_curve.turning",
     ),
     _(
@@ -109,11 +109,11 @@ def free_curve(
         joints: most joints (pivots, pins, slides, points of links and the drawing point), 5 to 12: a four-bar, a
             slider-crank and a crank with a swinging block have 5, a six-bar up to 8; with 10 there are eight- and
             ten-bars, with 12 twelve-bars as well.
-        transmission_angle: least of every dyad, rad.
-        size: greatest distance of any joint from the curve's centroid, in rms radii of the curve.
-        turning: the crank turns fully, and both demands hold over its whole turn; without it an open curve may be
+        transmission_angle: minimum of every dyad, rad.
+        size: maximum distance of any joint from the curve's centroid, in rms radii of the curve.
+        turning: the crank turns fully, and both demands hold over its full turn; without it an open curve may be
             drawn by an input that swings, and they hold while it draws.
-        error: an error that is good enough: linkages within it come with the fewest links first; 0: the least
+        error: an error that is good enough: linkages within it come with the fewest links first; 0: the smallest
             error first.
         seconds: time of the search on all cores; more time finds better linkages, as a rule: draws depend on it.
         count: candidates wanted; seed: of the search. Where the clock ends the search depends on the machine, so
@@ -123,9 +123,9 @@ def free_curve(
     Returns:
         Candidates none of which is beaten by another in error, number of links, transmission angle and size at
         once. ``error``: mean nearest distance from curve to drawn curve plus that from drawn curve to curve, in rms
-        radii of the curve (both even in arc length; as they lie, the curve's centroid and rms radius kept);
-        ``worst``: the greatest nearest distance, the same unit. ``values``: joints, links, size, the share drawn in
-        the given direction, the greatest speed at one turn of the crank per second. An open curve is drawn between
+        radii of the curve (both even in arc length; as they lie, the curve's centroid and rms radius unchanged);
+        ``worst``: the largest nearest distance, the same unit. ``values``: joints, links, size, the share drawn in
+        the given direction, the maximum speed at one turn of the crank per second. An open curve is drawn between
         the ends of the model's cycle; a crank that ``turns`` goes on from there.
 
     Raises:
@@ -133,21 +133,21 @@ def free_curve(
             (``nearest``).
     """
     curve, closes = _curve(points, file, file_unit, closed)
-    whole(count=count)
-    whole(seed=seed, least=0)
-    whole(joints=joints, least=JOINTS[0])
+    require_integers(count=count)
+    require_integers(seed=seed, minimum=0)
+    require_integers(joints=joints, minimum=JOINTS[0])
     if joints > JOINTS[-1]:
         raise SynthesisError(
             _(
-                "a search with at most {given} joints cannot be made; ask for 5 (four-bar, slider-crank) "
+                "a search with at most {value} joints cannot be made; ask for 5 (four-bar, slider-crank) "
                 "to {most}",
                 code="synthesize.free_curve.joints",
-                given=joints,
+                value=joints,
                 most=JOINTS[-1],
             )
         )
     if not 0 < transmission_angle < math.pi / 2:
-        raise SynthesisError(TRANSMISSION_RANGE.format(given=f"{math.degrees(transmission_angle):g}"))
+        raise SynthesisError(TRANSMISSION_RANGE.format(value=f"{math.degrees(transmission_angle):g}"))
     positive(size=size, seconds=seconds)
     not_negative(error=error)
     target = Target(curve, closes, transmission_angle, size, turning)
@@ -171,14 +171,14 @@ def _curve(
     if not far < FARTHEST:
         raise SynthesisError(
             _(
-                "the curve has a coordinate of {given} m; give coordinates below {most} m (see its unit)",
+                "the curve has a coordinate of {value} m; give coordinates below {most} m (see its unit)",
                 code="synthesize.free_curve.far",
-                given=f"{far:.3g}",
+                value=f"{far:.3g}",
                 most=f"{FARTHEST:g}",
             )
         )
     z = z[np.append(True, np.abs(np.diff(z)) > 0)]
-    if np.abs(z - z[0]).max() < LEAST * max(1.0, far):
+    if np.abs(z - z[0]).max() < SMALLEST * max(1.0, far):
         raise SynthesisError(PATH_ONE_PLACE)
     joined = abs(z[-1] - z[0]) < 1e-9 * np.abs(z - z[0]).max()
     closes = joined if closed is None else closed
@@ -190,21 +190,21 @@ def _ranked(
 ) -> Synthesis:
     found = [(each, _facts(each, target)) for each in designs]
     within = [(each, facts) for each, facts in found if Placed(each, target).keeps()]
-    kept_to, none = TURNING if target.turning else SWINGING
+    constraint_note, none = TURNING if target.turning else SWINGING
     asked = {"angle": f"{math.degrees(target.least):g}", "size": f"{target.largest:g}"}
     notes = [
-        kept_to.format(**asked),
+        constraint_note.format(**asked),
         _(
             "drawn_as_given: 1 where the curve is drawn in the order of its points, 0 backwards; "
-            "fastest_at_1_Hz: greatest speed at one turn per second, m/s.",
+            "fastest_at_1_Hz: maximum speed at one turn per second, m/s.",
             code="synthesize.free_curve.measure",
         ),
     ]
-    kept = surrounding()
+    cache = current_checkpoints()
     if search.stopped and not within:
         raise KeyboardInterrupt
-    if search.stopped and kept is not None:
-        notes.append(RESUME.format(path=kept.left()))
+    if search.stopped and cache is not None:
+        notes.append(RESUME.format(path=cache.left()))
     counts = {"attempts": search.attempts, "designs": len(found)}
     derivation = FreeCurveDerivation(
         curve, target.closed, target.centre, target.radius, target.least, target.largest, target.turning,
@@ -233,11 +233,11 @@ def _ranked(
     if error and not good:
         raise SynthesisError(
             _(
-                "no linkage was found within the error {given}; the least is {least} (shown); allow more "
+                "no linkage was found within the error {value}; the smallest found is {minimum} (shown); allow more "
                 "joints or more seconds",
                 code="synthesize.free_curve.error",
-                given=f"{error:g}",
-                least=f"{made[0].error:.3g}",
+                value=f"{error:g}",
+                minimum=f"{made[0].error:.3g}",
             ),
             result,
         )
@@ -248,20 +248,21 @@ Facts = tuple[float, int, float, float]
 
 
 def _facts(design: Design, target: Target) -> Facts:
-    """Error, links, negative least transmission angle (rad), size."""
+    """Error, links, negative minimum transmission angle (rad), size."""
     placed = Placed(design, target)
     return target.deviation(design)[0], design.links, -placed.transmission_angle(), placed.size()
 
 
 def _front(found: list[tuple[Design, Facts]]) -> list[tuple[Design, Facts]]:
-    """Without designs that another one equals or beats in all (within ``ALIKE``), the least error first."""
+    """Without designs that another one equals or beats in all (within ``SLACK``), the smallest error first."""
     found = sorted(found, key=lambda each: each[1])
-    kept: list[tuple[Design, Facts]] = []
+    front: list[tuple[Design, Facts]] = []
     for each in found:
-        worse = np.array(each[1]) * (1 + ALIKE[0], 1, 1, 1) + (0.0, 0.0, ALIKE[1], ALIKE[2])
-        if not any((np.array(facts) <= worse).all() for _unused, facts in kept):
-            kept.append(each)
-    return kept
+        error, angle, size = SLACK
+        worse = np.array(each[1]) * (1 + error, 1, 1, 1) + (0.0, 0.0, angle, size)
+        if not any((np.array(facts) <= worse).all() for _unused, facts in front):
+            front.append(each)
+    return front
 
 
 def _spread(front: list[tuple[Design, Facts]], count: int) -> list[tuple[Design, Facts]]:

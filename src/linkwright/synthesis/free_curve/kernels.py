@@ -1,17 +1,17 @@
 """How far a linkage's curve lies from a wanted one, with its exact gradient, and the descent along it (kernels).
 
-A linkage is a list of nodes, four whole numbers each: kind, two earlier nodes i and j, branch. Node 0 is the crank's
+A linkage is a list of nodes, four integers each: kind, two earlier nodes i and j, branch. Node 0 is the crank's
 pivot in the origin, node 1 its pin at distance 1; every further node has two numbers of x: PIVOT (its place), DYAD
 (logarithms of its lengths to i and j, on the side ``branch``), POINT (complex w: Pi + w (Pj - Pi), a point of a
 link), SLIDER (logarithm of its distance from i, direction of the guide through j, which is a GUIDE: like a pivot, but
 no pin), BLOCK (logarithm of its distance from i along the rod that slides through the block at j, distance of that
-line from i). The last node draws. Every node is one joint: of a SLIDER the GUIDE stands for the slide, of a BLOCK the
+line from i). The last node draws. Every node is one joint: of a SLIDER the GUIDE represents the slide, of a BLOCK the
 node itself. After the nodes x holds the turn of the picture, the first crank angle and the range of the crank (the
 last two for open curves only).
 
 Objective: mean nearest distance from curve to target plus that from target to curve, each √(d² + ε²), after the
 curve has been laid on the target by its centroid and rms radius (weighted by arc length), plus κ times the mean over
-the whole turn of max(0, 1 - sin² μ / sin² μ₀)² of every dyad's transmission angle μ, and of max(0, (r/r₀)² - 1)² of
+the full turn of max(0, 1 - sin² μ / sin² μ₀)² of every dyad's transmission angle μ, and of max(0, (r/r₀)² - 1)² of
 every node's distance r from the centroid. Gradient backwards: nearest points (envelope theorem), alignment, weights,
 then the nodes. For a dyad with unit vectors u = (X - P)/a, v = (X - Q)/b: u·dX = u·dP + da, v·dX = v·dQ + db, so its
 adjoint needs two cross products over u × v.
@@ -51,8 +51,8 @@ from linkwright.synthesis.free_curve.sliding import (
 
 PIVOT, GUIDE, POINT, DYAD, SLIDER, BLOCK = 0, 1, 2, 3, 4, 5
 TURN, FAR = 6.283185307179586, 1e9
-#: Least range of the crank on an open curve, rad.
-LEAST = 0.3
+#: Minimum range of the crank on an open curve, rad.
+MIN_SINE = 0.3
 
 
 def turn_crank(begin: int, end: int, first: float, step: float, x: Reals, y: Reals) -> None:
@@ -78,14 +78,14 @@ def place_crank(n: int, N: int, first: float, span: float, closed: int, x: Reals
 def place_dyad(
     N: int, a: float, b: float, side: float, px: Reals, py: Reals, qx: Reals, qy: Reals, x: Reals, y: Reals
 ) -> float:
-    """Common points of two circles; gives the least sin² of the transmission angle, negative where they miss."""
+    """Common points of two circles; returns the minimum sin² of the transmission angle, negative where they miss."""
     low = spread(1.0)
-    scale, apart = 1.0 / (4.0 * a * a * b * b), a * a - b * b
+    scale, difference = 1.0 / (4.0 * a * a * b * b), a * a - b * b
     for t in range(0, N, 8):
         ux = load(qx, t) - load(px, t)
         uy = load(qy, t) - load(py, t)
         square = ux * ux + uy * uy
-        along = square + apart
+        along = square + difference
         across = 4.0 * a * a * square - along * along
         low = minimum(low, across * scale)
         h = side * root(maximum(across, 0.0))
@@ -107,7 +107,7 @@ def place_point(
 
 
 def place(nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, X: Reals, Y: Reals) -> float:
-    """Positions (count, N) of all nodes; gives the least sin² of a transmission angle, negative: does not close."""
+    """Positions (count, N) of all nodes; returns the minimum sin² of a transmission angle, negative where open."""
     e = 2 * (count - 2)
     first, span = x[e + 1], x[e + 2]
     if closed == 1:
@@ -323,7 +323,7 @@ def deviation(
 ) -> float:  # fmt: skip
     """The objective and its gradient g; ``options``: sin² μ₀, r₀, κ, ε². FAR where the linkage does not turn."""
     e = 2 * (count - 2)
-    if closed == 0 and (x[e + 2] < LEAST or x[e + 2] > TURN):
+    if closed == 0 and (x[e + 2] < MIN_SINE or x[e + 2] > TURN):
         return FAR
     X, Y, gX, gY = room, room + count * N, room + 2 * count * N, room + 3 * count * N
     if place(nodes, count, n, N, closed, x, X, Y) < 0.0:

@@ -45,23 +45,23 @@ class Placed:
         return -angle if self.design.mirror else angle
 
     def size(self) -> float:
-        """Greatest distance of a node from the curve's centroid where the demands hold, in rms radii."""
+        """Maximum distance of a node from the curve's centroid where the demands hold, in rms radii."""
         paths = node_paths(self.design.nodes, self.design.x, self.target.judged(self.design, 721))[0]
         return float(np.abs(paths - self.middle).max() * abs(self.factor) / self.target.radius)
 
     def transmission_angle(self) -> float:
-        """Least one of every dyad where the demands hold, rad; 0 where one does not close."""
-        return self._least(self.target.judged(self.design, TURN + 1))
+        """Minimum over all dyads where the demands hold, rad; 0 where one does not close."""
+        return self._smallest_angle(self.target.judged(self.design, TURN + 1))
 
     def over_a_turn(self) -> float:
-        """The same over a whole turn of the crank."""
-        return self._least(np.linspace(0, 2 * np.pi, TURN + 1))
+        """The same over a full turn of the crank."""
+        return self._smallest_angle(np.linspace(0, 2 * np.pi, TURN + 1))
 
     def turns(self) -> bool:
         """Whether the crank turns fully within the demand."""
         return self.target.turning or self.over_a_turn() >= self.target.least
 
-    def _least(self, crank: Floats) -> float:
+    def _smallest_angle(self, crank: Floats) -> float:
         return math.asin(math.sqrt(max(node_paths(self.design.nodes, self.design.x, crank)[1], 0.0)))
 
     def keeps(self) -> bool:

@@ -52,8 +52,8 @@ def with_dyad(design: Design, draw: Draw, most: int, turning: bool = True) -> De
         rows.append((POINT, i, j, 1))
         values = [ratio.real, ratio.imag]
         place = paths[i] + ratio * (paths[j] - paths[i])
-    apart = np.abs(paths[last] - place)
-    low, high = float(apart.min()), float(apart.max())
+    distance = np.abs(paths[last] - place)
+    low, high = float(distance.min()), float(distance.max())
     if not (low > 0.02 * high and high - low > 1e-6 * high):
         return None
     both, difference = high * (1.03 + 1.2 * draw.random() ** 2), low * 0.95 * draw.uniform(-1, 1)

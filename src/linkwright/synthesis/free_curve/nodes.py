@@ -92,11 +92,11 @@ def flat(rows: list[Node]) -> Integers:
 
 
 def node_paths(nodes: Integers, x: Floats, crank: Floats) -> tuple[Complexes, float]:
-    """Positions (joints, n) of all nodes at crank angles (n,), and the least sin² of a transmission angle.
+    """Positions (joints, n) of all nodes at crank angles (n,), and the minimum sin² of a transmission angle.
 
     A dyad that does not close gives a negative number and its point on the line of its ends.
     """
-    count, least = len(nodes) // 4, 1.0
+    count, smallest_sine = len(nodes) // 4, 1.0
     paths = np.zeros((count, len(crank)), complex)
     paths[1] = np.exp(1j * crank)
     for k in range(2, count):
@@ -110,23 +110,23 @@ def node_paths(nodes: Integers, x: Floats, crank: Floats) -> tuple[Complexes, fl
             way = np.exp(1j * b)
             from_guide = (paths[i] - paths[j]) * way.conjugate()
             square = np.exp(2 * a) - from_guide.imag**2
-            least = min(least, float(np.min(square) * np.exp(-2 * a)))
+            smallest_sine = min(smallest_sine, float(np.min(square) * np.exp(-2 * a)))
             paths[k] = paths[j] + way * (from_guide.real + branch * np.sqrt(np.maximum(square, 0)))
         elif kind == BLOCK:
             span = paths[j] - paths[i]
             square = np.abs(span) ** 2
-            least = min(least, float(np.min(1 - b**2 / square)))
+            smallest_sine = min(smallest_sine, float(np.min(1 - b**2 / square)))
             along = branch * np.sqrt(np.maximum(square - b**2, 0))
             paths[k] = paths[i] + np.exp(a) * span * (along - 1j * b) / square
         else:
             first, second, span = np.exp(a), np.exp(b), paths[j] - paths[i]
-            apart = np.abs(span)
-            cosine = (first**2 + second**2 - apart**2) / (2 * first * second)
-            least = min(least, float(1 - np.max(cosine**2)))
-            along = (first**2 + apart**2 - second**2) / (2 * first * apart)
+            distance = np.abs(span)
+            cosine = (first**2 + second**2 - distance**2) / (2 * first * second)
+            smallest_sine = min(smallest_sine, float(1 - np.max(cosine**2)))
+            along = (first**2 + distance**2 - second**2) / (2 * first * distance)
             across = np.sqrt(np.maximum(1 - along**2, 0))
-            paths[k] = paths[i] + first * span / apart * (along + 1j * branch * across)
-    return paths, least
+            paths[k] = paths[i] + first * span / distance * (along + 1j * branch * across)
+    return paths, smallest_sine
 
 
 def turned_paths(nodes: Integers, x: Floats, count: int, turning: bool = True) -> Complexes | None:

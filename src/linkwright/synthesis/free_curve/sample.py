@@ -17,7 +17,7 @@ from linkwright.synthesis.free_curve.sliding import place_block, place_slider
 
 
 def spans(N: int, px: Reals, py: Reals, qx: Reals, qy: Reals, out: Reals) -> None:
-    """Least and greatest distance of two nodes, out[0:2]."""
+    """Smallest and largest distance of two nodes, out[0:2]."""
     low, high = 1e18, 0.0
     for t in range(N):
         ux, uy = qx[t] - px[t], qy[t] - py[t]
@@ -100,10 +100,14 @@ def draw_linkage(nodes: Wholes, count: int, N: int, x: Reals, r: Reals, limit: f
             spans(N, X + i, Y + i, X + j, Y + j, out)
             if out[0] < 0.02 * out[1]:
                 return -1.0
-            both, apart = out[1] * (1.02 + 1.5 * a * a), out[0] * 0.98 * (2.0 * b - 1.0)
-            if both - sqrt(apart * apart) < 0.16:
+            total, difference = out[1] * (1.02 + 1.5 * a * a), out[0] * 0.98 * (2.0 * b - 1.0)
+            if total - sqrt(difference * difference) < 0.16:
                 return -1.0
-            first, second, side = 0.5 * (both + apart), 0.5 * (both - apart), 1.0 * nodes[4 * k + 3]
+            first, second, side = (
+                0.5 * (total + difference),
+                0.5 * (total - difference),
+                1.0 * nodes[4 * k + 3],
+            )
             x[2 * k - 4] = log(first)
             x[2 * k - 3] = log(second)
             found = place_dyad(N, first, second, side, X + i, Y + i, X + j, Y + j, X + own, Y + own)

@@ -3,7 +3,7 @@
 A level lets many starts from its atlas descend, the best of them further, and keeps a pool of good designs of
 different structure that err in different places. Until its share of the time is over, an attempt shakes a member of
 the pool, or hangs one more dyad on a member of the pools below, parts joints while there is room, and descends.
-Eight-bars of 8 joints are a level of their own beside the six-bars. A pool soon turns about what it has found, so all
+Eight-bars of 8 joints are a level of their own. A pool soon turns about what it has found, so all
 levels begin again in rounds, from other starts; at last the designs of all rounds go on together. The best are
 polished at fine positions, with the penalties weighted so that the demands hold.
 """
@@ -25,8 +25,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Integers
 from linkwright.core.progress import Progress
+from linkwright.designs.checkpoints import checkpointed, current_checkpoints, identity
 from linkwright.designs.cluster import current, hands, in_turn
-from linkwright.designs.finished_parts import identity, once, surrounding
 from linkwright.formula.threads import chunks, cores
 from linkwright.synthesis.free_curve.atlas import NEAREST, Laid, atlas
 from linkwright.synthesis.free_curve.kernels import FAR
@@ -53,7 +53,7 @@ class Level(NamedTuple):
 
 SIX_BARS, SLIDING = 1, 4
 ONE_DYAD = 0, SLIDING
-#: Eight-bars of 8 joints have a pool apart from six-bars, linkages of one sliding dyad from four-bars, as in one pool
+#: Eight-bars of 8 joints have another pool than six-bars, linkages of one sliding dyad from four-bars, as in one pool
 #: each would crowd out the other.
 LEVELS = (
     Level(5, 0, 0.5), Level(5, SLIDING, 0.5, apart=True), Level(8, SIX_BARS, 3.5),
@@ -68,7 +68,7 @@ BEGUN = ((0.5, 60, COARSE), (0.25, 30, MIDDLE))
 ROUND, MERGED, ENDED = 4.0, 0.85, 0.96
 POOL = 30
 #: Seconds of attempts between two looks at the pool, here and on a cluster; seconds between two times that all pools
-#: are kept.
+#: are stored.
 BATCH, AWAY, SAVED = 0.2, 1.0, 2.0
 #: Chance that a design with room for one more joint gets one.
 PARTED = 0.8
@@ -78,11 +78,11 @@ HUNG = 2, 3
 DRAWS = 96
 #: Share of the attempts that close that goes on after each of two steps, among this many recent ones.
 GOES_ON, RECENT = (0.5, 0.25), 200
-#: Designs err alike whose misses have a product above this; as many of them stay in a pool.
+#: Designs have similar errors whose misses have a product above this; as many of them stay in a pool.
 NICHE, CROWD = 0.9, 4
 #: Weight of the penalties in the descent after which a design comes into a pool.
 STRICT = 10.0
-#: Weight of the penalties, and the angle (rad) above the least one, in the steps of the polish; the angle where a
+#: Weight of the penalties, and the angle (rad) above the minimum, in the steps of the polish; the angle where a
 #: demand is lacking after them.
 POLISH = ((10.0, 0.005), (300.0, 0.003), (10000.0, 0.0015))
 LACKING = 0.003, 0.003, 0.006
@@ -90,7 +90,7 @@ LACKING = 0.003, 0.003, 0.006
 
 @dataclass
 class Pool:
-    """The best designs so far, few of one structure or erring alike, none twice."""
+    """The best designs so far, few of one structure or with similar errors, none twice."""
 
     designs: list[Design] = field(default_factory=list)
     tried: tuple[deque[float], ...] = field(
@@ -108,8 +108,8 @@ class Pool:
         better = [one for one in self.designs if one.value <= design.value]
         if not design.value < self.worst or any(_same(one, design) for one in better):
             return
-        kept: list[int] = []
-        alike: dict[tuple[bytes, bool], int] = {}
+        selected: list[int] = []
+        per_topology: dict[tuple[bytes, bool], int] = {}
         worse = [one for one in self.designs[len(better) :] if not _same(design, one)]
         order = [*better, design, *worse]
         errs = np.array([each.misses for each in order])
@@ -117,12 +117,12 @@ class Pool:
         for row, each in enumerate(order):
             key = each.nodes.tobytes(), each.mirror
             most = 12 if each.joints == JOINTS[0] else 3
-            if alike.get(key, 0) < most and sum(near[row][k] for k in kept) < CROWD:
-                kept.append(row)
-                alike[key] = alike.get(key, 0) + 1
+            if per_topology.get(key, 0) < most and sum(near[row][k] for k in selected) < CROWD:
+                selected.append(row)
+                per_topology[key] = per_topology.get(key, 0) + 1
             elif each is design:
                 return
-        self.designs = [order[row] for row in kept[:POOL]]
+        self.designs = [order[row] for row in selected[:POOL]]
 
     @property
     def worst(self) -> float:
@@ -135,7 +135,7 @@ class Pool:
 
 
 def _bare(designs: list[Design]) -> list[tuple[Integers, Floats, bool, float]]:
-    """Designs as they are kept: without what is found again at once."""
+    """Designs as they are stored: without what is quickly recomputed."""
     return [(each.nodes, each.x, each.mirror, each.value) for each in designs]
 
 
@@ -149,7 +149,7 @@ def _same(a: Design, b: Design) -> bool:
 
 
 def _lacking(pools: dict[Level, Pool], level: Level, joints: tuple[int, ...]) -> list[Pool]:
-    """Pools whose designs lack one of these numbers of joints to have those of a level that is not apart."""
+    """Pools whose designs lack one of these numbers of joints to have those of a level without a pool of its own."""
     return [
         pool
         for each, pool in pools.items()
@@ -169,7 +169,7 @@ class Stage(NamedTuple):
 class Search:
     """One search for a target, by the threads of this machine or the workers of the surrounding ``on_cluster``.
 
-    A surrounding ``kept_in`` keeps all pools, with the time that was spent, every ``SAVED`` seconds.
+    A surrounding ``checkpointing`` stores all pools, with the time that was spent, every ``SAVED`` seconds.
 
     Args:
         target: the curve with its demands.
@@ -210,18 +210,20 @@ class Search:
                 pools = [*self.best.values(), *self.pools.values()]
                 found = [each for pool in pools for each in pool.designs[:1]]
             own = (part for each in found for part in (each.nodes, each.x, each.mirror))
-            made = once(lambda: _bare(self._each(found, polished)), lambda: (self.key, "polished", *own))
+            made = checkpointed(
+                lambda: _bare(self._each(found, polished)), lambda: (self.key, "polished", *own)
+            )
             return [each for each in (Design(*one) for one in made) if each.value < FAR]
 
     def _begin(self) -> None:
-        """Goes on from what is kept; looks the atlases up from which there will be starts."""
+        """Resumes from the checkpoint; looks up the atlases that provide starts."""
         self.draw, self.stage, self.pools = np.random.default_rng(self.seed), 0, dict[Level, Pool]()
         self.best, self.hands = {level: Pool() for level in self.levels}, hands(self.client)
-        self.saved, kept = self.begin, surrounding()
+        self.saved, cache = self.begin, current_checkpoints()
         self.rounds = max(
             1, round(self.seconds * self.hands / (ROUND * sum(level.part for level in self.levels)))
         )
-        over = None if kept is None else kept.resumed(self.key, self._resume)
+        over = None if cache is None else cache.resumed(self.key, self._resume)
         used = {each.atlas for each in self.levels if self.stage < self.rounds * len(self.levels)} - {None}
         self.matches = {
             each: (atlas(each).nearest if each in ONE_DYAD else atlas(each).matches)(self.target)
@@ -233,7 +235,7 @@ class Search:
             self.begin = time.perf_counter() - over * self.seconds
 
     def _resume(self, left: Any) -> float:
-        """Takes what is kept; gives the share of the time that was over."""
+        """Restores a checkpoint; returns the share of the time already spent."""
         over, self.draw.bit_generator.state, best, pools, *rest = left
         self.stage, self.attempts, self.first, self.rounds = rest
         self.best |= {self.levels[k]: self._pool(designs) for k, designs in best.items()}
@@ -246,14 +248,14 @@ class Search:
         return identity(*self.target.given, self.joints, self.seconds, self.seed)
 
     def _pool(self, designs: list[Any]) -> Pool:
-        """A pool that was kept."""
+        """A pool restored from a checkpoint."""
         made = [Design(*each) for each in designs]
         return Pool([replace(each, misses=self.target.misses(each)) for each in made])
 
     def _keep(self) -> None:
-        """Keeps all pools, where they are kept, and the time that was spent on them."""
-        self.saved, kept = time.perf_counter(), surrounding()
-        if kept is None:
+        """Stores all pools and the time spent on them, if checkpoints are on."""
+        self.saved, cache = time.perf_counter(), current_checkpoints()
+        if cache is None:
             return
         with _LOCK:
             best, pools = (
@@ -261,7 +263,7 @@ class Search:
                 for each in (self.best, self.pools)
             )
         rest = self.stage, self.attempts, self.first, self.rounds
-        kept.add(self.key, (self._over(), self.draw.bit_generator.state, best, pools, *rest))
+        cache.add(self.key, (self._over(), self.draw.bit_generator.state, best, pools, *rest))
 
     def _over(self) -> float:
         """The share of the time that is over."""
@@ -283,7 +285,7 @@ class Search:
         ]
 
     def _staged(self, stage: Stage) -> None:
-        """One stage; in a round from other starts of the atlas, unless they are kept."""
+        """One stage; in a round from other starts of the atlas, unless restored from a checkpoint."""
         level, self.hands = stage.level, hands(self.client)
         if stage.merged:
             self._level(stage, self.best)
@@ -341,17 +343,17 @@ class Search:
                 break
         return self._each(near, ended)
 
-    def _each(self, given: Sequence[Design], work: Callable[[Target, Design], Design]) -> list[Design]:
+    def _each(self, designs: Sequence[Design], work: Callable[[Target, Design], Design]) -> list[Design]:
         """All after some work, dealt to the hands."""
-        parts = [(work, given[first :: self.hands]) for first in range(min(self.hands, len(given)))]
+        parts = [(work, designs[first :: self.hands]) for first in range(min(self.hands, len(designs)))]
         return [each for part in self._dealt(each_of, parts) for each in part]
 
     def _dealt(self, work: Callable[..., T], tasks: Sequence[tuple[Any, ...]]) -> list[T]:
         """What ``work`` gives for the target and each task, by threads or a cluster's workers."""
         if self.client is None:
             return [*self.workers.map(lambda task: work(self.target, *task), tasks)]
-        given = [(work, self._pickled, *task) for task in tasks]
-        found: dict[int, T] = dict(in_turn(self.client, _away, given))
+        jobs = [(work, self._pickled, *task) for task in tasks]
+        found: dict[int, T] = dict(in_turn(self.client, _away, jobs))
         return [found[number] for number in range(len(tasks))]
 
     @cached_property

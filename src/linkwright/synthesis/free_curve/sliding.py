@@ -1,7 +1,7 @@
 """Dyads with a slide: a rod whose pin runs on a fixed guide (RRP), and a rod that slides through a block (RPR).
 
 Each places its node B from a node P and a pivot Q before it, and takes the slopes by B back to P, Q and its own two
-numbers (kernels; sin² μ and its penalty are those of ``kernels.py``). Placing gives the least sin² μ, negative where
+numbers (kernels; sin² μ and its penalty are those of ``kernels.py``). Placing returns min sin² μ, negative where
 the dyad does not close.
 """
 

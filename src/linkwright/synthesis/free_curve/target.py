@@ -13,7 +13,7 @@ from linkwright.synthesis.free_curve.kernels import FAR
 from linkwright.synthesis.free_curve.nodes import Design, kernels, node_paths
 
 #: Positions of a turn at which a design is examined; positions on the drawn part for each of a fine descent, points
-#: of the curve where it is so much longer through them, and the greatest share of it between two of them.
+#: of the curve where it is so much longer through them, and the largest share of it between two of them.
 TURN = 360
 BETWEEN, SOME, LONGER, STEP = 8, 400, 1.05, 0.1
 #: Points of a curve as the measure says; of a line, of which one in EVERY is compared with all of the other line.
@@ -47,9 +47,9 @@ class Target:
     """A curve (complex, at least two different points), closed or open, as the search sees it.
 
     Args:
-        least: least transmission angle, rad.
-        largest: greatest distance of a node from the curve's centroid, in its rms radii.
-        turning: both hold over a whole turn of the crank; without it an open curve's hold on the drawn part.
+        least: minimum transmission angle, rad.
+        largest: maximum distance of a node from the curve's centroid, in its rms radii.
+        turning: both hold over a full turn of the crank; without it an open curve's hold on the drawn part.
     """
 
     def __init__(
@@ -64,11 +64,11 @@ class Target:
         self._points: dict[tuple[int, bool], Floats] = {}
         for count in {each.points for each in (COARSE, MIDDLE, FINE)}:
             some = even_points(self.points, count, closed)
-            for mirror, seen in ((False, some), (True, some.conj())):
-                self._points[count, mirror] = np.concatenate([seen.real, seen.imag, [0.0]])
+            for mirror, oriented in ((False, some), (True, some.conj())):
+                self._points[count, mirror] = np.concatenate([oriented.real, oriented.imag, [0.0]])
 
     def __reduce__(self) -> tuple[type[Target], tuple[object, ...]]:
-        """Sent as it was given, which is short."""
+        """Pickled by its arguments, which are short."""
         return Target, self.given
 
     def descend(
@@ -76,7 +76,7 @@ class Target:
     ) -> Design:  # fmt: skip
         """The design after a descent.
 
-        ``weight``: of the penalties; ``more``: angle (rad) above the least one.
+        ``weight``: of the penalties; ``more``: angle (rad) above the minimum.
         """
         points = self._points[fineness.points, design.mirror]
         x = design.x.copy()
@@ -90,7 +90,7 @@ class Target:
         return replace(design, x=x, value=value)
 
     def misses(self, design: Design) -> Floats:
-        """Where the curve misses the target, as a unit vector: designs that err alike have a product near 1."""
+        """Where the curve misses the target, as a unit vector: designs with similar errors have a product near 1."""
         points = self._points[COARSE.points, design.mirror]
         found = np.zeros(2 * COARSE.points)
         arrays = [each.ctypes.data for each in (design.x, points)]
@@ -126,9 +126,9 @@ class Target:
             return design
         fine = self.descend(design, 0, FINE, weight=weight)
         nodes, x, room = (each.ctypes.data for each in (design.nodes, design.x, _ROOM.array))
-        joints, whole = design.joints, int(self.turning)
-        least = kernels()("place", nodes, joints, TURN, TURN, whole, x, room, room + 8 * TURN * joints)
-        if least < np.sin(self.least / 2) ** 2:
+        joints, full_turn = design.joints, int(self.turning)
+        smallest = kernels()("place", nodes, joints, TURN, TURN, full_turn, x, room, room + 8 * TURN * joints)
+        if smallest < np.sin(self.least / 2) ** 2:
             return replace(fine, value=FAR)
         fine = replace(fine, value=max(fine.value, self._unseen(design)))
         return replace(fine, misses=self.misses(design))
@@ -175,12 +175,12 @@ class Target:
         return np.linspace(design.x[-2], design.x[-2] + design.x[-1], count)
 
     def deviation(self, design: Design) -> tuple[float, float]:
-        """Mean nearest distance of the lines, there and back, and the greatest one, at the design's own turn."""
+        """Mean nearest distance of the lines, there and back, and the largest one, at the design's own turn."""
         if design.value >= FAR:
             return FAR, FAR
         curve = normal(even_points(self.curve(design), LINE, self.closed)) * np.exp(1j * design.x[-3])
-        given = self.points.conj() if design.mirror else self.points
-        there, back = _to_line(curve, given, self.closed), _to_line(given, curve, self.closed)
+        target_points = self.points.conj() if design.mirror else self.points
+        there, back = _to_line(curve, target_points, self.closed), _to_line(target_points, curve, self.closed)
         return float(there.mean() + back.mean()), float(max(there.max(), back.max()))
 
 
@@ -199,7 +199,7 @@ def normal(curve: Complexes) -> Complexes:
 
 
 def _to_line(points: Complexes, line: Complexes, closed: bool) -> Floats:
-    """Distances of every ``EVERY``-th point from a line of many points: from its pieces beside the nearest one."""
+    """Distances of every ``EVERY``-th point from a line of many points: from its segments next to the nearest one."""
     from scipy.spatial import cKDTree
 
     some = points[::EVERY]

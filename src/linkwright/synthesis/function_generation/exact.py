@@ -5,7 +5,7 @@ With the frame 1, A = a e^{iφ} and B = 1 + c e^{iψ}, the coupler's constant le
     cos φ = P₀ cos ψ + P₁ cos(φ - ψ) + P₂,   P₀ = c/a, P₁ = -c, P₂ = (1 + a² + c² - b²)/(2 a):
 
 linear for three pairs. Four pairs: one zero angle ζ is the root of a determinant that is a trigonometric polynomial
-of degree two, so of a quartic in e^{iζ}. Five pairs with both zero angles free: seen from the output link, the
+of degree two, so of a quartic in e^{iζ}. Five pairs with both zero angles free: relative to the output link, the
 input link takes five poses; pins A that stay on circles about points B of the output are Burmester's, at most four,
 one of which is the pair of fixed pivots itself.
 Sources: Freudenstein 1955, Trans. ASME 77; Hartenberg and Denavit 1964, Kinematic Synthesis of Linkages, ch. 10.

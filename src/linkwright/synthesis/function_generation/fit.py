@@ -1,4 +1,4 @@
-"""Function generators of least structural error, from many random starts at once.
+"""Function generators of minimum structural error, from many random starts at once.
 
 The structural error is what the output deviates from the demand at each input. A free zero of the output is its best
 constant, a free scale its best factor: both by linear regression inside the residual, so that the iteration knows
@@ -17,7 +17,7 @@ from linkwright.synthesis.function_generation.generators import Generator, Turni
 from linkwright.synthesis.least_squares import minimise, with_differences
 from linkwright.synthesis.result import Candidate
 
-TRIED, KEPT, LEFT, STEPS = 12_000, 240, 24, 120
+TRIED, SELECTED, LEFT, STEPS = 12_000, 240, 24, 120
 #: Residual per unit of what is missing to assemble a position.
 PENALTY = 3.0
 #: Inputs of a range at which the demanded transmission angle is held, and by how much more of its sin² is aimed at:
@@ -66,7 +66,7 @@ class FunctionDemand:
 
 @dataclass(frozen=True)
 class Quality:
-    """What is demanded beside a small error: an input that turns fully, a smallest transmission angle (rad)."""
+    """Demands besides a small error: an input that turns fully, a smallest transmission angle (rad)."""
 
     turning: bool = False
     transmission: float = 0.0
@@ -86,7 +86,7 @@ class Quality:
 
     def missing(self, generator: Generator, x: Floats, signs: Floats, inputs: Floats) -> Floats:
         """By how much sin² of the angle is too small over the demanded range and, of a linkage that turns, over its
-        whole turn (K, r); (K, 0) where nothing is demanded, or all have it."""
+        full turn (K, r); (K, 0) where nothing is demanded, or all have it."""
         if isinstance(generator, TurningFourBar) or not (self.turning or self.transmission):
             return np.empty((len(x), 0))
         aim = min(np.sin(self.transmission) ** 2 + MARGIN, 1.0)
@@ -136,7 +136,7 @@ def fit(
         return np.concatenate([off, hold * demand.size * held], 1)
 
     first = residual_of(x, signs)
-    best = np.argsort(np.einsum("ki,ki->k", first, first))[:KEPT]
+    best = np.argsort(np.einsum("ki,ki->k", first, first))[:SELECTED]
     x, signs = x[best], signs[best]
 
     def residual(part: Floats, who: Integers) -> Floats:

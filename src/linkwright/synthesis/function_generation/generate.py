@@ -45,7 +45,7 @@ from linkwright.synthesis.result import (
     allowed_transmission,
     different,
     ranked,
-    whole,
+    require_integers,
 )
 from linkwright.words import _
 
@@ -65,7 +65,7 @@ class FunctionDerivation(Derivation):
     """What a function generator was found by.
 
     ``method``: ``freudenstein`` (three pairs), ``zero_angle`` (four, one zero angle from a determinant),
-    ``burmester`` (five), ``equation`` (least squares in Freudenstein's equation), ``search`` (least structural
+    ``burmester`` (five), ``equation`` (least squares in Freudenstein's equation), ``search`` (minimum structural
     error); ``zeros``: zero angles of input and output, rad, the free ones as found; ``free``: which were free;
     ``frame``, m; ``equation``: that of the first candidate; ``harmonics`` (5,) of the determinant; ``kind``: the
     linkage; ``unknowns``, ``starts``, ``optima``: of a search; ``unrounded``: lengths a, b, c, d (m) of the first
@@ -120,7 +120,7 @@ def function_generation(
         frame: length of O1 O2, m; not given: 1 m (not of a slider-crank, whose size follows from its travel).
         gear_ratio: turns of the geared crank per turn of the input; not given: -1 (a geared five-bar's only).
         turning: the input must turn fully.
-        transmission_angle: the smallest that is allowed, rad: over the whole turn of an input that turns fully, else
+        transmission_angle: the smallest that is allowed, rad: over the full turn of an input that turns fully, else
             between the first and the last pair.
         least_squares: a four-bar of least squares even where 3 to 5 pairs can be met exactly.
         equation_error: the four-bar of least squares in Freudenstein's equation, for given zero angles: linear, as
@@ -132,7 +132,7 @@ def function_generation(
     Returns:
         Candidates. A four-bar for 3 pairs (Freudenstein), 4, or 5 with free zero angles: exact, all solutions; else
         least squares, globally from many starts. ``error``: root mean square of the structural error at the pairs,
-        rad or m; ``worst``: the greatest.
+        rad or m; ``worst``: the largest.
 
     Raises:
         SynthesisError: pairs that do not fit; no real exact solution, none that moves, or none that turns or has
@@ -143,8 +143,8 @@ def function_generation(
     x, y = (_values(each) for each in (inputs, outputs if places is None else places))
     frame = 1.0 if frame is None else frame
     _check(x, y, linkage, frame)
-    whole(count=count)
-    whole(least=0, seed=seed)
+    require_integers(count=count)
+    require_integers(minimum=0, seed=seed)
     allowed_transmission(transmission_angle)
     quality = Quality(turning, transmission_angle)
     demand = FunctionDemand(x, y, input_zero, output_zero, scale_free)
@@ -176,7 +176,7 @@ def _rounded(found: Synthesis, demand: FunctionDemand, quality: Quality, roundin
     good = [one for each, one in made
             if one is not None and set(one.defects) <= set(each.defects) and quality.of(one)[0]]  # fmt: skip
     if not good or good[0] is not made[0][1]:
-        raise SynthesisError(TOO_ROUNDED.format(given=f"{1e3 * rounding:g}"), found)
+        raise SynthesisError(TOO_ROUNDED.format(value=f"{1e3 * rounding:g}"), found)
     derivation = found.derivation
     if isinstance(derivation, FunctionDerivation):
         derivation = replace(derivation, unrounded=_sides(found.best))
@@ -203,8 +203,8 @@ def _of_multiples(
     x = np.array([[math.log(a / frame), math.log(b / frame), math.log(c / frame), zero]])
     o2, pin, joint = (each.linkage.points[name] for name in ("O2", "A", "B"))
     side = np.sign(((o2 - pin).conjugate() * (joint - pin)).imag)
-    given = replace(demand, input_zero=zero, output_zero=output)
-    return _candidate(KINDS["four_bar"](), given, x, np.array([[side]]), frame)
+    rounded = replace(demand, input_zero=zero, output_zero=output)
+    return _candidate(KINDS["four_bar"](), rounded, x, np.array([[side]]), frame)
 
 
 def _applicable(
@@ -215,22 +215,22 @@ def _applicable(
     slider = linkage == "slider_crank"
     if places is not None and np.size(outputs):
         raise SynthesisError(NOT_WITH.format(demand="places", other='"outputs"'))
-    for demand, given, needs in (
+    for demand, present, needs in (
         ("gear_ratio", gear_ratio is not None and linkage != "geared_five_bar", "geared_five_bar"),
         ("equation_error", equation_error and linkage != "four_bar", "four_bar"),
         ("rounding", rounding is not None and linkage != "four_bar", "four_bar"),
         ("places", places is not None and not slider, "slider_crank"),
     ):
-        if given:
+        if present:
             raise SynthesisError(ONLY_WITH.format(demand=demand, needs=f"linkage: {needs}"))
     if frame is not None and slider:
         raise SynthesisError(NOT_WITH.format(demand="frame", other='"linkage: slider_crank"'))
 
 
-def _values(given: ArrayLike) -> Floats:
+def _values(values: ArrayLike) -> Floats:
     """Values as an array; of what are no numbers one that is no list of values."""
     try:
-        return np.asarray(given, float)
+        return np.asarray(values, float)
     except (TypeError, ValueError):
         return np.array(math.nan)
 
@@ -264,7 +264,7 @@ def _check(x: Floats, y: Floats, linkage: str, frame: float) -> None:
             )
         )
     if not 0 < real("frame", frame, finite=False) < math.inf:
-        raise SynthesisError(NOT_POSITIVE.format(name="frame", given=f"{frame:g}"))
+        raise SynthesisError(NOT_POSITIVE.format(name="frame", value=f"{frame:g}"))
 
 
 def _distinct(x: Floats, y: Floats, fitting: bool) -> None:
@@ -275,17 +275,17 @@ def _distinct(x: Floats, y: Floats, fitting: bool) -> None:
     if np.ptp(y) <= 1e-12 * max(1e-300, float(np.abs(y).max())):
         raise SynthesisError(
             _(
-                "all outputs are equal: no linkage of this kind stands still while its input moves; the "
+                "all outputs are equal: no linkage of this kind rests while its input moves; the "
                 "task dwell has one that rests for a part of the turn",
                 code="synthesize.function.constant",
             )
         )
     same = np.triu(np.abs(np.exp(1j * x[:, None]) - np.exp(1j * x)) < 1e-9, 1)
-    apart = np.where(same, np.abs(y[:, None] - y), -1.0)
-    full = np.abs(apart - 2 * np.pi) < 1e-9
-    apart = np.where(full, 0.0, apart)
-    i, j = np.unravel_index(int(apart.argmax()), apart.shape)
-    if not fitting and 0 <= apart[i, j] <= 1e-9:
+    distance = np.where(same, np.abs(y[:, None] - y), -1.0)
+    full = np.abs(distance - 2 * np.pi) < 1e-9
+    distance = np.where(full, 0.0, distance)
+    i, j = np.unravel_index(int(distance.argmax()), distance.shape)
+    if not fitting and 0 <= distance[i, j] <= 1e-9:
         raise SynthesisError(
             _(
                 "pairs {first} and {second} are the same; leave one out",
@@ -294,15 +294,15 @@ def _distinct(x: Floats, y: Floats, fitting: bool) -> None:
                 second=int(j) + 1,
             )
         )
-    if apart[i, j] > 1e-9:
+    if distance[i, j] > 1e-9:
         raise SynthesisError(
             _(
-                "pairs {first} and {second} have the same input, and their outputs are {apart} apart, "
+                "pairs {first} and {second} have the same input, and their outputs differ by {difference}, "
                 "half of which every linkage is off at one of them; leave one out",
                 code="synthesize.function.repeated",
                 first=int(i) + 1,
                 second=int(j) + 1,
-                apart=f"{apart[i, j]:.4g}",
+                difference=f"{distance[i, j]:.4g}",
             )
         )
 
@@ -321,7 +321,7 @@ def _exact(demand: FunctionDemand, quality: Quality, frame: float, count: int, s
         raise SynthesisError(
             _(
                 "no real {linkage} has the given zero angles and meets all {count} positions exactly; "
-                "the nearest solution has a greatest error of {error}",
+                "the nearest solution has a maximum error of {error}",
                 code="synthesize.function.exact",
                 linkage=TYPE_NAMES["four_bar"],
                 count=len(demand.inputs),
@@ -393,13 +393,13 @@ def _by_equation(demand: FunctionDemand, quality: Quality, frame: float) -> Synt
     zeros = (demand.input_zero or 0.0, demand.output_zero or 0.0)
     equation = freudenstein(demand.inputs[None] + zeros[0], demand.outputs[None] + zeros[1])[0]
     a, b, c = equation.lengths
-    given = replace(demand, input_zero=zeros[0], output_zero=zeros[1] + (np.pi if c < 0 else 0.0))
+    fixed_zeros = replace(demand, input_zero=zeros[0], output_zero=zeros[1] + (np.pi if c < 0 else 0.0))
     if not np.isfinite(a + b + c):
         raise SynthesisError(FUNCTION_NONE.format(linkage=TYPE_NAMES["four_bar"]))
     generator = KINDS["four_bar"]()
     start = zeros[0] + (np.pi if a < 0 else 0.0)
     x = np.array([[math.log(abs(a)), math.log(b), math.log(abs(c)), start]])
-    sides = [_candidate(generator, given, x, np.array([[side]]), frame) for side in (-1.0, 1.0)]
+    sides = [_candidate(generator, fixed_zeros, x, np.array([[side]]), frame) for side in (-1.0, 1.0)]
     chosen = ranked([each for each in sides if each is not None], demand.size)[:1]
     if not chosen:
         raise SynthesisError(FUNCTION_NONE.format(linkage=TYPE_NAMES["four_bar"]))
@@ -429,13 +429,13 @@ def _short(quality: Quality, nearest: Synthesis, linkage: str, how: str) -> Synt
             code="synthesize.function.no_turn",
         )
     )
-    told = rule.format(
+    message = rule.format(
         linkage=TYPE_NAMES[linkage],
         asked=number(quality.transmission, "angle", 5),
         most=f"{math.floor(100 * math.degrees(nearest.best.transmission_angle)) / 100:g}",
         hint=HINTS[how],
     )
-    return SynthesisError(told, nearest)
+    return SynthesisError(message, nearest)
 
 
 def _four_bar_curve(demand: FunctionDemand, pin: Complexes, joint: Complexes, zero: float) -> Floats:
@@ -452,7 +452,7 @@ def _four_bar_curve(demand: FunctionDemand, pin: Complexes, joint: Complexes, ze
 
 
 def _small(angle: float) -> float:
-    """An angle within half a turn of zero, where it is a rounding of whole turns; else half turns are taken out."""
+    """An angle within half a turn of zero, where it is a rounding of full turns; else half turns are taken out."""
     return (angle + math.pi / 2) % math.pi - math.pi / 2
 
 
@@ -490,7 +490,7 @@ def _fitted(
 def _searched(
     generator: Generator, demand: FunctionDemand, best: Candidate, frame: float, optima: int
 ) -> FunctionDerivation:
-    """How a linkage of least structural error was found."""
+    """How a linkage of minimum structural error was found."""
     free = (demand.input_zero is None, demand.output_zero is None)
     unknowns = generator.sample(np.random.default_rng(0), 1).shape[1] - (not free[0])
     zeros = best.values["input_zero [rad]"], demand.output_zero or 0.0
@@ -508,7 +508,7 @@ def _by_quality(made: list[Candidate], quality: Quality) -> tuple[Candidate, ...
 def _candidate(
     generator: Generator, demand: FunctionDemand, x: Floats, signs: Floats, scale: float
 ) -> Candidate | None:
-    """One optimum with its facts over the whole range; None where it does not assemble at the pairs."""
+    """One optimum with its facts over the full range; None where it does not assemble at the pairs."""
     unit = 1.0 if generator.output_is_angle else demand.size
     at = generator.run(x, signs, demand.inputs)
     if at.missing.max() > 0:
@@ -516,9 +516,9 @@ def _candidate(
     off, constant, factor = demand.matched(at.output * unit)
     fine = np.linspace(demand.inputs.min(), demand.inputs.max(), FINE)
     between = generator.run(x, signs, fine)
-    whole_turn = min(generator.sines(x, signs, 0.0, generator.turn()))
-    turns = whole_turn > 0
-    sine = whole_turn if turns else min(generator.sines(x, signs, demand.inputs.min(), demand.inputs.max()))
+    sine_of_turn = min(generator.sines(x, signs, 0.0, generator.turn()))
+    turns = sine_of_turn > 0
+    sine = sine_of_turn if turns else min(generator.sines(x, signs, demand.inputs.min(), demand.inputs.max()))
     steps = np.diff(demand.inputs)
     monotone = bool((steps >= 0).all() or (steps <= 0).all())
     defects = (() if sine > 0 else ("circuit",)) + (() if monotone else ("order",))

@@ -18,12 +18,12 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.synthesis.crank_family import CrankFamily
-from linkwright.synthesis.function_generation.proven_extremes import least_sine
+from linkwright.synthesis.function_generation.proven_extremes import minimum_sine
 from linkwright.synthesis.linkage import Guide, Linkage
 
 Points = dict[str, Complexes]
 
-#: Denominator of a gear ratio up to which a geared linkage is followed until it repeats itself.
+#: Denominator of a gear ratio up to which a geared linkage is tracked until it repeats itself.
 MOST_TEETH = 100
 
 
@@ -57,11 +57,13 @@ class Generator(ABC):
 
     @abstractmethod
     def sines(self, x: Floats, signs: Floats, low: float, high: float) -> tuple[float, ...]:
-        """Least sine of every dyad's angle for one linkage (1, m) over a range of the input, shown; 0: not assembled
+        """Minimum sine of every dyad's angle for one linkage (1, m) over an input range, proved; 0: not assembled
         everywhere. Signs never change where none is 0: the linkage stays on its circuit and branch.
         """
 
-    def _apart(self, x: Floats, signs: Floats, first: str, second: str) -> Callable[[Floats], Floats]:
+    def _distance_squared(
+        self, x: Floats, signs: Floats, first: str, second: str
+    ) -> Callable[[Floats], Floats]:
         """Distance of two points as a function of the input angle."""
 
         def distance(angles: Floats) -> Floats:
@@ -103,14 +105,14 @@ def unwrapped(angle: Floats) -> Floats:
 
 
 def _cosines(low: float, high: float) -> Floats:
-    """Least and greatest cosine of angles from low to high."""
+    """Smallest and largest cosine of angles from low to high."""
     turns = np.pi * np.arange(np.ceil(low / np.pi), np.floor(high / np.pi) + 1)
     values = np.cos(np.concatenate([[low, high], turns]))
     return np.array([values.min(), values.max()])
 
 
 def _of_extremes(distances: Floats, b: float, r: float) -> float:
-    """Least sine of a dyad's angle whose ends are between these two distances; 0 where it cannot be assembled."""
+    """Minimum sine of a dyad's angle whose ends are between these two distances; 0 where it cannot be assembled."""
     cosines = (b * b + r * r - distances**2) / (2 * b * r)
     return float(np.sqrt(np.maximum(1 - cosines**2, 0.0)).min())
 
@@ -236,8 +238,8 @@ class Watt(Generator):
         (first,) = FourBar().sines(x, signs, low, high)
         a, _, c, _, arm, coupler, output = (float(each) for each in _clipped(x[0, :7]))
         rate = arm * a / c / max(first, 1e-12)
-        apart = self._apart(x, signs, "C", "O3")
-        return first, first and least_sine(apart, rate, (coupler, output), low, high)
+        distance = self._distance_squared(x, signs, "C", "O3")
+        return first, first and minimum_sine(distance, rate, (coupler, output), low, high)
 
     def linkage(self, points: dict[str, complex], turns: bool) -> Linkage:
         links = {
@@ -278,7 +280,9 @@ class Stephenson(Generator):
         a, b = (float(each) for each in _clipped(x[0, :2]))
         rate = a + float(np.hypot(*x[0, 4:6])) * a / b / max(first, 1e-12)
         link, output = (float(each) for each in _clipped(x[0, 8:10]))
-        return first, first and least_sine(self._apart(x, signs, "P", "O3"), rate, (link, output), low, high)
+        return first, first and minimum_sine(
+            self._distance_squared(x, signs, "P", "O3"), rate, (link, output), low, high
+        )
 
     def linkage(self, points: dict[str, complex], turns: bool) -> Linkage:
         links = {
@@ -314,7 +318,7 @@ class GearedFiveBar(Generator):
     def sines(self, x: Floats, signs: Floats, low: float, high: float) -> tuple[float, ...]:
         crank, first, second, geared = (float(each) for each in _clipped(x[0, :4]))
         rate = crank + abs(self.ratio) * geared
-        return (least_sine(self._apart(x, signs, "A", "C"), rate, (first, second), low, high),)
+        return (minimum_sine(self._distance_squared(x, signs, "A", "C"), rate, (first, second), low, high),)
 
     def turn(self) -> float:
         return 2 * np.pi * Fraction(self.ratio).limit_denominator(MOST_TEETH).denominator

@@ -132,7 +132,7 @@ def cubic_coefficients(d: Complexes, e: Complexes, size: float) -> Floats:
 
 
 def inverse_poses(p: Complexes, phi: Floats) -> tuple[Complexes, Floats]:
-    """The frame's poses seen from the body: its circle points are the centre points, in axes at pose 0."""
+    """The frame's poses relative to the body: its circle points are the centre points, in axes at pose 0."""
     d, e = relative_poses(p, phi)
     return -d * e.conj(), -(phi - phi[0])
 
@@ -186,7 +186,7 @@ def _two(p: Complexes, d: Complexes, e: Complexes, window: Window) -> Dyads:
 
 
 def fitted(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Dyads, Floats]:
-    """Dyads of least Σ (|Z_j - C| - R)² over any number of poses, best first, and that sum (K,), m².
+    """Dyads of minimum Σ (|Z_j - C| - R)² over any number of poses, best first, and that sum (K,), m².
 
     Starts: the Burmester points of many sets of five poses (four of them and the start set's own where there are
     five), real parts of complex ones included.
@@ -209,11 +209,11 @@ def fitted(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Dyads, 
     start = np.column_stack([z.real, z.imag, c.real, c.imag])
     x, f, _ = minimise(system, start, steps=FIT_STEPS, keep=len(start))
     point, centre = x[:, 0] + 1j * x[:, 1], x[:, 2] + 1j * x[:, 3]
-    kept = _different(np.column_stack([point, centre]), size)
-    kept = kept[(np.abs(centre[kept]) < 100 * size) & np.isfinite(f[kept])]
-    positions = p[0] + point[kept, None] + moved(point[kept], d, e)
-    empty = np.full(len(kept), np.nan + 0j)
-    return Dyads(point[kept], positions, centre[kept] + p[0], empty), f[kept]
+    distinct = _different(np.column_stack([point, centre]), size)
+    distinct = distinct[(np.abs(centre[distinct]) < 100 * size) & np.isfinite(f[distinct])]
+    positions = p[0] + point[distinct, None] + moved(point[distinct], d, e)
+    empty = np.full(len(distinct), np.nan + 0j)
+    return Dyads(point[distinct], positions, centre[distinct] + p[0], empty), f[distinct]
 
 
 def _fit_starts(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Complexes, Complexes]:
@@ -234,10 +234,10 @@ def _fit_starts(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Co
 
 def _different(x: Complexes, size: float) -> Integers:
     """Rows that differ from every row before them."""
-    kept: list[int] = []
+    distinct: list[int] = []
     for i in range(len(x)):
-        if all(np.abs(x[i] - x[j]).max() > 1e-5 * size for j in kept):
-            kept.append(i)
-        if len(kept) == 24:
+        if all(np.abs(x[i] - x[j]).max() > 1e-5 * size for j in distinct):
+            distinct.append(i)
+        if len(distinct) == 24:
             break
-    return np.array(kept, dtype=np.int64)
+    return np.array(distinct, dtype=np.int64)

@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes
-from linkwright.designs.finished_parts import once
+from linkwright.designs.checkpoints import checkpointed
 from linkwright.synthesis.nine_points.classes import MIX, PROBES, conjugate, repeated, turned
 from linkwright.synthesis.nine_points.start import displacements
 from linkwright.synthesis.nine_points.tracker import TOLERANCE, Places, carried, polished
@@ -69,7 +69,7 @@ def start_set(poses: int) -> tuple[Places, Complexes]:
 def build(path: Path, seed: int = 1, idle: int = 8) -> None:
     """Makes the start sets and writes them: carried around triangles until ``idle`` of them bring nothing new."""
     rng = np.random.default_rng(seed)
-    kept: dict[str, NDArray[Any]] = {}
+    arrays: dict[str, NDArray[Any]] = {}
     for poses in KNOWN:
         places, u = _made_up(poses, rng)
         quiet = 0
@@ -78,10 +78,10 @@ def build(path: Path, seed: int = 1, idle: int = 8) -> None:
             more = _distinct(np.concatenate([u, ends]))
             quiet = quiet + 1 if len(more) == len(u) else 0
             u = more
-        kept |= {f"d{poses}": places.d, f"e{poses}": places.e, f"g{poses}": places.g}
-        kept[f"u{poses}"] = u.astype(np.complex64)
+        arrays |= {f"d{poses}": places.d, f"e{poses}": places.e, f"g{poses}": places.g}
+        arrays[f"u{poses}"] = u.astype(np.complex64)
     with path.open("wb") as file:
-        np.savez_compressed(file, allow_pickle=False, **kept)
+        np.savez_compressed(file, allow_pickle=False, **arrays)
 
 
 def around(places: Places, u: Complexes, rng: np.random.Generator) -> Complexes:
@@ -99,7 +99,7 @@ def _arrived(u: Complexes, first: Places, last: Places, tolerance: float = TOLER
         ends = carried(u, first, last, tolerance)
         return ends.solutions[ends.arrived]
 
-    return once(arrived, lambda: (u, first.d, first.e, first.g, last.d, last.e, last.g, tolerance))
+    return checkpointed(arrived, lambda: (u, first.d, first.e, first.g, last.d, last.e, last.g, tolerance))
 
 
 def keys(u: Complexes) -> Complexes:

@@ -60,7 +60,7 @@ from linkwright.synthesis.result import (
     merits,
     ranked,
     ranking,
-    whole,
+    require_integers,
 )
 from linkwright.words import _
 
@@ -120,29 +120,31 @@ def motion_generation(
         count: candidates wanted.
 
     Returns:
-        Candidates without circuit, branch and order defects, by merit. ``error``: the greatest
+        Candidates without circuit, branch and order defects, by merit. ``error``: the largest
         difference of a link's length between poses, m: 0 for exact ones.
 
     Raises:
         SynthesisError: fewer than two real dyads, or no pair that moves through the poses in order without being
             dismantled, or none of the ``link_ratio``; ``nearest`` has the best ones with their defects or errors.
     """
-    whole(count=count)
+    require_integers(count=count)
     p, phi = _read(poses)
     _applicable(phi, within, pivot_line, fixed_pivots=fixed_pivots, moving_pivots=moving_pivots)
-    given = within, fixed_pivots, moving_pivots, pivot_line
+    region = within, fixed_pivots, moving_pivots, pivot_line
     if link_ratio is None:
-        return _guided(p, phi, *given, USUAL_RATIO, count)
+        return _guided(p, phi, *region, USUAL_RATIO, count)
     positive(link_ratio=link_ratio)
     try:
-        found = _guided(p, phi, *given, link_ratio, count)
+        found = _guided(p, phi, *region, link_ratio, count)
     except SynthesisError:
-        found = _guided(p, phi, *given, math.inf, count)
+        found = _guided(p, phi, *region, math.inf, count)
     good = tuple(each for each in found if each.link_ratio <= link_ratio * (1 + 1e-12) and not each.defects)
     if not good:
         nearest = replace(found, candidates=tuple(sorted(found, key=lambda each: each.link_ratio)))
-        least = f"{math.ceil(1e3 * nearest.best.link_ratio) / 1e3:g}"
-        raise SynthesisError(LINK_RATIO_UNMET.format(given=f"{link_ratio:g}", least=least), nearest)
+        smallest_ratio = f"{math.ceil(1e3 * nearest.best.link_ratio) / 1e3:g}"
+        raise SynthesisError(
+            LINK_RATIO_UNMET.format(value=f"{link_ratio:g}", minimum=smallest_ratio), nearest
+        )
     return replace(found, candidates=good)
 
 
@@ -165,7 +167,7 @@ def _derivation(p: Complexes, phi: Floats, link_ratio: float) -> MotionDerivatio
 
 def _applicable(phi: Floats, within: object, line: object, **pivots: Sequence[object]) -> None:
     """Raises SynthesisError for demands that do not go together."""
-    named = [name for name, given in pivots.items() if len(given)]
+    named = [name for name, places in pivots.items() if len(places)]
     lines = named + ["pivot_line"] * (line is not None) + ["within"] * (within is not None)
     if lines and np.isnan(phi).any():
         raise SynthesisError(
@@ -175,7 +177,7 @@ def _applicable(phi: Floats, within: object, line: object, **pivots: Sequence[ob
         )
     if line is not None and named:
         raise SynthesisError(NOT_WITH.format(demand="pivot_line", other=f'"{named[0]}"'))
-    if within is not None and sum(len(given) for given in pivots.values()) > 1:
+    if within is not None and sum(len(places) for places in pivots.values()) > 1:
         raise SynthesisError(
             NOT_WITH.format(
                 demand="within", other=_("two or more given pivots", code="synthesize.motion.two_pivots")
@@ -231,8 +233,8 @@ def _window(corners: tuple[tuple[float, float], tuple[float, float]]) -> Window:
     return Window(first, last)
 
 
-def _two_points(given: Sequence[Sequence[float]]) -> tuple[complex, complex]:
-    found = complex_points(given)
+def _two_points(points: Sequence[Sequence[float]]) -> tuple[complex, complex]:
+    found = complex_points(points)
     if len(found) != 2:
         raise SynthesisError(POINTS)
     return complex(found[0]), complex(found[1])
@@ -240,12 +242,12 @@ def _two_points(given: Sequence[Sequence[float]]) -> tuple[complex, complex]:
 
 def _read(poses: ArrayLike) -> tuple[Complexes, Floats]:
     try:
-        given = np.asarray(poses, float)
+        values = np.asarray(poses, float)
     except (TypeError, ValueError):
         raise SynthesisError(MOTION_POSES) from None
-    if given.ndim != 2 or given.shape[1] != 3 or len(given) < 2 or not np.isfinite(given[:, :2]).all():
+    if values.ndim != 2 or values.shape[1] != 3 or len(values) < 2 or not np.isfinite(values[:, :2]).all():
         raise SynthesisError(MOTION_POSES)
-    p, phi = given[:, 0] + 1j * given[:, 1], given[:, 2]
+    p, phi = values[:, 0] + 1j * values[:, 1], values[:, 2]
     size = np.ptp(p.real) + np.ptp(p.imag)
     same = [
         (i + 1, j + 1)
@@ -302,7 +304,7 @@ def _special(p: Complexes, phi: Floats, link_ratio: float, count: int) -> None:
         nearest = Synthesis("motion", made, "deviation", _shown(p, phi), notes=notes, extent=extent_of(p))
         raise SynthesisError(
             _(
-                "the poses do not turn, so all points of the body move alike, and their places lie on no "
+                "the poses do not turn, so all points of the body have the same motion, and their places lie on no "
                 "circle: the nearest parallelogram is off by {off} m (shown); turn a pose or move it",
                 code="synthesize.motion.no_turn",
                 off=f"{np.sqrt(error.max() / len(p)):.4g}",
@@ -404,10 +406,10 @@ def _all_dyads(
                 )
             )
         d, e = relative_poses(p, phi)
-        given = [_with_centre(p, phi, complex(place)) for place in complex_points(fixed)] if fixed else []
-        given += [complex(place) - p[0] for place in complex_points(moving)] if moving else []
-        named = circles(np.array(given), p, d, e)
-        rest = dyads(p, phi, window) if len(given) == 1 else named[:0]
+        pivots = [_with_centre(p, phi, complex(place)) for place in complex_points(fixed)] if fixed else []
+        pivots += [complex(place) - p[0] for place in complex_points(moving)] if moving else []
+        named = circles(np.array(pivots), p, d, e)
+        rest = dyads(p, phi, window) if len(pivots) == 1 else named[:0]
         found = join(named, rest)
         return found, np.zeros(len(found))
     if len(p) > 5:
@@ -448,8 +450,8 @@ def _pairs(
     """The best pairs: the first dyad a crank, the second a crank or a slider."""
     pins = np.flatnonzero(~found.slides)
     first, second = (each.ravel() for each in np.meshgrid(pins, np.arange(len(found)), indexing="ij"))
-    apart = np.abs(found.point[first] - found.point[second]) > 1e-6 * _scale(p)
-    first, second = first[apart], second[apart]
+    separated = np.abs(found.point[first] - found.point[second]) > 1e-6 * _scale(p)
+    first, second = first[separated], second[separated]
     rows: list[tuple[Assessment, Integers, Integers]] = []
     for slider in (False, True):
         use = found.slides[second] == slider

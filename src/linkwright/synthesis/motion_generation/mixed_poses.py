@@ -102,8 +102,8 @@ def _optima(p: Complexes, phi: Floats, rng: np.random.Generator) -> tuple[Floats
             z, c = x[:, k] + 1j * x[:, k + 1], x[:, k + 4] + 1j * x[:, k + 5]
             far = np.abs(p + z[:, None] * turn - c[:, None])
             off.append(far - far.mean(1, keepdims=True))
-        apart = np.abs(x[:, 0] + 1j * x[:, 1] - x[:, 2] - 1j * x[:, 3])
-        return np.column_stack([*off, np.maximum(0.05 - apart, 0)])
+        distance = np.abs(x[:, 0] + 1j * x[:, 1] - x[:, 2] - 1j * x[:, 3])
+        return np.column_stack([*off, np.maximum(0.05 - distance, 0)])
 
     return minimise(with_differences(residual), start, steps=STEPS, keep=LEFT, halve=10)
 

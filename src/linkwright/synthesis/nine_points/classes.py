@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Flags, Integers
 
 CLASSES = 1442
-#: Constants of the key that tells classes apart: any general complex numbers do.
+#: Constants of the key that distinguishes classes: any general complex numbers do.
 PROBES = np.array([[0.31 + 1.7j, -1.9 - 0.6j], [1.4 - 1.1j, -0.8 + 1.3j]])
 MIX = np.array([[1.0, 0.62 - 0.7j], [-0.41 + 0.9j, 0.83 + 0.35j]])
 SAME = 1e-8

@@ -240,9 +240,9 @@ def carry(count: int, rows: Reals, q0: Reals, dq: Reals, arrived: Reals, limits:
             first, second = sqrt(sizes[lane]), sqrt(sizes[8 + lane])
             good = first < 8.0 * tolerance and second < 1e-5 and second < max(limits[4], 0.1 * first)
             keep[lane] = 1.0 if good else 0.0
-        kept = load(keep, 0)
+        accepted = load(keep, 0)
         for c in range(16):
-            put(u, c, choose(kept > 0.5, fetch(moved, c), fetch(u, c)))
+            put(u, c, choose(accepted > 0.5, fetch(moved, c), fetch(u, c)))
         for lane in range(8):
             path = int(state[16 + lane])
             if path < 0:

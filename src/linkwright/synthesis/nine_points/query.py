@@ -26,7 +26,7 @@ from linkwright.synthesis.nine_points.tracker import MOST_STEPS, TOLERANCE, trac
 
 #: Other ways that are tried at most; with more classes missing the points are special, and other ways miss them too.
 TURNS, SPECIAL = 8, 100
-#: Second corrections that are taken for rounding where a lost path is followed again.
+#: Second corrections that are taken for rounding where a lost path is tracked again.
 COARSE = 3e-6
 
 

@@ -1,7 +1,7 @@
 """The start set: nine general complex points and one solution of each of their 1442 classes.
 
 Made by monodromy: from one made-up four-bar, all known solutions are carried around triangles through random points;
-what comes back different is new. ``build`` makes it; the package has one, kept in single precision and polished
+what comes back different is new. ``build`` makes it; the package has one, stored in single precision and polished
 when it is read.
 Source: Duff, Hill, Jensen, Lee, Leykin and Sommars 2019, IMA J. Numer. Anal. 39 (solving by monodromy).
 """

@@ -9,7 +9,7 @@ first point a dyad has its moving pin at x and its fixed pivot at x + w, with pa
 
 16 equations for u = (x, X, w, W, y, Y, v, V, g₁ … g₈). With w and g instead of pivots and rotations nothing cancels
 near translations. In a linear solve the two equations of a point lose dg_j by one combination; an 8 × 8 system is
-left. At a pose g_j is given, and both of its equations stay in that system: M poses beside the first and 8 - 2 M
+left. At a pose g_j is given, and both of its equations stay in that system: M poses after the first and 8 - 2 M
 points make one as well.
 
 Along the straight way from the first places to the last a path takes a step by Runge and Kutta's fourth order and two
@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats
-from linkwright.designs.finished_parts import once
+from linkwright.designs.checkpoints import checkpointed
 from linkwright.formula.threads import cores, spread_over
 
 #: Paths that are carried together: their matrices stay in the processor's cache.
@@ -81,7 +81,7 @@ def track(
         spread_over(len(start), CHUNK, cores(), carry)
         return done, arrived
 
-    done, arrived = once(all_carried, lambda: (start, q0, q1, tolerance, most, rounding))
+    done, arrived = checkpointed(all_carried, lambda: (start, q0, q1, tolerance, most, rounding))
     with np.errstate(all="ignore"):
         right = arrived & np.isfinite(done).all(1)
         right &= residual(np.where(right[:, None], done, 1.0), q1) < 1e-9
@@ -106,7 +106,7 @@ def carried(
     tolerance: float = TOLERANCE, most: int = MOST_STEPS, rounding: float = ROUNDING,
 ) -> Ends:  # fmt: skip
     """Solutions (N, 8 + points) of the places ``first`` carried straight to ``last``, until every path has arrived or
-    is given up."""
+    is abandoned."""
     done, arrived = start.T.copy(), np.zeros(len(start), bool)
     change = (last.d - first.d)[:, None], (last.e - first.e)[:, None], (last.g - first.g)[:, None]
 
@@ -201,9 +201,9 @@ def linear_step(
 ) -> Complexes:
     """du/dt (8 + points, K) where d, e and the poses' g move by ``change``, or the Newton correction where that is
     None."""
-    d, e, given = places
-    poses, count = len(given), u.shape[1]
-    g = np.concatenate([given, u[8:]])
+    d, e, fixed_angles = places
+    poses, count = len(fixed_angles), u.shape[1]
+    g = np.concatenate([fixed_angles, u[8:]])
     inverse = 1.0 / (1.0 + g)
     f = -g * inverse
     gradients, slopes, rights = [], [], []

@@ -18,7 +18,7 @@ Linear = tuple[Complexes, Complexes, Complexes]
 
 #: Solutions carried to the end, timed and untimed; ratios and coordinates that differ less are one solution. Then
 #: steps and tolerance of that end.
-FINISHED, ALIKE = (3, 7), 0.02
+FINISHED, SAME_SHAPE = (3, 7), 0.02
 ROUGH, EXACT = (150, 1e-14), (300, 1e-16)
 
 
@@ -102,8 +102,8 @@ class BoundedPaths:
 
 def _different(shapes: Floats) -> list[int]:
     """Rows whose ratios differ from those of all rows before."""
-    kept: list[int] = []
+    distinct: list[int] = []
     for i, shape in enumerate(shapes):
-        if all(np.abs(shape - shapes[j]).max() > ALIKE for j in kept):
-            kept.append(i)
-    return kept
+        if all(np.abs(shape - shapes[j]).max() > SAME_SHAPE for j in distinct):
+            distinct.append(i)
+    return distinct

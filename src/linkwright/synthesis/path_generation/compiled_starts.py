@@ -1,4 +1,4 @@
-"""Many starts of a path iterated in compiled code: the worse ones given up on the way."""
+"""Many starts of a path iterated in compiled code: the worse ones dropped on the way."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
-from linkwright.designs.finished_parts import once
+from linkwright.designs.checkpoints import checkpointed
 from linkwright.formula.threads import cores, spread_over
 from linkwright.synthesis.crank_family import CrankFamily
 from linkwright.synthesis.path_generation.demand import Demand, PathStarts
@@ -113,24 +113,24 @@ class CompiledPaths:
         return self._done("shift", weight=weight)
 
     def _done(self, name: str, *further: float, weight: float) -> CompiledPaths:
-        way, given = self._way(), self._given(weight)
-        key = name, further, way, given, self.starts
-        return self.of_starts(once(lambda: self._computed(name, further, way, given), lambda: key))
+        layout, data = self._layout(), self._data(weight)
+        key = name, further, layout, data, self.starts
+        return self.of_starts(checkpointed(lambda: self._computed(name, further, layout, data), lambda: key))
 
-    def _computed(self, name: str, further: tuple[float, ...], way: Integers, given: Floats) -> Floats:
+    def _computed(self, name: str, further: tuple[float, ...], layout: Integers, data: Floats) -> Floats:
         starts = self.starts.copy()
         size = 8 * starts.shape[1]
 
         def work(first: int, last: int) -> None:
-            room = np.zeros(PER_POINT + EACH * way[0] + starts.shape[1])
-            at = way.ctypes.data, given.ctypes.data, starts.ctypes.data + size * first
+            room = np.zeros(PER_POINT + EACH * layout[0] + starts.shape[1])
+            at = layout.ctypes.data, data.ctypes.data, starts.ctypes.data + size * first
             kernels()(name, *at, last - first, *further, room.ctypes.data)
 
         share = max(1, min(SHARE, -(-len(starts) // (4 * cores()))))
         spread_over(len(starts), share, cores(), work)
         return starts
 
-    def _way(self) -> Integers:
+    def _layout(self) -> Integers:
         demand = self.demand
         placed, turned = demand.pivot is None, demand.direction is None
         phase = demand.timed and demand.phase
@@ -138,7 +138,7 @@ class CompiledPaths:
         numbers = self.starts.shape[1]
         return np.array([numbers - ANGLES, demand.timed, phase, placed, turned, unknown, numbers], np.int64)
 
-    def _given(self, weight: float) -> Floats:
+    def _data(self, weight: float) -> Floats:
         demand, count = self.demand, self.starts.shape[1] - ANGLES
         z = (demand.points - (demand.pivot or 0.0))[:count] / demand.size
         points = np.column_stack([z.real, z.imag, np.bincount(demand.same), demand.angles[:count]])

@@ -22,7 +22,7 @@ from linkwright.synthesis.result import (
     Derivation,
     Synthesis,
     SynthesisError,
-    whole,
+    require_integers,
 )
 from linkwright.words import _
 
@@ -59,8 +59,8 @@ def exact_path_generation(points: ArrayLike, *, count: int = 6, seed: int = 0) -
         points
             in order on one branch (``nearest``: the best with its defects, or that of least squares).
     """
-    whole(count=count)
-    whole(least=0, seed=seed)
+    require_integers(count=count)
+    require_integers(minimum=0, seed=seed)
     z = complex_points(points)
     if not 3 <= len(z) <= 9:
         raise SynthesisError(

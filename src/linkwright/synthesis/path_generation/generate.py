@@ -27,12 +27,12 @@ from linkwright.synthesis.result import (
     allowed_transmission,
     different,
     ranked,
-    whole,
+    require_integers,
 )
 from linkwright.words import _
 
 #: Solutions whose lengths agree so far (relative) are one.
-ALIKE = 1e-4
+SAME_LINKAGE = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,11 +78,11 @@ def path_generation(
         coupler point are projected out, ratios and timing iterated from an atlas of starts.
 
     Raises:
-        SynthesisError: fewer than three points, points that coincide, angles that do not fit; points that lie apart
+        SynthesisError: fewer than three points, points that coincide, angles that do not fit; different points
             at one crank angle, or beyond what the bound reaches (``nearest``: the least squares).
     """
-    whole(count=count)
-    whole(least=0, seed=seed)
+    require_integers(count=count)
+    require_integers(minimum=0, seed=seed)
     allowed_transmission(transmission_angle)
     if bound is not None:
         positive(bound=bound)
@@ -95,7 +95,7 @@ def path_generation(
         candidates += _candidates(search(demand, bound, transmission_angle, True, rng))
         candidates = [each for each in candidates if each.transmission_angle >= transmission_angle - 1e-9]
     extent = extent_of(demand.points)
-    chosen = different(ranked(candidates, demand.size**2, extent), ALIKE * demand.size)[:count]
+    chosen = different(ranked(candidates, demand.size**2, extent), SAME_LINKAGE * demand.size)[:count]
     if not chosen:
         raise SynthesisError(
             _("no four-bar was found for the path; check the points", code="synthesize.path.none")
@@ -124,20 +124,20 @@ def _contradictions(demand: Demand, bound: float | None, result: Synthesis) -> N
     if demand.timed:
         turn = np.exp(1j * demand.angles)
         same = np.triu(np.abs(turn[:, None] - turn) < 1e-9, 1)
-        apart = np.where(same, np.abs(demand.points[:, None] - demand.points), 0.0)
-        i, j = np.unravel_index(int(apart.argmax()), apart.shape)
-        if apart[i, j] > 1e-9 * demand.size:
-            least = f"{apart[i, j] ** 2 / 2:.4g}"
+        distance = np.where(same, np.abs(demand.points[:, None] - demand.points), 0.0)
+        i, j = np.unravel_index(int(distance.argmax()), distance.shape)
+        if distance[i, j] > 1e-9 * demand.size:
+            minimum = f"{distance[i, j] ** 2 / 2:.4g}"
             raise SynthesisError(
                 _(
-                    "points {first} and {second} have the same crank angle and lie {apart} m apart; no path "
-                    "comes below a sum of squared distances of {least} m² there (the nearest solution is "
+                    "points {first} and {second} have the same crank angle and a distance of {distance} m; no path "
+                    "comes below a sum of squared distances of {minimum} m² there (the nearest solution is "
                     "shown); change one of the angles",
                     code="synthesize.path.same_angle",
                     first=i + 1,
                     second=j + 1,
-                    apart=f"{apart[i, j]:.4g}",
-                    least=least,
+                    distance=f"{distance[i, j]:.4g}",
+                    minimum=minimum,
                 ),
                 result,
             )
@@ -145,7 +145,7 @@ def _contradictions(demand: Demand, bound: float | None, result: Synthesis) -> N
         far = np.abs(demand.points - (demand.pivot or 0.0))
         most = bound * (1 + math.sqrt(2) * (2 if demand.pivot is None else 1))
         if far.max() > most:
-            number, given = int(far.argmax()) + 1, f"{bound:.4g}"
+            number, limit = int(far.argmax()) + 1, f"{bound:.4g}"
             raise SynthesisError(
                 _(
                     "point {number} lies {far} m away, and within the bound {bound} m a four-bar reaches "
@@ -153,7 +153,7 @@ def _contradictions(demand: Demand, bound: float | None, result: Synthesis) -> N
                     code="synthesize.path.reach",
                     number=number,
                     far=f"{far.max():.4g}",
-                    bound=given,
+                    bound=limit,
                     most=f"{most:.4g}",
                 ),
                 result,
@@ -201,15 +201,15 @@ def _demand(
 def complex_points(points: ArrayLike) -> Complexes:
     """Points (n, 2) or complex (n,) as complex (n,); raises SynthesisError for what is neither, or not finite."""
     try:
-        given = np.asarray(points)
-        if given.ndim == 2 and given.shape[1] == 2:
-            given = given[:, 0].astype(float) + 1j * given[:, 1].astype(float)
-        given = given.astype(complex)
+        places = np.asarray(points)
+        if places.ndim == 2 and places.shape[1] == 2:
+            places = places[:, 0].astype(float) + 1j * places[:, 1].astype(float)
+        places = places.astype(complex)
     except (ValueError, TypeError):
         raise SynthesisError(POINTS) from None
-    if given.ndim != 1 or not np.isfinite(given).all():
+    if places.ndim != 1 or not np.isfinite(places).all():
         raise SynthesisError(POINTS)
-    return given
+    return places
 
 
 def _candidates(found: Found) -> list[Candidate]:

@@ -10,8 +10,8 @@ are found anew. With a bound they are not: lengths and coordinates beyond it cou
 of each c + s > 0, c = value/bound - 1, with shifts s that bring the end to the bound itself (augmented Lagrangian,
 Powell 1969).
 
-``way``: points n, timed, phase given as unknown, pivot free, direction free, unknowns, numbers of a start.
-``given``: bound (0: none), ρ, κ of the transmission angle, direction, then x, y, weight, crank angle of each point.
+``layout``: points n, timed, phase given as unknown, pivot free, direction free, unknowns, numbers of a start.
+``data``: bound (0: none), ρ, κ of the transmission angle, direction, then x, y, weight, crank angle of each point.
 A start: shape 3, phase, ``double`` (0, 1; 2: any lengths), ``mirrored`` (1, -1), damping, deviation, linear numbers 6
 as z, α, β, shifts 8, crank angles n.
 """
@@ -71,14 +71,14 @@ def shape_of(start: Reals, kappa: float, room: Reals) -> None:
             up[i] = (up[i] - down[i]) / (2.0 * h)
 
 
-def place_points(way: Wholes, given: Reals, start: Reals, room: Reals) -> int:
+def place_points(layout: Wholes, data: Reals, start: Reals, room: Reals) -> int:
     """A and U of every point of a start (4 numbers each); 0 where it cannot be assembled."""
-    spread_lengths(start[0], start[1], start[2], start[4], given[2], room)
+    spread_lengths(start[0], start[1], start[2], start[4], data[2], room)
     b, c, d = room[0], room[1], room[2]
-    for j in range(way[0]):
+    for j in range(layout[0]):
         angle = start[ANGLES + j]
-        if way[1] == 1:
-            angle = start[5] * given[POINTS + 4 * j + 3] + start[3]
+        if layout[1] == 1:
+            angle = start[5] * data[POINTS + 4 * j + 3] + start[3]
         own = room + (PER_POINT + EACH * j)
         own[0] = cos(angle)
         own[1] = sin(angle)
@@ -95,23 +95,23 @@ def place_points(way: Wholes, given: Reals, start: Reals, room: Reals) -> int:
     return 1
 
 
-def columns(way: Wholes, given: Reals, start: Reals, own: Reals, out: Reals) -> int:
+def columns(layout: Wholes, data: Reals, start: Reals, own: Reals, out: Reals) -> int:
     """The columns (real, imaginary) of the linear numbers at a point; gives how many there are."""
     k = 0
-    if way[3] == 1:
+    if layout[3] == 1:
         out[0] = 1.0
         out[1] = 0.0
         out[2] = 0.0
         out[3] = 1.0
         k = 2
-    if way[4] == 1:
+    if layout[4] == 1:
         out[2 * k] = own[0]
         out[2 * k + 1] = own[1]
         out[2 * k + 2] = -own[1]
         out[2 * k + 3] = own[0]
         k += 2
     else:
-        tc, ts = cos(given[3]), start[5] * sin(given[3])
+        tc, ts = cos(data[3]), start[5] * sin(data[3])
         out[2 * k] = own[0] * tc - own[1] * ts
         out[2 * k + 1] = own[0] * ts + own[1] * tc
         k += 1
@@ -122,20 +122,20 @@ def columns(way: Wholes, given: Reals, start: Reals, own: Reals, out: Reals) -> 
     return k + 2
 
 
-def add_linear(way: Wholes, given: Reals, start: Reals, step: Reals) -> None:
+def add_linear(layout: Wholes, data: Reals, start: Reals, step: Reals) -> None:
     """Adds changes of the linear numbers to z, α, β of a start."""
     k, linear = 0, start + HEAD
-    if way[3] == 1:
+    if layout[3] == 1:
         linear[0] += step[0]
         linear[1] += step[1]
         k = 2
-    if way[4] == 1:
+    if layout[4] == 1:
         linear[2] += step[k]
         linear[3] += step[k + 1]
         k += 2
     else:
-        linear[2] += step[k] * cos(given[3])
-        linear[3] += step[k] * start[5] * sin(given[3])
+        linear[2] += step[k] * cos(data[3])
+        linear[3] += step[k] * start[5] * sin(data[3])
         k += 1
     linear[4] += step[k]
     linear[5] += step[k + 1]
@@ -168,12 +168,12 @@ def solve(N: Reals, m: int, linear: int, damping: float, floor: Reals) -> None:
         N[w * k + m] = value * N[w * k + k]
 
 
-def deviate(way: Wholes, given: Reals, start: Reals, room: Reals) -> float:
+def deviate(layout: Wholes, data: Reals, start: Reals, room: Reals) -> float:
     """Deviations of all points (numbers 4, 5 of each) and the weighted sum of their squares."""
     total = 0.0
     linear = start + HEAD
-    for j in range(way[0]):
-        own, to = room + (PER_POINT + EACH * j), given + (POINTS + 4 * j)
+    for j in range(layout[0]):
+        own, to = room + (PER_POINT + EACH * j), data + (POINTS + 4 * j)
         own[4] = linear[0] + linear[2] * own[0] - linear[3] * own[1] - to[0]
         own[5] = linear[1] + linear[2] * own[1] + linear[3] * own[0] - start[5] * to[1]
         own[4] += linear[4] * own[2] - linear[5] * own[3]
@@ -182,19 +182,19 @@ def deviate(way: Wholes, given: Reals, start: Reals, room: Reals) -> float:
     return total
 
 
-def project(way: Wholes, given: Reals, start: Reals, room: Reals) -> float:
+def project(layout: Wholes, data: Reals, start: Reals, room: Reals) -> float:
     """Finds the linear numbers, in three passes (each removes what rounding left); gives the sum of squares."""
     N, row = room + SYSTEM, room + STEP
     for k in range(6):
         start[HEAD + k] = 0.0
     for _ in range(3):
-        deviate(way, given, start, room)
-        count = columns(way, given, start, room + PER_POINT, row)
+        deviate(layout, data, start, room)
+        count = columns(layout, data, start, room + PER_POINT, row)
         for i in range(count * (count + 1)):
             N[i] = 0.0
-        for j in range(way[0]):
-            own, weight = room + (PER_POINT + EACH * j), given[POINTS + 4 * j + 2]
-            columns(way, given, start, own, row)
+        for j in range(layout[0]):
+            own, weight = room + (PER_POINT + EACH * j), data[POINTS + 4 * j + 2]
+            columns(layout, data, start, own, row)
             for i in range(count):
                 for c in range(i, count):
                     N[(count + 1) * i + c] += weight * (
@@ -204,14 +204,14 @@ def project(way: Wholes, given: Reals, start: Reals, room: Reals) -> float:
         solve(N, count, count, 0.0, row + 40)
         for i in range(count):
             row[i] = N[(count + 1) * i + count]
-        add_linear(way, given, start, row)
-    return deviate(way, given, start, room)
+        add_linear(layout, data, start, row)
+    return deviate(layout, data, start, room)
 
 
-def limits(way: Wholes, given: Reals, start: Reals, room: Reals) -> float:
+def limits(layout: Wholes, data: Reals, start: Reals, room: Reals) -> float:
     """Values and gradients (by z, α, β and the lengths) of the eight limits; gives their weighted sum of squares."""
     G, linear = room + LIMITS, start + HEAD
-    share = 1.0 / given[0]
+    share = 1.0 / data[0]
     ax, ay, bx, by = linear[2], linear[3], linear[4], linear[5]
     size = sqrt(ax * ax + ay * ay) + 1e-300
     cx, cy = ax / size, ay / size
@@ -250,41 +250,41 @@ def limits(way: Wholes, given: Reals, start: Reals, room: Reals) -> float:
     total = 0.0
     for k in range(8):
         beyond = max(0.0, G[11 * k] + start[SHIFTS + k])
-        total += given[1] * beyond * beyond
+        total += data[1] * beyond * beyond
     return total
 
 
-def measure(way: Wholes, given: Reals, start: Reals, room: Reals, anew: int) -> float:
-    """The sum of squares of a start, linear numbers found ``anew`` or kept; FAR where it cannot be assembled."""
-    if place_points(way, given, start, room) == 0:
+def measure(layout: Wholes, data: Reals, start: Reals, room: Reals, anew: int) -> float:
+    """The sum of squares of a start, linear numbers found ``anew`` or reused; FAR where it cannot be assembled."""
+    if place_points(layout, data, start, room) == 0:
         return FAR
     if anew == 1:
-        return project(way, given, start, room)
-    total = deviate(way, given, start, room)
-    if given[0] > 0.0:
-        total += limits(way, given, start, room)
+        return project(layout, data, start, room)
+    total = deviate(layout, data, start, room)
+    if data[0] > 0.0:
+        total += limits(layout, data, start, room)
     return total
 
 
-def limit_rows(way: Wholes, given: Reals, start: Reals, room: Reals, linear: int) -> None:
+def limit_rows(layout: Wholes, data: Reals, start: Reals, room: Reals, linear: int) -> None:
     """The limits' share of the system."""
-    N, row, m = room + SYSTEM, room + STEP, way[5]
+    N, row, m = room + SYSTEM, room + STEP, layout[5]
     for k in range(8):
         own = room + (LIMITS + 11 * k)
         beyond = own[0] + start[SHIFTS + k]
         if beyond <= 0.0:
             continue
         i = 0
-        if way[3] == 1:
+        if layout[3] == 1:
             row[0] = own[1]
             row[1] = own[2]
             i = 2
-        if way[4] == 1:
+        if layout[4] == 1:
             row[i] = own[3]
             row[i + 1] = own[4]
             i += 2
         else:
-            row[i] = own[3] * cos(given[3]) + own[4] * start[5] * sin(given[3])
+            row[i] = own[3] * cos(data[3]) + own[4] * start[5] * sin(data[3])
             i += 1
         row[i] = own[5]
         row[i + 1] = own[6]
@@ -294,19 +294,19 @@ def limit_rows(way: Wholes, given: Reals, start: Reals, room: Reals, linear: int
             row[linear + 3] = 0.0
         for i in range(m):
             for c in range(i, m):
-                N[(m + 1) * i + c] += given[1] * row[i] * row[c]
-            N[(m + 1) * i + m] -= given[1] * row[i] * beyond
+                N[(m + 1) * i + c] += data[1] * row[i] * row[c]
+            N[(m + 1) * i + m] -= data[1] * row[i] * beyond
 
 
-def point_rows(way: Wholes, given: Reals, start: Reals, room: Reals, damping: float) -> int:
+def point_rows(layout: Wholes, data: Reals, start: Reals, room: Reals, damping: float) -> int:
     """The system of a step, free crank angles eliminated; gives the number of linear numbers."""
-    N, row, m, linear = room + SYSTEM, room + STEP, way[5], start + HEAD
+    N, row, m, linear = room + SYSTEM, room + STEP, layout[5], start + HEAD
     b, d, count = room[0], room[2], 0
     for i in range(m * (m + 1)):
         N[i] = 0.0
-    for j in range(way[0]):
-        own, weight = room + (PER_POINT + EACH * j), given[POINTS + 4 * j + 2]
-        count = columns(way, given, start, own, row)
+    for j in range(layout[0]):
+        own, weight = room + (PER_POINT + EACH * j), data[POINTS + 4 * j + 2]
+        count = columns(layout, data, start, own, row)
         ax, ay, ux, uy = own[0], own[1], own[2], own[3]
         vx, vy = b * ux - (d - ax), b * uy + ay
         across, toward = b * (vy * ux - vx * uy), vx * ux + vy * uy
@@ -325,7 +325,7 @@ def point_rows(way: Wholes, given: Reals, start: Reals, room: Reals, damping: fl
             row[2 * count + 6] = gx
             row[2 * count + 7] = gy
         square, pull = FAR, 0.0
-        if way[1] == 0:
+        if layout[1] == 0:
             square = (gx * gx + gy * gy) * (1.0 + damping) + 1e-30
             pull = gx * own[4] + gy * own[5]
         own[6] = square
@@ -345,80 +345,80 @@ def point_rows(way: Wholes, given: Reals, start: Reals, room: Reals, damping: fl
     return count
 
 
-def attempt(way: Wholes, given: Reals, start: Reals, trial: Reals, room: Reals) -> float:
+def attempt(layout: Wholes, data: Reals, start: Reals, trial: Reals, room: Reals) -> float:
     """One damped step from a start whose points are in the room; gives the deviation of the trial."""
-    m, damping = way[5], start[6]
-    shape_of(start, given[2], room)
-    linear = point_rows(way, given, start, room, damping)
-    if given[0] > 0.0:
-        limit_rows(way, given, start, room, linear)
+    m, damping = layout[5], start[6]
+    shape_of(start, data[2], room)
+    linear = point_rows(layout, data, start, room, damping)
+    if data[0] > 0.0:
+        limit_rows(layout, data, start, room, linear)
     N, step = room + SYSTEM, room + STEP
     solve(N, m, linear, damping, step)
     for i in range(m):
         step[i] = N[(m + 1) * i + m]
-    for i in range(way[6]):
+    for i in range(layout[6]):
         trial[i] = start[i]
-    add_linear(way, given, trial, step)
+    add_linear(layout, data, trial, step)
     for s in range(3):
         trial[s] += step[linear + s]
     if m > linear + 3:
         trial[3] += step[linear + 3]
-    if way[1] == 0:
-        for j in range(way[0]):
+    if layout[1] == 0:
+        for j in range(layout[0]):
             own = room + (PER_POINT + EACH * j)
             change = own[7]
             for i in range(m):
                 change += own[8 + i] * step[i]
             trial[ANGLES + j] -= change / own[6]
-    return measure(way, given, trial, room, 0 if given[0] > 0.0 else 1)
+    return measure(layout, data, trial, room, 0 if data[0] > 0.0 else 1)
 
 
-def judge(way: Wholes, given: Reals, starts: Reals, count: int, room: Reals) -> None:
+def judge(layout: Wholes, data: Reals, starts: Reals, count: int, room: Reals) -> None:
     """Deviations of starts, linear numbers found for each."""
     for i in range(count):
-        start = starts + way[6] * i
-        start[7] = measure(way, given, start, room, 1)
+        start = starts + layout[6] * i
+        start[7] = measure(layout, data, start, room, 1)
 
 
-def iterate(way: Wholes, given: Reals, starts: Reals, count: int, steps: int, room: Reals) -> None:
+def iterate(layout: Wholes, data: Reals, starts: Reals, count: int, steps: int, room: Reals) -> None:
     """Steps of each start, until one gains no more than 1e-13 of its deviation."""
-    trial = room + (PER_POINT + EACH * way[0])
+    trial = room + (PER_POINT + EACH * layout[0])
     for i in range(count):
-        start = starts + way[6] * i
-        start[7] = measure(way, given, start, room, 0)
+        start = starts + layout[6] * i
+        start[7] = measure(layout, data, start, room, 0)
         for _ in range(steps):
             if start[7] < 1e-32 or start[6] > 1e12 or start[7] >= FAR:
                 break
-            found = attempt(way, given, start, trial, room)
+            found = attempt(layout, data, start, trial, room)
             if found < start[7]:
                 gain = start[7] - found
                 trial[6] = max(1e-15, 0.2 * start[6])
                 trial[7] = found
-                for k in range(way[6]):
+                for k in range(layout[6]):
                     start[k] = trial[k]
                 if gain < 1e-13 * found:
                     start[6] = 1e13
             else:
                 start[6] = 6.0 * start[6]
-                measure(way, given, start, room, 0)
+                measure(layout, data, start, room, 0)
 
 
-def shift(way: Wholes, given: Reals, starts: Reals, count: int, room: Reals) -> None:
+def shift(layout: Wholes, data: Reals, starts: Reals, count: int, room: Reals) -> None:
     """New shifts of starts at the end of their steps, and their damping anew."""
     for i in range(count):
-        start = starts + way[6] * i
-        measure(way, given, start, room, 0)
+        start = starts + layout[6] * i
+        measure(layout, data, start, room, 0)
         start[6] = 1e-3
         for k in range(8):
             start[SHIFTS + k] = max(0.0, start[SHIFTS + k] + room[LIMITS + 11 * k])
 
 
-def bring_inside(way: Wholes, given: Reals, starts: Reals, count: int, share: float, room: Reals) -> None:
+def bring_inside(layout: Wholes, data: Reals, starts: Reals, count: int, share: float, room: Reals) -> None:
     """Lengths and coordinates of starts brought within a share of the bound; their deviations."""
-    inside = share * given[0]
+    inside = share * data[0]
     for i in range(count):
-        start = starts + way[6] * i
-        if place_points(way, given, start, room) == 0:
+        start = starts + layout[6] * i
+        if place_points(layout, data, start, room) == 0:
             continue
         linear = start + HEAD
         ax, ay, bx, by = linear[2], linear[3], linear[4], linear[5]
@@ -434,7 +434,7 @@ def bring_inside(way: Wholes, given: Reals, starts: Reals, count: int, share: fl
         linear[5] = u * cy + v * cx
         linear[0] = max(-inside, min(inside, linear[0]))
         linear[1] = max(-inside, min(inside, linear[1]))
-        start[7] = measure(way, given, start, room, 0)
+        start[7] = measure(layout, data, start, room, 0)
 
 
 @cache

@@ -1,4 +1,4 @@
-"""The search for paths: many random starts, the best of them iterated, the worse half given up again and again.
+"""The search for paths: many random starts, the best of them iterated, the worse half dropped again and again.
 
 Untimed paths have many local optima, because each point may rest on a wrong part of the path. Their search is
 repeated; then every point goes to the nearest part of its path, and the best ones are shaken and iterated again.
@@ -18,17 +18,17 @@ from linkwright.synthesis.path_generation.demand import Demand, PathStarts
 
 #: Starts tried, iterated, and carried to the end: timed and untimed.
 TIMED, UNTIMED = (4000, 256, 32), (20000, 1536, 128)
-#: Steps before the worse half is given up, and to the end.
+#: Steps before the worse half is dropped, and to the end.
 FIRST_STEPS, LAST_STEPS = 15, 500
 #: Where the points ask for more than the unknowns can give, a share of 1/FEW of the starts is tried first; a sum of
-#: squares below EXACT, in units of the size squared, is then the least.
+#: squares below EXACT, in units of the size squared, is then the minimum.
 FEW, EXACT = 5, 1e-24
 #: Untimed: further searches; places of a path among which each point's nearest is sought; rounds of shaking by how
 #: much, paths shaken in each, starts made of each.
 REPEATED, PLACES, SHAKES, SHAKEN, EACH_SHAKEN = 2, 240, (0.5, 0.3, 0.2, 0.1), 24, 16
 #: Share of the starts that pass the points evenly along the length of some path, and positions of that path.
 BY_LENGTH, SAMPLES = 0.6, 48
-#: Rounds within a bound: steps, rounds, starts kept, greatest weight of the bound, which doubles from FIRST_WEIGHT.
+#: Rounds within a bound: steps, rounds, starts, maximum weight of the bound, which doubles from FIRST_WEIGHT.
 ROUNDS = ((12, 12, 24, 100.0), (40, 40, 8, 100.0), (150, 20, 3, 100.0))
 FIRST_WEIGHT, INSIDE = 0.1, 0.97
 
@@ -46,7 +46,7 @@ def search(
     demand: Demand, bound: float | None, transmission: float, rocking: bool, rng: np.random.Generator
 ) -> Found:
     """The best paths for a demand; ``rocking``: of any four-bars, else of those with a turning crank."""
-    tried, kept, last = TIMED if demand.timed else UNTIMED
+    tried, selected, last = TIMED if demand.timed else UNTIMED
 
     def judged(share: int) -> CompiledPaths:
         count = _fewer(demand, tried // share)
@@ -54,16 +54,16 @@ def search(
         return CompiledPaths.of(demand, family, mirrored, free, bound).judged()
 
     if bound is not None:
-        return _bounded(judged(1), kept)
+        return _bounded(judged(1), selected)
     if demand.excess > 0:
-        paths = _iterated(judged(FEW).best(kept // FEW), last // FEW)
+        paths = _iterated(judged(FEW).best(selected // FEW), last // FEW)
         if paths.deviation[0] < EXACT:
             return _found(paths)
-    paths = _iterated(judged(1).best(kept), last)
+    paths = _iterated(judged(1).best(selected), last)
     if demand.timed or demand.excess <= 0 or paths.deviation[0] < EXACT:
         return _found(paths)
     for _ in range(REPEATED):
-        paths = paths.joined(_iterated(judged(1).best(kept), last)).best(last)
+        paths = paths.joined(_iterated(judged(1).best(selected), last)).best(last)
     return _found(_nearest(_shaken(_nearest(paths, last), last, rng), last))
 
 
@@ -109,16 +109,16 @@ def _found(paths: CompiledPaths) -> Found:
     return Found(paths.paths, paths.free, np.arange(len(paths.starts)), paths.linear)
 
 
-def _bounded(paths: CompiledPaths, kept: int) -> Found:
+def _bounded(paths: CompiledPaths, selected: int) -> Found:
     """Solutions within the bound: iterated with shifted penalties; timed ones then along the bound."""
-    near, within = paths.best(kept // 4).inside(INSIDE), paths.inside(INSIDE).best(kept)
+    near, within = paths.best(selected // 4).inside(INSIDE), paths.inside(INSIDE).best(selected)
     paths, weight = paths.of_starts(np.concatenate([near.starts, within.starts])), FIRST_WEIGHT
     others = paths
-    for steps, rounds, last, greatest in ROUNDS:
+    for steps, rounds, last, maximum in ROUNDS:
         others = paths
         for _ in range(rounds):
             paths = paths.iterated(steps, weight).best(max(last, 2 * len(paths.starts) // 3)).shifted(weight)
-            weight = min(greatest, 2 * weight)
+            weight = min(maximum, 2 * weight)
     paths = paths.of_starts(np.concatenate([paths.starts, others.starts]))
     found = _found(paths.iterated(LAST_STEPS, weight).inside(1.0))
     assert paths.bound is not None
@@ -184,10 +184,10 @@ def _ranges(lengths: Floats, rng: np.random.Generator) -> tuple[Floats, Floats]:
     """Parts of the input's range of four-bars with a crank of length 1."""
     b, c, d = lengths
     low, high = (1 + d * d - (b + c) ** 2) / (2 * d), (1 + d * d - (b - c) ** 2) / (2 * d)
-    greatest, least = np.arccos(np.clip(low, -1, 1)), np.arccos(np.clip(high, -1, 1))
+    upper, lower_bound = np.arccos(np.clip(low, -1, 1)), np.arccos(np.clip(high, -1, 1))
     around_pi = (low < -1) & (rng.random(len(b)) < 0.5)
     around_zero = (high > 1) & (rng.random(len(b)) < 0.5)
-    greatest = np.where(around_pi, 2 * np.pi - least, greatest)
-    least = np.where(around_zero, -greatest, least)
+    upper = np.where(around_pi, 2 * np.pi - lower_bound, upper)
+    lower_bound = np.where(around_zero, -upper, lower_bound)
     ends = np.sort(rng.uniform(0.02, 0.98, (2, len(b))), axis=0)
-    return least + ends[0] * (greatest - least), least + ends[1] * (greatest - least)
+    return lower_bound + ends[0] * (upper - lower_bound), lower_bound + ends[1] * (upper - lower_bound)

@@ -1,7 +1,7 @@
 """Crank-rockers from swing angle and quick-return ratio; quick-return mechanisms with a swinging block.
 
 In the rocker's limit positions B₁, B₂ crank and coupler lie in one line: |O1 B₁| = b + a, |O1 B₂| = b - a, and the
-angle between them is θ = π (K - 1)/(K + 1). So O1 lies on the circle from which B₁B₂ is seen under θ: a family of one
+angle between them is θ = π (K - 1)/(K + 1). So O1 lies on the circle from which B₁B₂ subtends θ: a family of one
 number, from which the one with the largest smallest transmission angle is taken.
 Sources: Alt 1932 (Totlagenkonstruktion); Brodell and Soni 1970, J. Mechanisms 5; VDI 2130.
 """
@@ -26,7 +26,7 @@ from linkwright.synthesis.result import (
     Derivation,
     Synthesis,
     SynthesisError,
-    whole,
+    require_integers,
 )
 from linkwright.words import _
 
@@ -38,7 +38,7 @@ USUAL_RATIO = 5.0
 #: How far below its border the nearest quick-return angle lies.
 BELOW = 2e-3
 #: Quick-return ratios of the nearest slotted levers, where a demand lies beyond what they can have.
-LEAST_RATIO, MOST_RATIO = 1.05, 1000.0
+MIN_RATIO, MAX_RATIO = 1.05, 1000.0
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def crank_rocker(
             K that the swing allows; or none has both lengths; ``nearest``: those of the frame alone; or none has the
             ``link_ratio``; ``nearest``: that of the smallest ratio.
     """
-    whole(count=count)
+    require_integers(count=count)
     positive(swing_angle=swing_angle, **({} if link_ratio is None else {"link_ratio": link_ratio}))
     not_negative(frame=frame, rocker=rocker)
     if not frame and not rocker:
@@ -118,15 +118,17 @@ def crank_rocker(
     good = (facts.kind == 0) & _limit_positions_right(pivots, pins, swing_angle, theta)
     if swing_angle >= LARGEST_SWING or not good.any():
         raise _none(swing_angle, quick_return_ratio, frame or rocker, count)
-    least = float(facts.ratio[good].min())
+    smallest_ratio = float(facts.ratio[good].min())
     usual = math.inf if both else USUAL_RATIO
     within = good & (facts.ratio <= (usual if link_ratio is None else link_ratio * (1 + 1e-12)))
     if not within.any() and link_ratio is not None:
         nearest = crank_rocker(
-            swing_angle, quick_return_ratio, frame, rocker=rocker, link_ratio=least, count=1
+            swing_angle, quick_return_ratio, frame, rocker=rocker, link_ratio=smallest_ratio, count=1
         )
         raise SynthesisError(
-            LINK_RATIO_UNMET.format(given=f"{link_ratio:g}", least=f"{math.ceil(1e3 * least) / 1e3:g}"),
+            LINK_RATIO_UNMET.format(
+                value=f"{link_ratio:g}", minimum=f"{math.ceil(1e3 * smallest_ratio) / 1e3:g}"
+            ),
             nearest,
         )
     notes = (
@@ -135,15 +137,15 @@ def crank_rocker(
         else (
             _(
                 "no member of the family has its longest link within five times its shortest; the "
-                "smallest ratio is {least}",
+                "smallest ratio is {minimum}",
                 code="synthesize.link_ratio",
-                least=f"{least:.4g}",
+                minimum=f"{smallest_ratio:.4g}",
             ),
         )
     )
     limit = usual if link_ratio is None else link_ratio
     if not within.any():
-        limit = 1.05 * least
+        limit = 1.05 * smallest_ratio
         within = good & (facts.ratio <= limit)
     score = np.where(within, facts.transmission, -1.0)
     best = int(score.argmax())
@@ -192,9 +194,9 @@ def _none(swing: float, k: float, frame: float, count: int) -> SynthesisError:
             code="synthesize.crank_rocker.none",
         )
     )
-    said = {"swing": f"{math.degrees(swing):g}", "k": f"{k:g}", "most": f"{_ratio(border):.5g}"}
-    told = rule.format(near_swing=number(possible, "angle", 5), near=f"{near:.5g}", **said)
-    return SynthesisError(told, nearest)
+    values = {"swing": f"{math.degrees(swing):g}", "k": f"{k:g}", "most": f"{_ratio(border):.5g}"}
+    message = rule.format(near_swing=number(possible, "angle", 5), near=f"{near:.5g}", **values)
+    return SynthesisError(message, nearest)
 
 
 def _ratio(theta: float) -> float:
@@ -206,7 +208,7 @@ def _not_both(swing: float, k: float, frame: float, rocker: float) -> SynthesisE
     theta = angle_between_limits(k)
     rockers = frame / np.abs(_family(swing, theta)[0][_good(swing, theta)])
     near = float(rockers[np.abs(rockers - rocker).argmin()])
-    told = {
+    message = {
         "frame": number(frame, "length"),
         "rocker": number(rocker, "length"),
         "near": number(near, "length"),
@@ -216,7 +218,7 @@ def _not_both(swing: float, k: float, frame: float, rocker: float) -> SynthesisE
             "with this swing angle and K a frame of {frame} mm has no rocker of {rocker} mm; the "
             "nearest solution has one of {near} mm",
             code="synthesize.crank_rocker.both",
-            **told,
+            **message,
         ),
         crank_rocker(swing, k, frame, rocker=near),
     )
@@ -250,7 +252,7 @@ def _family(swing: float, theta: float) -> tuple[Complexes, Complexes]:
 
 
 def _circle_centre(pivot: complex, swing: float, theta: float) -> complex | None:
-    """Centre of the circle through both limit positions from whose points they are seen under θ, on the pivot's
+    """Centre of the circle through both limit positions from whose points they subtend θ, on the pivot's
     side."""
     if theta == 0:
         return None
@@ -326,25 +328,25 @@ def quick_return(
         raise SynthesisError(ONLY_WITH.format(demand="rod", needs="stroke"))
     theta = angle_between_limits(quick_return_ratio)
     if theta <= 0:
-        near = quick_return(LEAST_RATIO, frame, stroke=stroke)
+        near = quick_return(MIN_RATIO, frame, stroke=stroke)
         raise SynthesisError(
             _(
                 "a crank with a slotted lever has K > 1; ask for a larger quick-return ratio (the "
                 "nearest solution has {near})",
                 code="synthesize.quick_return.one",
-                near=f"{LEAST_RATIO:g}",
+                near=f"{MIN_RATIO:g}",
             ),
             near,
         )
     if math.cos(theta / 2) < 1e-6:
-        near = quick_return(MOST_RATIO, frame, stroke=stroke)
+        near = quick_return(MAX_RATIO, frame, stroke=stroke)
         raise SynthesisError(
             _(
-                "K = {given} asks for a crank as long as its distance from the lever's pivot; ask for a "
+                "K = {value} asks for a crank as long as its distance from the lever's pivot; ask for a "
                 "smaller quick-return ratio (the nearest solution has {near})",
                 code="synthesize.quick_return.most",
-                given=f"{quick_return_ratio:g}",
-                near=f"{MOST_RATIO:g}",
+                value=f"{quick_return_ratio:g}",
+                near=f"{MAX_RATIO:g}",
             ),
             near,
         )
@@ -360,16 +362,16 @@ def quick_return(
     if stroke:
         height = arm * (1 + math.cos(theta / 2)) / 2
         sink = points["E"].imag + frame - height
-        least = (arm - height) / math.cos(theta / 2)
-        length = rod or max(arm / 2, 1.1 * least)
-        if length < least * (1 - 1e-9):
-            near = quick_return(quick_return_ratio, frame, stroke=stroke, rod=least)
+        shortest = (arm - height) / math.cos(theta / 2)
+        length = rod or max(arm / 2, 1.1 * shortest)
+        if length < shortest * (1 - 1e-9):
+            near = quick_return(quick_return_ratio, frame, stroke=stroke, rod=shortest)
             raise SynthesisError(
                 _(
-                    "the rod is too short: the ram would turn back before the lever does; give {least} m or "
+                    "the rod is too short: the ram would turn back before the lever does; give {minimum} m or "
                     "more (the nearest solution has that)",
                     code="synthesize.quick_return.rod",
-                    least=f"{least:.6g}",
+                    minimum=f"{shortest:.6g}",
                 ),
                 near,
             )

@@ -77,13 +77,13 @@ def _none(quick_return_ratio: float, frame: float, link_ratio: float) -> Synthes
         wider = link_ratio
         while _best(0.0, wider)[1] <= 0:
             wider *= 1.2
-        given = {"ratio": f"{link_ratio:g}", "least": f"{wider:.4g}"}
+        values = {"ratio": f"{link_ratio:g}", "minimum": f"{wider:.4g}"}
         return SynthesisError(
             _(
                 "no drag link was found whose longest link is at most {ratio} times its shortest; allow "
-                "{least} (the nearest solution has that, with K = 1)",
+                "{minimum} (the nearest solution has that, with K = 1)",
                 code="synthesize.drag_link.links",
-                **given,
+                **values,
             ),
             drag_link(1.0, frame, link_ratio=wider),
         )
@@ -105,7 +105,7 @@ def _none(quick_return_ratio: float, frame: float, link_ratio: float) -> Synthes
 
 
 def _best(theta: float, link_ratio: float) -> tuple[Floats, float]:
-    """The free numbers with the greatest smallest transmission angle, and that angle; -1 where none moves."""
+    """The free numbers with the largest minimum transmission angle, and that angle; -1 where none moves."""
     rng = np.random.default_rng(0)
     longest = math.log(min(max(link_ratio, 1.0), 12.0))
     low, high = np.zeros(3), np.array([longest, 2 * math.pi, 2 * math.pi])

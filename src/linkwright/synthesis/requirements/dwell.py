@@ -22,12 +22,12 @@ from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError
 from linkwright.words import _
 
-#: Crank-rockers tried, positions of a turn, arcs kept; positions of the turn of a candidate.
+#: Crank-rockers tried, positions of a turn, arcs selected; positions of the turn of a candidate.
 ATLAS, SAMPLES, ARCS, FINE = 4000, 72, 40, 3600
 MOST_REST, MOST_SWING = np.pi, 2.6
 #: Fan of the output's pivot: directions, and arm lengths in units of the arc's radius.
 DIRECTIONS, ARMS = 36, np.geomspace(0.2, 3.0, 14)
-LEAST_TRANSMISSION = np.radians(30)
+MIN_TRANSMISSION = np.radians(30)
 #: Positions that are shown of a rest.
 SHOWN = 9
 
@@ -63,7 +63,7 @@ class Fan:
 @dataclass(frozen=True, eq=False)
 class DwellDerivation(Derivation):
     """Demands (rad, m); the crank angles (SHOWN,), rad, of the positions that are shown of the rest; centre and
-    radius of the arc, m; four-bars tried and arcs kept."""
+    radius of the arc, m; four-bars tried and arcs selected."""
 
     crank_angle: float
     swing_angle: float
@@ -78,7 +78,7 @@ class DwellDerivation(Derivation):
 def dwell(crank_angle: float, swing_angle: float, *, frame: float = 1.0, seed: int = 0) -> Synthesis:
     """Six-bars whose output rests over a crank angle (rad) and swings by ``swing_angle`` (rad) else.
 
-    ``frame``: length of the four-bar's frame, m. ``error``: the output's greatest deviation during the rest, rad.
+    ``frame``: length of the four-bar's frame, m. ``error``: the output's maximum deviation during the rest, rad.
 
     Raises:
         SynthesisError: angles out of range, or no movable six-bar in the atlas; ``nearest``: within the range, or
@@ -145,7 +145,7 @@ def _none(
 
 def _arcs(crank_angle: float, rng: np.random.Generator) -> Arcs:
     window = max(4, round(crank_angle / (2 * np.pi) * SAMPLES) + 1)
-    family, free = CrankFamily.random(rng, ATLAS, LEAST_TRANSMISSION)
+    family, free = CrankFamily.random(rng, ATLAS, MIN_TRANSMISSION)
     shape = family.lengths(free)
     keep = ~family.double & (shape.max(0) < 6)
     shape = shape[:, keep]
@@ -170,7 +170,7 @@ def _arcs(crank_angle: float, rng: np.random.Generator) -> Arcs:
 
 
 def fit_circles(p: Complexes) -> tuple[Complexes, Floats, Floats]:
-    """Centres, radii and greatest deviations of circles fitted to points (..., n)."""
+    """Centres, radii and maximum deviations of circles fitted to points (..., n)."""
     middle = p.mean(-1, keepdims=True)
     z = p - middle
     columns = np.stack([2 * z.real, 2 * z.imag, np.ones_like(z.real)], -1)
@@ -191,7 +191,7 @@ def _fan(arcs: Arcs, i: int, swing: float) -> Fan:
     arm, pivot = arms.ravel(), (centre + arms * np.exp(1j * directions)).ravel()
     angle, sine = _follow(p, pivot, arm, rod, centre)
     travel = np.ptp(angle, axis=1)
-    good = np.isfinite(travel) & (np.abs(sine).min(1) > np.sin(LEAST_TRANSMISSION))
+    good = np.isfinite(travel) & (np.abs(sine).min(1) > np.sin(MIN_TRANSMISSION))
     best = int(np.where(good, np.abs(travel - swing), np.inf).argmin())
     return Fan(
         float(arm[best]), float(directions.ravel()[best]), float(travel[best]) if good[best] else np.inf
@@ -212,8 +212,8 @@ def _output(
     angle, _ = _follow(p, np.array([pivot]), np.array([arm]), rod, centre)
     if not np.isfinite(angle).all() or abs(np.ptp(angle) - swing) > 1e-6:
         return None
-    sine = _least_sine(arcs, i, complex(pivot), arm)
-    if sine < np.sin(LEAST_TRANSMISSION) * (1 - 1e-6):
+    sine = _minimum_sine(arcs, i, complex(pivot), arm)
+    if sine < np.sin(MIN_TRANSMISSION) * (1 - 1e-6):
         return None
     rest = angle[0, : round(crank_angle / (2 * np.pi) * FINE) + 1]
     made = _candidate(arcs, i, complex(pivot), angle[0], sine, float(np.ptp(rest) / 2), frame)
@@ -231,8 +231,8 @@ def _output(
     return shown, derivation
 
 
-def _least_sine(arcs: Arcs, i: int, pivot: complex, arm: float) -> float:
-    """Least sine of both dyads' angles over the turn, shown; 0 where the six-bar does not turn."""
+def _minimum_sine(arcs: Arcs, i: int, pivot: complex, arm: float) -> float:
+    """Minimum sine of both dyads' angles over the turn, proved; 0 where the six-bar does not turn."""
     b, c, d = arcs.shape[:, i]
     place, away = arcs.arm[i] / d, pivot / d
     lengths = np.log([1 / d, b / d, c / d])

@@ -56,10 +56,10 @@ def rounded_slider_crank(found: Synthesis, rounding: float) -> Synthesis:
     positive(rounding=rounding)
     derivation = found.derivation
     assert isinstance(derivation, SliderCrankDerivation)
-    given = derivation.crank, derivation.rod, derivation.offset
-    crank, rod, offset = (multiple(each, rounding) for each in given)
+    lengths = derivation.crank, derivation.rod, derivation.offset
+    crank, rod, offset = (multiple(each, rounding) for each in lengths)
     if not crank or crank + offset > rod:
-        raise SynthesisError(TOO_ROUNDED.format(given=f"{1e3 * rounding:g}"), found)
+        raise SynthesisError(TOO_ROUNDED.format(value=f"{1e3 * rounding:g}"), found)
     return _result(replace(derivation, rounded=(crank, rod, offset)))
 
 
@@ -79,15 +79,15 @@ def slider_crank_from_ratios(stroke: float, rod_ratio: float, offset_ratio: floa
     positive(stroke=stroke, rod_ratio=rod_ratio)
     not_negative(offset_ratio=offset_ratio)
     if rod_ratio < 1 + offset_ratio - ROUND or rod_ratio <= 1:
-        least = max(1 + offset_ratio, 1.001)
-        nearest = slider_crank_from_ratios(stroke, least, offset_ratio)
+        minimum = max(1 + offset_ratio, 1.001)
+        nearest = slider_crank_from_ratios(stroke, minimum, offset_ratio)
         raise SynthesisError(
             _(
-                "rod ratio λ = {given} is too small for the crank to turn; it needs λ ≥ 1 + ε = {least} "
+                "rod ratio λ = {value} is too small for the crank to turn; it needs λ ≥ 1 + ε = {minimum} "
                 "(the nearest solution has that)",
                 code="synthesize.slider_crank.ratio",
-                given=f"{rod_ratio:g}",
-                least=f"{1 + offset_ratio:g}",
+                value=f"{rod_ratio:g}",
+                minimum=f"{1 + offset_ratio:g}",
             ),
             nearest,
         )
@@ -117,11 +117,11 @@ def slider_crank_from_quick_return(stroke: float, quick_return_ratio: float, off
         nearest = slider_crank_from_quick_return(stroke, near, offset)
         raise SynthesisError(
             _(
-                "a slider-crank with offset has K > 1, and K = {given} is demanded; give offset 0 with a "
+                "a slider-crank with offset has K > 1, and K = {value} is demanded; give offset 0 with a "
                 "rod ratio or a transmission angle, or a larger K (the nearest solution has K = {near}; "
                 "a longer rod comes nearer)",
                 code="synthesize.slider_crank.no_quick_return",
-                given=f"{quick_return_ratio:g}",
+                value=f"{quick_return_ratio:g}",
                 near=f"{near:.6g}",
             ),
             nearest,
@@ -130,10 +130,10 @@ def slider_crank_from_quick_return(stroke: float, quick_return_ratio: float, off
         nearest = slider_crank_from_quick_return(stroke, largest, offset)
         raise SynthesisError(
             _(
-                "stroke and offset allow no quick-return ratio {given}; at most K = {most} (the nearest "
+                "stroke and offset allow no quick-return ratio {value}; at most K = {most} (the nearest "
                 "solution has that)",
                 code="synthesize.slider_crank.quick_return",
-                given=f"{quick_return_ratio:g}",
+                value=f"{quick_return_ratio:g}",
                 most=f"{largest:.6g}",
             ),
             nearest,
@@ -162,7 +162,7 @@ def slider_crank_from_transmission(
     positive(stroke=stroke)
     not_negative(offset=offset)
     if not 0 < transmission_angle < math.pi / 2:
-        raise SynthesisError(TRANSMISSION_RANGE.format(given=number(transmission_angle, "angle")))
+        raise SynthesisError(TRANSMISSION_RANGE.format(value=number(transmission_angle, "angle")))
     slope = math.cos(transmission_angle)
 
     def excess(crank: float) -> float:
@@ -189,10 +189,10 @@ def angle_between_limits(quick_return_ratio: float) -> float:
     if not quick_return_ratio >= 1:
         raise SynthesisError(
             _(
-                "the quick-return ratio {given} is below 1; it is slow time over fast time, 1 or more; "
+                "the quick-return ratio {value} is below 1; it is slow time over fast time, 1 or more; "
                 "with the crank turning the other way it is {inverse}",
                 code="synthesize.quick_return_below_one",
-                given=f"{quick_return_ratio:g}",
+                value=f"{quick_return_ratio:g}",
                 inverse=f"{1 / quick_return_ratio:.6g}",
             )
         )
@@ -203,7 +203,7 @@ def positive(**values: float) -> None:
     """Raises SynthesisError for a value that is not positive and finite."""
     for name, value in values.items():
         if not 0 < real(name, value, finite=False) < math.inf:
-            raise SynthesisError(NOT_POSITIVE.format(name=name, given=f"{value:g}"))
+            raise SynthesisError(NOT_POSITIVE.format(name=name, value=f"{value:g}"))
 
 
 def not_negative(**values: float) -> None:
@@ -212,28 +212,28 @@ def not_negative(**values: float) -> None:
         if not 0 <= real(name, value, finite=False) < math.inf:
             raise SynthesisError(
                 _(
-                    "{name} is {given}; it must not be negative",
+                    "{name} is {value}; it must not be negative",
                     code="synthesize.negative",
                     name=name,
-                    given=f"{value:g}",
+                    value=f"{value:g}",
                 )
             )
 
 
 def _result(derivation: SliderCrankDerivation) -> Synthesis:
     crank, rod, offset = derivation.rounded or (derivation.crank, derivation.rod, derivation.offset)
-    reach, least = math.sqrt((rod + crank) ** 2 - offset**2), max((rod - crank) ** 2 - offset**2, 0.0)
+    reach, near_squared = math.sqrt((rod + crank) ** 2 - offset**2), max((rod - crank) ** 2 - offset**2, 0.0)
     tip = complex(reach, offset)
     pin = crank * tip / abs(tip)
     linkage = slider_crank(0, pin, tip, 1)
     a, b, o1 = np.array([[pin]]), np.array([[tip]]), np.array([0j])
     facts = assess_slider_cranks(o1, a, b, np.array([1 + 0j]), np.array([offset]))
-    theta = abs(math.atan2(offset, math.sqrt(least)) - math.atan2(offset, reach))
+    theta = abs(math.atan2(offset, math.sqrt(near_squared)) - math.atan2(offset, reach))
     values = {
         "crank [m]": crank,
         "rod [m]": rod,
         "offset [m]": offset,
-        "stroke [m]": reach - math.sqrt(least),
+        "stroke [m]": reach - math.sqrt(near_squared),
         "quick_return_ratio": (math.pi + theta) / (math.pi - theta),
     }
     turn = np.linspace(0, 2 * np.pi, 181)

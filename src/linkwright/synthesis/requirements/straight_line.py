@@ -65,7 +65,7 @@ def straight_line(length: float, *, deviation: float | None = None, kind: str | 
     """Straight-line linkages for a stretch of ``length`` (m) that stays within ``deviation`` (m) of its line.
 
     Of every kind the longest stretch that is straight enough is taken, so that the linkage is as small as can be;
-    deviation: a thousandth of the length where it is not given. ``error``: the greatest distance from the line, m.
+    deviation: a thousandth of the length where it is not given. ``error``: the largest distance from the line, m.
     Ranked by size.
 
     Raises:
@@ -83,7 +83,7 @@ def straight_line(length: float, *, deviation: float | None = None, kind: str | 
         )
     allowed = (0.001 * length if deviation is None else deviation) / length
     if not allowed > 0:
-        raise SynthesisError(NOT_POSITIVE.format(name="deviation", given=f"{allowed * length:g}"))
+        raise SynthesisError(NOT_POSITIVE.format(name="deviation", value=f"{allowed * length:g}"))
     names = KINDS if kind is None else (kind,)
     good, within = _straight(names, length, allowed), allowed
     while not good:
@@ -92,15 +92,15 @@ def straight_line(length: float, *, deviation: float | None = None, kind: str | 
     derivation = StraightLineDerivation(length, allowed * length, len(names))
     result = Synthesis("straight_line", good, "deviation", extent=length, derivation=derivation)
     if within > allowed:
-        given, least = f"{allowed * length:.4g}", f"{good[0].error:.4g}"
+        allowed_text, smallest_error = f"{allowed * length:.4g}", f"{good[0].error:.4g}"
         raise SynthesisError(
             _(
-                "{kind} has no stretch that stays within {given} m; allow a larger deviation (the "
-                "nearest solution has {least} m)",
+                "{kind} has no segment that stays within {allowed} m; allow a larger deviation (the "
+                "nearest solution has {minimum} m)",
                 code="synthesize.straight_line.none",
                 kind=str(kind),
-                given=given,
-                least=least,
+                allowed=allowed_text,
+                minimum=smallest_error,
             ),
             result,
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from linkwright.equations.steps import Step
-from linkwright.synthesis.names import ERRORS, TYPE_NAMES, name_said
+from linkwright.synthesis.names import ERRORS, TYPE_NAMES, display_name
 from linkwright.synthesis.result import defects_text, error_texts, merits
 from linkwright.synthesis.steps.writing import Writer, decimals, numbers
 from linkwright.words import _, pgettext
@@ -15,7 +15,7 @@ DETERMINED = ("slider_crank", "quick_return", "toggle")
 #: Tasks whose candidates are ranked by defects, error and merit.
 RANKED = ("function", "motion", "path", "exact_path")
 #: Share by which errors must differ to count.
-APART = 0.0025
+EQUAL_ERRORS = 0.0025
 #: Why the first candidate was taken, by the task.
 REASONS = {
     "crank_rocker": _(
@@ -80,7 +80,7 @@ def _lengths(w: Writer, step: Step) -> None:
     for names, rows in groups.items():
         columns = [(w.say(_("no.")), [str(number) for number, _unused in rows])]
         columns += [
-            (w.over(name_said(name, w.say)), w.lengths([lengths[name] for _unused, lengths in rows]))
+            (w.over(display_name(name, w.say)), w.lengths([lengths[name] for _unused, lengths in rows]))
             for name in names
         ]
         w.table(step, _("Link lengths"), columns)
@@ -117,8 +117,8 @@ def _reason(w: Writer) -> str:
                 defects=defects_text(second, w.say),
             )
         )
-    alike = error_texts(best)[0] == "0" and error_texts(second)[0] == "0"
-    if not alike and abs(best.error - second.error) > APART * second.error:
+    both_exact = error_texts(best)[0] == "0" and error_texts(second)[0] == "0"
+    if not both_exact and abs(best.error - second.error) > EQUAL_ERRORS * second.error:
         return w.say(
             _(
                 "Candidate 1 is taken for its smaller error: {error} against {next}.",
@@ -129,7 +129,7 @@ def _reason(w: Writer) -> str:
     first, other = merits(found.candidates[:2], found.extent)
     return w.say(
         _(
-            "Errors and defects are alike, so the merit decides, {merit} against {next}: the "
+            "Errors and defects are equal, so the merit decides, {merit} against {next}: the "
             "sine of the smallest transmission angle (here {angle}°), less for a linkage larger "
             "than three times the demand, or with links more unequal than 1:10.",
             merit=f"{first:.4f}",

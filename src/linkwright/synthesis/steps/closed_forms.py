@@ -76,10 +76,10 @@ def slider_crank(w: Writer, d: SliderCrankDerivation) -> None:
     _slider_check(w, (r, rod, e))
 
 
-def _from_ratios(w: Writer, d: SliderCrankDerivation, given: Step, terms: tuple[Term, ...]) -> None:
+def _from_ratios(w: Writer, d: SliderCrankDerivation, parent: Step, terms: tuple[Term, ...]) -> None:
     stroke, r, rod, e = terms
-    lam = given.give(w.value("λ", d.rod_ratio), "")
-    eps = given.give(w.value("ε", d.offset_ratio), "") if d.offset_ratio else ZERO
+    lam = parent.give(w.value("λ", d.rod_ratio), "")
+    eps = parent.give(w.value("ε", d.offset_ratio), "") if d.offset_ratio else ZERO
     step = w.step(_("Link lengths"))
     step.say(
         w.say(
@@ -98,10 +98,10 @@ def _from_ratios(w: Writer, d: SliderCrankDerivation, given: Step, terms: tuple[
         step.find(e, eps * r, w.unit)
 
 
-def _from_quick_return(w: Writer, d: SliderCrankDerivation, given: Step, terms: tuple[Term, ...]) -> None:
+def _from_quick_return(w: Writer, d: SliderCrankDerivation, parent: Step, terms: tuple[Term, ...]) -> None:
     stroke, r, rod, e = terms
-    ratio = given.give(w.value("K", d.quick_return_ratio), "")
-    given.give(e, w.unit)
+    ratio = parent.give(w.value("K", d.quick_return_ratio), "")
+    parent.give(e, w.unit)
     step = w.step(_("Angle between the crank's limit directions"))
     angle = math.pi * (d.quick_return_ratio - 1) / (d.quick_return_ratio + 1)
     theta = extreme_position_angle(w, step, ratio, angle)
@@ -125,11 +125,11 @@ def _from_quick_return(w: Writer, d: SliderCrankDerivation, given: Step, terms: 
     step.find(rod, root((total + difference) / TWO), w.unit)
 
 
-def _from_transmission(w: Writer, d: SliderCrankDerivation, given: Step, terms: tuple[Term, ...]) -> None:
+def _from_transmission(w: Writer, d: SliderCrankDerivation, parent: Step, terms: tuple[Term, ...]) -> None:
     stroke, r, rod, e = terms
-    least = given.give(w.angle("μ", d.transmission_angle, "min"), "°")
+    minimum = parent.give(w.angle("μ", d.transmission_angle, "min"), "°")
     if d.offset:
-        given.give(e, w.unit)
+        parent.give(e, w.unit)
     step = w.step(_("Link lengths"))
     step.say(
         w.say(
@@ -147,7 +147,7 @@ def _from_transmission(w: Writer, d: SliderCrankDerivation, given: Step, terms: 
         step.give(r, w.unit)
     else:
         step.find(r, stroke / TWO, w.unit)
-    step.find(rod, (r + e) / cosine(least), w.unit)
+    step.find(rod, (r + e) / cosine(minimum), w.unit)
 
 
 def _slider_check(w: Writer, lengths: tuple[Term, Term, Term]) -> None:
@@ -275,7 +275,7 @@ def toggle(w: Writer, d: ToggleDerivation) -> None:
     alpha = step.find(w.angle("α", d.alpha), arctangent(ONE / (TWO * ratio)), "°")
     step.say(w.say(_("The slider is s = 2 l (1 − cos α) = 4 l sin²(α/2) before the dead point:")))
     link = step.find(w.length("l", d.link), distance / (FOUR * sine(alpha / TWO).squared), w.unit)
-    step.say(w.say(_("Over the whole stroke H = 4 l sin²(α_0/2), so that it begins at")))
+    step.say(w.say(_("Over the full stroke H = 4 l sin²(α_0/2), so that it begins at")))
     step.find(w.angle("α", d.first_angle, "0"), TWO * arcsine(root(stroke / (FOUR * link))), "°")
     step = w.step(_("Check with the lengths found"))
     step.say(w.say(_("Distance before the dead point and force ratio at some angles:")))

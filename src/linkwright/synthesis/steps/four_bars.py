@@ -82,12 +82,12 @@ def transmission(w: Writer, step: Step, sides: tuple[Term, ...]) -> None:
     step.say(
         w.say(_("The angle between coupler and output is extreme where the input lies along the frame:"))
     )
-    for index, apart in (("1", d - a), ("2", d + a)):
-        cosine = (b.squared + c.squared - apart.squared) / (TWO * b * c)
+    for index, diagonal in (("1", d - a), ("2", d + a)):
+        cosine = (b.squared + c.squared - diagonal.squared) / (TWO * b * c)
         step.find(w.angle("μ", math.acos(max(-1.0, min(1.0, cosine.value))), index), arccosine(cosine), "°")
     found = [item.value for item in step.equations[-2:]]
-    least = min(min(angle, 180.0 - angle) for angle in found)
-    step.say(w.say(_("Smallest transmission angle: {angle}°.", angle=f"{least:.2f}")))
+    smallest = min(min(angle, 180.0 - angle) for angle in found)
+    step.say(w.say(_("Smallest transmission angle: {angle}°.", angle=f"{smallest:.2f}")))
 
 
 def signed_transmission(each: Candidate) -> Floats:

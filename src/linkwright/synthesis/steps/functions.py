@@ -37,7 +37,7 @@ P = ("P_0", "P_1", "P_2")
 
 def function(w: Writer, d: FunctionDerivation) -> None:
     """The pairs, the equations and their solution, the error at every pair, and what the linkage is like."""
-    _given(w, d)
+    _requirements(w, d)
     four_bar = w.found.best.linkage.kind == "four_bar"
     if d.method == "search":
         _search(w, d)
@@ -51,7 +51,7 @@ def function(w: Writer, d: FunctionDerivation) -> None:
         examine(w, w.found.best)
 
 
-def _given(w: Writer, d: FunctionDerivation) -> None:
+def _requirements(w: Writer, d: FunctionDerivation) -> None:
     step = w.step(pgettext("synthesis_steps", "Given"))
     places = w.found.error_name == "length"
     outputs = w.lengths(d.outputs) if places else degrees(d.outputs)
@@ -241,7 +241,7 @@ def _five_pairs(w: Writer, d: FunctionDerivation) -> None:
     step.say(
         w.say(
             _(
-                "Seen from the output link, the input link takes five poses; pins that stay on "
+                "Relative to the output link, the input link takes five poses; pins that stay on "
                 "circles about points of the output are Burmester's, at most four, one of which is "
                 "the pair of fixed pivots. {count} real four-bars follow; the first has",
                 count=w.found.counts.get("solutions", len(w.found)),
@@ -291,20 +291,20 @@ def _search(w: Writer, d: FunctionDerivation) -> None:
     step.give(w.angle("ζ", best.values["input_zero [rad]"], "φ"), "°")
     constant, scale = best.values["output_constant"], best.values["scale"]
     places = w.found.error_name == "length"
-    told = {
+    values = {
         "symbol": "s" if places else "ψ",
         "constant": w.length_text(constant) if places else shown(constant, "angle"),
     }
     if scale == 1.0:
         step.say(
-            w.say(_("The output {symbol} is the output link's coordinate plus {constant}.").format(**told))
+            w.say(_("The output {symbol} is the output link's coordinate plus {constant}.").format(**values))
         )
     else:
         step.say(
             w.say(
                 _(
                     "The output {symbol} is the output link's coordinate times {scale}, plus {constant}."
-                ).format(scale=f"{scale:.6g}", **told)
+                ).format(scale=f"{scale:.6g}", **values)
             )
         )
 
@@ -338,9 +338,7 @@ def _errors(w: Writer, d: FunctionDerivation) -> None:
         rms, worst = (
             _shown(w, each, places) for each in (_rms(best.deviations), np.abs(best.deviations).max())
         )
-        step.say(
-            w.say(_("Structural error: root mean square {rms}, greatest {worst}.", rms=rms, worst=worst))
-        )
+        step.say(w.say(_("Structural error: root mean square {rms}, maximum {worst}.", rms=rms, worst=worst)))
     w.picture("structural_error")
 
 

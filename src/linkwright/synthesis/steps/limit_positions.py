@@ -33,7 +33,7 @@ def crank_rocker(w: Writer, d: CrankRockerDerivation) -> None:
 
 
 def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> None:
-    """Chord, radius and centre of the circle from which the limit positions are seen under θ."""
+    """Chord, radius and centre of the circle from which the limit positions subtend θ."""
     step = w.step(_("Auxiliary circle of the crank's pivots"))
     c = step.give(w.length("c", d.rocker_length), w.unit)
     step.say(
@@ -61,7 +61,7 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
     step.say(
         w.say(
             _(
-                "From every point of a circle over this chord, B1 and B2 are seen under the angle θ "
+                "From every point of a circle over this chord, B1 and B2 subtend the angle θ "
                 "(inscribed angle); its radius is"
             )
         )
@@ -181,10 +181,10 @@ def drag_link(w: Writer, d: DragLinkDerivation) -> None:
     examine(w, w.found.best)
 
 
-def _drag_lengths(w: Writer, step: Step, given: tuple[Term, ...]) -> None:
-    frame, c, psi, phi, beta = given
+def _drag_lengths(w: Writer, step: Step, terms: tuple[Term, ...]) -> None:
+    frame, c, psi, phi, beta = terms
     a, b, _unused, _unused2 = four_bar_lengths(w, w.found.best)
-    step.say(w.say(_("The follower's pin at both ends, half a turn apart, from the driver's pivot:")))
+    step.say(w.say(_("The follower's pin at both ends (driver turned by 180°), from the driver's pivot:")))
     end = Pair(c * cosine(psi), c * sine(psi))
     found = []
     for index, x, y in (("1", frame + end.x, end.y), ("2", frame - end.x, -end.y)):
@@ -206,5 +206,5 @@ def _drag_lengths(w: Writer, step: Step, given: tuple[Term, ...]) -> None:
     below = step.find(w.length("q", along.value / w.scale, "2"), along, w.unit)
     step.find(a, above / (TWO * below), w.unit)
     for end, turned in ((first, phi), (second, last)):
-        apart = Pair(end.x - a * cosine(turned), end.y - a * sine(turned))
-        step.find(b, root(apart.x.squared + apart.y.squared), w.unit)
+        coupler = Pair(end.x - a * cosine(turned), end.y - a * sine(turned))
+        step.find(b, root(coupler.x.squared + coupler.y.squared), w.unit)

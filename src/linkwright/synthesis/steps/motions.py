@@ -31,7 +31,7 @@ MET = 1e-9
 
 def motion(w: Writer, d: MotionDerivation) -> None:
     """The poses, their poles, the curves or points of Burmester, and the circles of the pins that were taken."""
-    _given(w, d)
+    _requirements(w, d)
     free = bool(np.isnan(d.phi).any())
     if not free and len(d.p) <= MOST_POLES:
         _poles(w, d)
@@ -49,7 +49,7 @@ def motion(w: Writer, d: MotionDerivation) -> None:
 
 def _family(d: MotionDerivation, dyads: int) -> Message:
     if np.isnan(d.phi).any():
-        return _("Some angles are free; they are unknowns beside pins and pivots.")
+        return _("Some angles are free; they are unknowns like pins and pivots.")
     if len(d.p) == 2:
         return _(
             "Two poses: every body point lies on a circle about any point of the bisector of its two "
@@ -70,7 +70,7 @@ def _family(d: MotionDerivation, dyads: int) -> Message:
     )
 
 
-def _given(w: Writer, d: MotionDerivation) -> None:
+def _requirements(w: Writer, d: MotionDerivation) -> None:
     step = w.step(pgettext("synthesis_steps", "Given"))
     step.say(
         w.say(_("{count} poses: place of the coupler point P, and angle φ of the coupler.", count=len(d.p)))
@@ -93,7 +93,7 @@ def _poles(w: Writer, d: MotionDerivation) -> None:
         w.say(
             _(
                 "A body that goes from pose j to pose k turns about the pole P_jk, the point that "
-                "has the same place in both. Pins and pivots are seen from the poles under half "
+                "has the same place in both. Pins and pivots subtend at the poles half "
                 "these turns:"
             )
         )

@@ -238,7 +238,7 @@ def _along(w: Writer, places: np.ndarray, off: np.ndarray) -> None:
         (w.over(w.say(_("distance"))), small(off * w.scale, float(np.ptp(np.abs(places))) * w.scale)),
     ]
     w.table(step, _("Deviation at every position"), columns)
-    step.say(w.say(_("Greatest distance from the line: {error}.", error=w.length_text(w.found.best.error))))
+    step.say(w.say(_("Maximum distance from the line: {error}.", error=w.length_text(w.found.best.error))))
     w.picture("structural_error")
 
 
@@ -368,7 +368,7 @@ designs=d.designs,
     step.say(
         w.say(
             _(
-                "Error {error} (in lengths {mean}), greatest nearest distance {worst}.",
+                "Error {error} (in lengths {mean}), largest nearest distance {worst}.",
                 error=f"{best.error:.4g}",
                 mean=w.length_text(best.error * d.radius),
                 worst=w.length_text(best.worst * d.radius),

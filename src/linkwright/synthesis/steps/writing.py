@@ -113,8 +113,8 @@ def degrees(radians: ArrayLike, places: int = 4) -> list[str]:
 
 def small(values: ArrayLike, size: float = 1.0) -> list[str]:
     """Deviations with four digits; zero where they are rounding of ``size``."""
-    given = np.atleast_1d(np.asarray(values, float))
-    return ["0" if abs(value) <= ROUNDING * size else f"{value:.4g}" for value in given]
+    numbers = np.atleast_1d(np.asarray(values, float))
+    return ["0" if abs(value) <= ROUNDING * size else f"{value:.4g}" for value in numbers]
 
 
 def numbers(count: int) -> list[str]:

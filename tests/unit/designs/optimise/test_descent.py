@@ -140,7 +140,7 @@ def test_designs_nearest_to_points_by_turns() -> None:
     missed = np.array([[0.0], [0.0], [0.0], [0.2], [0.0]])  # the fourth misses a demand
     judged = Judged(np.linspace(0.0, 1.0, 5)[:, None], goals, missed, {})
     scale = Scale.of(judged)
-    assert scale.least.tolist() == [0.0, 0.0] and scale.span.tolist() == [1.0, 1.0]
+    assert scale.minimum.tolist() == [0.0, 0.0] and scale.span.tolist() == [1.0, 1.0]
     distance = nearest(judged, scale, spread(2, 3))
     assert picked(judged, distance, 3, 0.0) == [1, 2, 0]
     assert picked(judged, distance, 5, 0.0) == [1, 2, 0, 4, 3]

@@ -13,10 +13,10 @@ import linkwright as lw
 from linkwright.analysis.of_designs import NumbersOfDesigns
 from linkwright.cli import main
 from linkwright.core.arrays import Floats
-from linkwright.designs import design_numbers, finished_parts
+from linkwright.designs import checkpoints, design_numbers
+from linkwright.designs.checkpoints import _made, _plain
 from linkwright.designs.criteria import Criterion
 from linkwright.designs.designs import sweep_curves
-from linkwright.designs.finished_parts import _made, _plain
 from linkwright.designs.study import PIECE, _Work
 from linkwright.designs.sweep_run import SweepRun
 from linkwright.formula.reductions import Results
@@ -50,10 +50,10 @@ def test_an_interrupted_study_goes_on_from_its_file_without_what_it_had(
             raise KeyboardInterrupt
 
     monkeypatch.setattr(_Work, "_measured", counted)
-    with pytest.raises(lw.Interrupted) as stopped, lw.kept_in(None, machine.name, "asked"):
+    with pytest.raises(lw.Interrupted) as stopped, lw.checkpointing(None, machine.name, "asked"):
         lw.study(machine, vary, metrics=metrics, progress=interrupt)
     assert stopped.value.state.exists() and len(measured) == stop
-    with lw.kept_in(stopped.value.state, machine.name, "asked"):
+    with lw.checkpointing(stopped.value.state, machine.name, "asked"):
         resumed = lw.study(machine, vary, metrics=metrics)
     assert measured == vary["coupler.length"].tolist()  # each of them once, in both runs together
     assert resumed.data() == whole.data() and resumed.text("zh") == whole.text("zh")
@@ -64,7 +64,7 @@ def test_numbers_of_a_sweep_are_kept_piece_by_piece_and_one_by_one(
 ) -> None:
     """Those of whole designs together, of the one that reaches a part of its cycle by itself."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(finished_parts, "WORTH", float("inf"))  # kept however fast it was found
+    monkeypatch.setattr(checkpoints, "MAX_BYTES_PER_SECOND", float("inf"))  # kept however fast it was found
     crank, lengths, asked = lw.load(CRANK), np.array([3.0, 3.4, 2.3]), ["B.y max", "rocker.angle max"]
     whole = lw.sweep(crank, {"coupler.length": lengths}, outputs=asked, partial=True)
 
@@ -72,7 +72,7 @@ def test_numbers_of_a_sweep_are_kept_piece_by_piece_and_one_by_one(
         if done == total:
             raise KeyboardInterrupt
 
-    with pytest.raises(lw.Interrupted) as stopped, lw.kept_in(None, crank.name, "asked"):
+    with pytest.raises(lw.Interrupted) as stopped, lw.checkpointing(None, crank.name, "asked"):
         lw.sweep(crank, {"coupler.length": lengths}, outputs=asked, partial=True, progress=interrupt)
 
     def never(*given: object, **named: object) -> None:
@@ -80,7 +80,7 @@ def test_numbers_of_a_sweep_are_kept_piece_by_piece_and_one_by_one(
 
     monkeypatch.setattr(NumbersOfDesigns, "evaluate", never)
     monkeypatch.setattr(design_numbers, "_alone", never)
-    with lw.kept_in(stopped.value.state, crank.name, "asked"):
+    with lw.checkpointing(stopped.value.state, crank.name, "asked"):
         resumed = lw.sweep(crank, {"coupler.length": lengths}, outputs=asked, partial=True)
     for each in asked:
         assert np.isfinite(whole[each]).all() and np.array_equal(resumed[each], whole[each])
@@ -90,7 +90,7 @@ def test_an_interrupted_tolerance_run_says_from_which_file_it_goes_on(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(finished_parts, "WORTH", float("inf"))  # kept however fast it was found
+    monkeypatch.setattr(checkpoints, "MAX_BYTES_PER_SECOND", float("inf"))  # kept however fast it was found
     assert main(SPREAD) == 0
     whole = capsys.readouterr().out
     original, calls = SweepRun._computed, list[bytes]()
@@ -112,7 +112,7 @@ def test_an_interrupted_tolerance_run_says_from_which_file_it_goes_on(
 
 def test_what_a_cluster_finds_is_kept_piece_by_piece(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     distributed = pytest.importorskip("distributed")
-    monkeypatch.setattr(finished_parts, "WORTH", float("inf"))  # kept however fast it was found
+    monkeypatch.setattr(checkpoints, "MAX_BYTES_PER_SECOND", float("inf"))  # kept however fast it was found
     crank, draw, given = lw.load(CRANK), np.random.default_rng(2), list[str]()
     columns = {"coupler.length": draw.uniform(3.2, 4, 4100), "rocker.length": draw.uniform(2, 2.8, 4100)}
     ranges = {"coupler.length": "3.2..4 m:100", "rocker.length": "2..2.8 m:42"}
@@ -140,17 +140,17 @@ def test_what_a_cluster_finds_is_kept_piece_by_piece(tmp_path: Path, monkeypatch
 
         monkeypatch.setattr(client, "submit", counted)
         state = tmp_path / "cluster.state"
-        with pytest.raises(lw.Interrupted), lw.kept_in(state, "crank", 1), lw.on_cluster(client):
+        with pytest.raises(lw.Interrupted), lw.checkpointing(state, "crank", 1), lw.on_cluster(client):
             lw.study(crank, **asked, progress=interrupt)
         given.clear()
-        with lw.kept_in(state, "crank", 1), lw.on_cluster(client):
+        with lw.checkpointing(state, "crank", 1), lw.on_cluster(client):
             resumed, spread = lw.study(crank, **asked), [*sweep_curves(crank, columns, **curves)]
         pieces = -(-int(whole.ok.sum()) // PIECE)
         assert (
             len(given) == pieces - 3 + 2
         )  # three of the study and both of its sweep were there; two of curves
         given.clear()
-        with lw.kept_in(state, "crank", 1), lw.on_cluster(client):
+        with lw.checkpointing(state, "crank", 1), lw.on_cluster(client):
             again = lw.study(crank, **asked)
         assert given == []
     for name, column in whole.metrics.items():

@@ -25,11 +25,11 @@ from linkwright.filesystem import refuse_target, write_new
 from linkwright.words import Message, _
 
 T = TypeVar("T")
-#: Seconds between two times that finished parts are written.
+#: Shortest time between two writes to the file, s.
 WRITTEN = 0.5
-#: Bytes of arrays for every second of computing that a part may have; what is found faster than read is not kept.
-WORTH = 1e7
-_current: ContextVar[Kept | None] = ContextVar("kept", default=None)
+#: Largest result that is stored, in bytes per second of its computation: others are computed faster than read.
+MAX_BYTES_PER_SECOND = 1e7
+_current: ContextVar[Checkpoints | None] = ContextVar("checkpoints", default=None)
 
 
 RESUME = _("Interrupted; run the same command with --state {path} to go on.", code="study.interrupted")
@@ -47,56 +47,57 @@ class Interrupted(KeyboardInterrupt):
 
 
 @contextmanager
-def kept_in(
+def checkpointing(
     path: str | Path | None, name: str = "linkwright", *asked: object, progress: Progress | None = None
 ) -> Iterator[None]:
-    """Within it the finished parts of studies, tolerance runs and syntheses are kept in a file, and those that it has
-    already are not computed again: the results are equal to the bit. A search that a clock ends keeps what it has
-    found and the time that it has spent, and goes on from there. :func:`linkwright.optimize` has its own, ``state``.
+    """Context in which studies, tolerance runs and syntheses store finished parts in a file and resume from it.
+
+    Stored parts are not computed again, and the results are equal bit for bit. A search with a time limit stores its
+    population and the time spent. :func:`linkwright.optimize` has its own option, ``state``.
 
     Args:
-        path: the file; None: one named after ``name`` in the working directory, where the work is interrupted.
-        asked: what the file is for, such as the machine's text and the ranges; a file that was begun for something
-            else is refused. Without it work of several kinds can share a file.
+        path: the file; None: a file named after ``name`` in the working directory, written on interruption only.
+        asked: what identifies the task, such as the model's text and the ranges; a file of another task is refused.
+            Without it several tasks can share a file.
         progress: as in :func:`reporting`.
 
     Raises:
-        Interrupted: a KeyboardInterrupt, with the file that has all finished parts.
-        RequestError: a file of other work, or one that cannot be read or written.
+        Interrupted: a KeyboardInterrupt with the file of all finished parts.
+        RequestError: the file belongs to another task, or cannot be read or written.
     """
-    kept = Kept(None if path is None else Path(path), name, identity(VERSION, *asked))
-    token = _current.set(kept)
+    checkpoints = Checkpoints(None if path is None else Path(path), name, identity(VERSION, *asked))
+    token = _current.set(checkpoints)
     try:
         with reporting(progress or current_progress()):
             yield
     except KeyboardInterrupt:
-        raise Interrupted(kept.left()) from None
+        raise Interrupted(checkpoints.left()) from None
     finally:
         _current.reset(token)
-        kept.close()
+        checkpoints.close()
 
 
-def once(work: Callable[[], T], key: Callable[[], tuple[object, ...]]) -> T:
-    """What ``work`` gives: taken from the surrounding ``kept_in`` where it has it, else computed and kept there.
+def checkpointed(work: Callable[[], T], key: Callable[[], tuple[object, ...]]) -> T:
+    """Result of ``work()``: read from the surrounding ``checkpointing`` if stored there, else computed and stored.
 
-    ``key`` gives all that the result depends on. Results are numbers, texts, arrays, tuples, lists and mappings of
-    these; any others, and those that take longer to read than to find, are computed every time.
+    ``key`` returns everything that the result depends on. Numbers, texts, arrays, tuples, lists and mappings of
+    these are stored; other results, and those that take longer to read than to compute, are computed every time.
     """
-    kept = _current.get()
-    if kept is None:
+    checkpoints = _current.get()
+    if checkpoints is None:
         return work()
     name = identity(*key())
-    found = kept.part(name)
+    found = checkpoints.part(name)
     if found is not None:
         return found[0]  # type: ignore[no-any-return]
     begun = time.perf_counter()
     made = work()
-    kept.add(name, made, time.perf_counter() - begun)
+    checkpoints.add(name, made, time.perf_counter() - begun)
     return made
 
 
-def surrounding() -> Kept | None:
-    """The parts of the surrounding ``kept_in``; None: nothing is kept."""
+def current_checkpoints() -> Checkpoints | None:
+    """Checkpoints of the surrounding ``checkpointing``; None outside of one."""
     return _current.get()
 
 
@@ -114,8 +115,8 @@ def identity(*things: object) -> str:
     return digest.hexdigest()
 
 
-class Kept:
-    """Parts by key in a database of one file, or of memory where there is none yet."""
+class Checkpoints:
+    """Finished parts by key in an SQLite database, in memory while no file is named."""
 
     def __init__(self, path: Path | None, name: str, digest: str) -> None:
         self.path, self.name, self.written = path, name, time.monotonic()
@@ -141,7 +142,7 @@ class Kept:
             )
 
     def part(self, key: str) -> tuple[Any] | None:
-        """What is kept under a key, alone in a tuple; None: nothing."""
+        """The part stored under a key, in a tuple of one; None: not stored."""
         try:
             content = self._content(key)
             return None if content is None else (_made(json.loads(content)),)
@@ -149,7 +150,7 @@ class Kept:
             raise self._bad(problem) from None
 
     def resumed(self, key: str, make: Callable[[Any], T]) -> T | None:
-        """What ``make`` makes of what is kept under a key; None: nothing is."""
+        """``make(part)`` of the part stored under a key; None: not stored."""
         there = self.part(key)
         try:
             return None if there is None else make(there[0])
@@ -157,8 +158,8 @@ class Kept:
             raise self._bad(problem) from None
 
     def add(self, key: str, found: Any, seconds: float = math.inf) -> None:
-        """Keeps what was found in so many seconds, in place of what was there."""
-        if seconds < math.inf and _bytes(found) > WORTH * seconds:
+        """Stores a result computed in so many seconds, replacing an earlier one."""
+        if seconds < math.inf and _bytes(found) > MAX_BYTES_PER_SECOND * seconds:
             return
         try:
             content = json.dumps(_plain(found))
@@ -169,7 +170,7 @@ class Kept:
             self._write()
 
     def left(self) -> Path:
-        """The file with all parts."""
+        """Writes all parts; returns the file."""
         self._write()
         if self.path is None:
             stem = re.sub(r"[^\w-]+", "_", self.name).strip("_") or "machine"
@@ -178,12 +179,12 @@ class Kept:
         return self.path
 
     def close(self) -> None:
-        """Writes what is not written yet."""
+        """Writes pending parts and closes the database."""
         self._write()
         self.parts.close()
 
     def _write(self) -> None:
-        """In one short transaction: another process that shares the file waits no longer than that."""
+        """Writes pending parts in one short transaction, so that processes sharing the file hardly wait."""
         try:
             with self.parts:
                 self.parts.executemany("insert or replace into parts values (?, ?)", self._unwritten.items())
@@ -210,7 +211,7 @@ class Kept:
 
 
 def _bytes(value: Any) -> int:
-    """What the arrays of a part take."""
+    """Size of the arrays of a part, bytes."""
     if isinstance(value, np.ndarray):
         return value.nbytes
     items = value.values() if isinstance(value, Mapping) else value if isinstance(value, tuple | list) else ()
@@ -218,7 +219,7 @@ def _bytes(value: Any) -> int:
 
 
 def _plain(value: Any) -> Any:
-    """A value as JSON has it; TypeError for one that it cannot have."""
+    """A value as JSON; TypeError where there is no such form."""
     if value is None or type(value) in (bool, int, float, str):
         return value
     if isinstance(value, np.number | np.bool_):
@@ -237,7 +238,7 @@ def _plain(value: Any) -> Any:
 
 
 def _made(plain: Any) -> Any:
-    """The value that is meant."""
+    """The value of its JSON form."""
     if not isinstance(plain, dict):
         return plain
     if "message" in plain:

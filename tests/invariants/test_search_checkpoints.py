@@ -33,14 +33,14 @@ def data(task: str) -> str:
 def test_a_search_that_has_its_parts_in_a_file_gives_the_same_bits(task: str, tmp_path: Path) -> None:
     whole, state = data(task), tmp_path / "a.state"
     for _ in range(2):
-        with lw.kept_in(state, task):
+        with lw.checkpointing(state, task):
             assert data(task) == whole
         assert state.exists()
 
 
 def test_a_file_of_another_search_is_refused(tmp_path: Path) -> None:
     state = tmp_path / "a.state"
-    with lw.kept_in(state, "path", 1):
+    with lw.checkpointing(state, "path", 1):
         data("path")
-    with refused("optimize.other_state", path=state), lw.kept_in(state, "path", 2):
+    with refused("optimize.other_state", path=state), lw.checkpointing(state, "path", 2):
         data("path")

@@ -3,12 +3,12 @@
 import time
 from pathlib import Path
 
-from linkwright.designs.finished_parts import Kept
+from linkwright.designs.checkpoints import Checkpoints
 
 
-def test_processes_that_share_finished_parts_do_not_wait_for_each_other(tmp_path: Path) -> None:
+def test_processes_that_share_checkpoints_do_not_wait_for_each_other(tmp_path: Path) -> None:
     """One has found a part and goes on for long; the other one stores its own meanwhile, and both are there."""
-    first, second = (Kept(tmp_path / "parts.state", "machine", "work") for _ in range(2))
+    first, second = (Checkpoints(tmp_path / "parts.state", "machine", "work") for _ in range(2))
     first.add("a", 1.0)
     first.written = -1e9
     first.add("b", 2.0)
@@ -19,6 +19,6 @@ def test_processes_that_share_finished_parts_do_not_wait_for_each_other(tmp_path
     assert time.monotonic() - begun < 2
     assert first.part("c") == (3.0,)
     first.close()
-    again = Kept(tmp_path / "parts.state", "machine", "work")
+    again = Checkpoints(tmp_path / "parts.state", "machine", "work")
     assert [again.part(key) for key in "abcd"] == [(1.0,), (2.0,), (3.0,), (4.0,)]
     again.close()

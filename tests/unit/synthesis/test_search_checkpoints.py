@@ -17,7 +17,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.cli import main
-from linkwright.designs import finished_parts
+from linkwright.designs import checkpoints
 from linkwright.formula import machine_code
 from linkwright.synthesis.free_curve import search as free_curve
 from linkwright.synthesis.free_curve.nodes import FOUR_BAR, Design, flat
@@ -77,7 +77,7 @@ def _found(home: str, name: str) -> Callable[..., object]:
 def test_a_counted_search_goes_on_with_the_same_bits(
     task: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(finished_parts, "WORTH", float("inf"))  # kept however fast it was found
+    monkeypatch.setattr(checkpoints, "MAX_BYTES_PER_SECOND", float("inf"))  # kept however fast it was found
     name, demands = COUNTED[task]
     whole, stop = _data(task, demands), list[int]()
     calls = counted(monkeypatch, name, stop)
@@ -85,11 +85,11 @@ def test_a_counted_search_goes_on_with_the_same_bits(
     every = len(calls)
     calls.clear()
     stop.append(max(1, every // 2))
-    with pytest.raises(lw.Interrupted), lw.kept_in(tmp_path / "a.state", task, demands):
+    with pytest.raises(lw.Interrupted), lw.checkpointing(tmp_path / "a.state", task, demands):
         lw.synthesize(task, **demands)
     before = len(calls)
     stop.clear()
-    with lw.kept_in(tmp_path / "a.state", task, demands):
+    with lw.checkpointing(tmp_path / "a.state", task, demands):
         assert _data(task, demands) == whole
     assert len(calls) == every + 1 and before == max(1, every // 2)
 
@@ -117,7 +117,7 @@ def test_a_search_that_a_clock_ends_goes_on_with_the_time_that_is_left(tmp_path:
             raise KeyboardInterrupt
 
     def searched(progress: Callable[[int, int], None]) -> lw.Synthesis:
-        with lw.kept_in(tmp_path / "four.state"):
+        with lw.checkpointing(tmp_path / "four.state"):
             return lw.free_curve(FOUR, joints=5, seconds=3.0, progress=progress)
 
     part = searched(stop)

@@ -37,10 +37,10 @@ def test_an_interrupted_study_goes_on_from_its_file(
         if calls > stop:
             raise KeyboardInterrupt
 
-    with pytest.raises(lw.Interrupted) as stopped, lw.kept_in(None, crank.name, "asked"):
+    with pytest.raises(lw.Interrupted) as stopped, lw.checkpointing(None, crank.name, "asked"):
         lw.study(crank, vary, **asked, progress=interrupt)
     assert stopped.value.state.exists()
-    with lw.kept_in(stopped.value.state, crank.name, "asked"):
+    with lw.checkpointing(stopped.value.state, crank.name, "asked"):
         resumed = lw.study(crank, vary, **asked)
     assert resumed.data() == whole.data() and resumed.text("zh") == whole.text("zh")
 
