@@ -29,7 +29,7 @@ _is_option = re.compile(r"-(?![\d.]).").match
 class Command(click.Command):
     """A command with its words.
 
-    ``exclusive``: options of which one may be given; ``hint``: what to write for a word that is not expected.
+    ``exclusive``: options of which one may be used; ``hint``: what to write for a word that is not expected.
     """
 
     summary: Message
@@ -50,7 +50,7 @@ class Command(click.Command):
             super().parse_args(ctx, [*options, "--", *free])
         except click.UsageError as error:
             raise usage_error(error, self, ctx.command_path) from None
-        given = [
+        typed = [
             each
             for each in self.params
             if ctx.get_parameter_source(each.name or "") is ParameterSource.COMMANDLINE
@@ -58,11 +58,11 @@ class Command(click.Command):
         for each in self.params:
             if isinstance(each, Option) and each.multiple:
                 values = [value for value in ctx.params[each.name] if value or not each.optional]
-                ctx.params[each.name] = values if each in given else each.initial
+                ctx.params[each.name] = values if each in typed else each.initial
         for names in self.exclusive:
-            if len(both := [each.opts[0] for each in given if each.name in names]) > 1:
+            if len(both := [each.opts[0] for each in typed if each.name in names]) > 1:
                 raise not_together(both[1], both[0], ctx.command_path)
-        named = [each for each in given if isinstance(each, Option)]
+        named = [each for each in typed if isinstance(each, Option)]
         read_declared(ctx.params, named)
         for each in named:
             if each.endings:
@@ -81,7 +81,7 @@ class Command(click.Command):
         """
         options = [each for each in self.params if isinstance(each, Option)]
         known = {name: each for each in options for name in (*each.opts, *each.secondary_opts)}
-        given: list[tuple[str, Option, list[str]]] = []
+        parsed: list[tuple[str, Option, list[str]]] = []
         found, free, words = list[str](), list[str](), list(args)
         while words:
             word = words.pop(0)
@@ -99,18 +99,18 @@ class Command(click.Command):
             del words[: len(values)]
             if not values and not each.optional:
                 raise click.BadOptionUsage(word, "")
-            given.append((word, each, values))
+            parsed.append((word, each, values))
         needed = sum(each.required for each in self.arguments)
         several = any(each.nargs < 0 for each in self.arguments)
-        for _word, each, values in reversed(given):
+        for _word, each, values in reversed(parsed):
             spare = 0 if each.optional else 1
             while each.multiple and len(values) > spare and is_model(values[-1]):
                 if not several and len(free) >= needed:
                     break
                 free.insert(0, values.pop())
-        if given and given[-1][1].multiple and len(free) < needed and len(given[-1][2]) > 1:
-            free.append(given[-1][2].pop())
-        found += [f"{word}={value}" for word, _each, values in given for value in values or [""]]
+        if parsed and parsed[-1][1].multiple and len(free) < needed and len(parsed[-1][2]) > 1:
+            free.append(parsed[-1][2].pop())
+        found += [f"{word}={value}" for word, _each, values in parsed for value in values or [""]]
         return found, free
 
     def invoke(self, ctx: click.Context) -> Any:
@@ -148,7 +148,7 @@ def in_language_of(ctx: click.Context, items: Iterable[CompletionItem]) -> list[
 def command(
     summary: Message, description: Message, examples: str, *, name: str = "", **settings: Any
 ) -> Callable[[Run], Command]:
-    """Makes a function of options and session a command, by the name of its module unless another is given."""
+    """Makes a function of options and session a command, by the name of its module unless it has a ``name``."""
 
     def decorate(run: Run) -> Command:
         @click.command(name or run.__module__.rpartition(".")[2], cls=Command, add_help_option=False)

@@ -33,8 +33,8 @@ def show_list(part: str, session: Session) -> None:
         if title and entries:
             session.show("", session.say(title))
         for entry in entries:
-            said = in_language(entry["title"], session.language)
-            session.show(Text.assemble((entry["name"].ljust(wide), "bold"), f"  {said}"))
+            text = in_language(entry["title"], session.language)
+            session.show(Text.assemble((entry["name"].ljust(wide), "bold"), f"  {text}"))
     session.show("", session.say(NEXT))
 
 

@@ -37,8 +37,8 @@ class Choice(click.Choice[str]):
         if value is None or value in self.choices:
             return value
         name = param.opts[0] if isinstance(param, click.Option) else getattr(param, "name", "")
-        said = BAD_CHOICE.format(name=name, value=value, choices=tuple(self.choices))
-        raise UsageError(did_you_mean(said, str(value), self.choices))
+        text = BAD_CHOICE.format(name=name, value=value, choices=tuple(self.choices))
+        raise UsageError(did_you_mean(text, str(value), self.choices))
 
 
 class Option(click.Option):

@@ -86,23 +86,23 @@ def vectors(motion: Motion, options: Options, *, solved: bool) -> dict[str, Any]
 
 
 def names(words: Sequence[str] | None) -> tuple[str, ...]:
-    """Names given one by one or with commas between them."""
+    """Names one by one or with commas between them."""
     return tuple(name for word in words or () for name in word.split(",") if name)
 
 
 def names_or_all(words: Sequence[str] | None) -> tuple[str, ...] | bool:
-    """Names; True where the option is given without any, False where it is not given."""
+    """Names; True where the option has no names, False without the option."""
     return False if words is None else names(words) or True
 
 
-def refuse_unknown_marks(mechanism: Mechanism, options: Options) -> None:
+def refuse_unknown_points(mechanism: Mechanism, options: Options) -> None:
     """Raises UsageError for a point of a path, a point or a joint of an arrow that does not exist."""
     from linkwright.kinematics.names import point_key
     from linkwright.registry import no_such
 
     for each in ("paths", "velocities", "accelerations"):
-        given = names(getattr(options, each))
-        refuse_unknown(lambda name: point_key(mechanism, name), f"--{each}", given)
+        points = names(getattr(options, each))
+        refuse_unknown(lambda name: point_key(mechanism, name), f"--{each}", points)
     joints = mechanism.joints
     for name in names(options.forces):
         if (joint := name.rpartition(".")[2]) not in joints:
@@ -121,7 +121,7 @@ def refuse_unknown_names(mechanism: Mechanism, options: Options, dimensions: lis
     """Raises UsageError for a name of ``draw`` that does not exist."""
     from linkwright.kinematics.names import find_point, place_meant
 
-    refuse_unknown_marks(mechanism, options)
+    refuse_unknown_points(mechanism, options)
     named = [] if isinstance(dimensions, bool) else dimensions
     refuse_unknown(mechanism.link, "--dimensions", [each for each in named if isinstance(each, str)])
     ends = [point for each in named if not isinstance(each, str) for point in each]
@@ -131,10 +131,10 @@ def refuse_unknown_names(mechanism: Mechanism, options: Options, dimensions: lis
         refuse_unknown(lambda name: place_meant(mechanism, name), "--overlay", [output])
 
 
-def refuse_unknown(find: Callable[[str], object], option: str, given: Sequence[str]) -> None:
+def refuse_unknown(find: Callable[[str], object], option: str, typed: Sequence[str]) -> None:
     """Raises UsageError where ``find`` does not know a name that follows an option."""
 
-    for name in given:
+    for name in typed:
         with about(option, UsageError, LinkwrightError):
             find(name)
 

@@ -33,7 +33,7 @@ def main() -> int:
     except KeyboardInterrupt:
         code = INTERRUPTED
     finally:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # all is said: let the process end in peace
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # all is printed
         gc.freeze()  # no last search of all memory for cycles, which takes plot a fifth of its time
     if code == INTERRUPTED:
         _end()

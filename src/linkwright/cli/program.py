@@ -54,9 +54,9 @@ class Program(click.Group):
             return commands.command(cmd_name)
         if ctx.resilient_parsing:
             return None
-        said = _('there is no command "{name}"', code="cli.unknown_command", name=cmd_name)
+        text = _('there is no command "{name}"', code="cli.unknown_command", name=cmd_name)
         hint = _("see {command} --help", command="linkwright")
-        raise UsageError(did_you_mean(said, cmd_name, commands.names(), hint))
+        raise UsageError(did_you_mean(text, cmd_name, commands.names(), hint))
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Reads the options before the command; raises UsageError."""
@@ -177,8 +177,8 @@ def _refused(error: LinkwrightError, session: Session) -> int:
     """Reports what is wrong; with ``--json`` as data as well."""
     misused = isinstance(error, RequestError)
     missing = isinstance(error, ModelError) and all(found.code in NO_FILE for found in error.findings)
-    said = error.say(session.language)
-    (session.tell if isinstance(error, ModelError) and not misused else session.tell_error)(said)
+    text = error.say(session.language)
+    (session.tell if isinstance(error, ModelError) and not misused else session.tell_error)(text)
     if session.json:
         findings = [found.data() for found in getattr(error, "findings", ())]
         session.show_data({"ok": False, "error": str(error), "code": error.code, "findings": findings})

@@ -73,7 +73,7 @@ class Session:
             self._print(Group(*([Text("")] if number else []), *self._parts(table, first=not number)))
 
     def show_result(
-        self, found: Tabular, *written: object, text: str = "", apart: bool = True, **options: Any
+        self, found: Tabular, *written: object, text: str = "", spaced: bool = True, **options: Any
     ) -> None:
         """Prints a result (``options``: of its tables) or ``text`` in its place, and which files were written; with
         ``json`` its data."""
@@ -84,13 +84,13 @@ class Session:
             self.show(text)
         else:
             self.show_tables(found, **options)
-        self.show_written(*written, apart=apart)
+        self.show_written(*written, spaced=spaced)
 
-    def show_written(self, *paths: object, apart: bool = False) -> None:
-        """Names the files that were written, but for those that are None; ``apart``: each behind an empty line."""
+    def show_written(self, *paths: object, spaced: bool = False) -> None:
+        """Names the files that were written, but for those that are None; ``spaced``: each behind an empty line."""
         for path in paths:
             if path is not None:
-                self.show("\n" * apart + self.say(_("written: {path}", path=path)))
+                self.show("\n" * spaced + self.say(_("written: {path}", path=path)))
 
     def flush(self) -> None:
         """Flushes the standard output; raises OutputError where that fails."""
@@ -100,15 +100,15 @@ class Session:
     def tell(self, text: str | Text) -> None:
         """Prints to the standard error: what is not part of the result."""
         with suppress(OSError):
-            said = plain(text) if isinstance(text, str) else text
-            self.errors.print(said, soft_wrap=not self.errors.is_terminal)
+            styled = plain(text) if isinstance(text, str) else text
+            self.errors.print(styled, soft_wrap=not self.errors.is_terminal)
 
     def tell_error(self, sentence: str) -> None:
         """Prints an error to the standard error."""
         head = self.say(_("error"))
-        said = Text(terminal_text(self.say(_("{head}: {sentence}", head=head, sentence=sentence))))
-        said.stylize(STYLES["error"], 0, len(head))
-        self.tell(said)
+        styled = Text(terminal_text(self.say(_("{head}: {sentence}", head=head, sentence=sentence))))
+        styled.stylize(STYLES["error"], 0, len(head))
+        self.tell(styled)
 
     @property
     def width(self) -> int:
@@ -117,11 +117,11 @@ class Session:
 
     def finding(self, found: Finding) -> Text:
         """A finding in the chosen language: the place bold, the rest by its severity."""
-        said = Text(terminal_text(found.say(self.language)))
+        styled = Text(terminal_text(found.say(self.language)))
         place = "".join(f"{part}: " for part in (found.where, found.key) if part)
-        said.stylize("bold", 0, len(place.rstrip()))
-        said.stylize(STYLES[found.severity], len(place))
-        return said
+        styled.stylize("bold", 0, len(place.rstrip()))
+        styled.stylize(STYLES[found.severity], len(place))
+        return styled
 
     def _parts(self, table: Table, *, first: bool) -> Iterator[RenderableType]:
         """A table as rich prints it: title, columns within the terminal, notes."""
@@ -145,7 +145,7 @@ class Session:
 
 
 def grid(rows: Sequence[Sequence[str]], align: str, *, indent: int = 0, heads: int = 0) -> Columns:
-    """Rows as columns two spaces apart; texts are wrapped where the terminal is too narrow, numbers are not."""
+    """Rows in columns with two spaces between; a narrow terminal wraps texts, but not numbers."""
     table = Columns.grid(padding=(0, 2, 0, 0), pad_edge=False)
     for side in align:
         table.add_column(justify=_SIDES[side], no_wrap=side == ">", overflow="fold")

@@ -63,12 +63,12 @@ def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
         rows.append((joint, link, number(peak.value), number(force[0]), number(force[1]), peak.input))
     wide = 6 if several else 5
     rubbing = ", ".join(rubbing_guides(forces.mechanism))
-    apart = _(
+    guides = _(
         "The force in a guide is what presses its parts together; its friction, μ times "
         "that, along the guide, comes on top: {names}",
         names=rubbing,
     )
-    notes = [*([apart] if rubbing else []), *_efforts(solved, forces, say, degrees=degrees)]
+    notes = [*([guides] if rubbing else []), *_efforts(solved, forces, say, degrees=degrees)]
     return Table((), [row[:wide] for row in rows], "<<>>>>", title, notes).lines(language_of(say))
 
 
@@ -199,7 +199,7 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
         effort = partial(Forces.driver_effort, name=key)
         high, low = _places(solved, [(effort, "max"), (effort, "min")], degrees)
         at = _("at {place}")
-        said = say(
+        sentence = say(
             _(
                 "{name}: from {low} {unit} {low_at} to {high} {unit} {high_at}",
                 name=name,
@@ -211,8 +211,10 @@ def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list
             )
         )
         if solved.between and solved.motion.positions.closed:
-            said += say(_(", mean {mean} {unit}", mean=number(solved.analysis.mean_of(effort)), unit=unit))
-        rows.append(said)
+            sentence += say(
+                _(", mean {mean} {unit}", mean=number(solved.analysis.mean_of(effort)), unit=unit)
+            )
+        rows.append(sentence)
     return rows
 
 

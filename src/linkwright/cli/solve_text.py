@@ -91,9 +91,9 @@ def _fitted(
     last = efforts(solved, columns)
     asked = point_keys(solved.motion, options.points)
     ranked = blocks(solved, columns, asked)
-    least = max(len(asked), 1)
-    ranked = [*ranked[:least], *([last] if last else []), *ranked[least:]]
-    kept = fitting(first, ranked, session.width, session.say, least=least)
+    minimum = max(len(asked), 1)
+    ranked = [*ranked[:minimum], *([last] if last else []), *ranked[minimum:]]
+    kept = fitting(first, ranked, session.width, session.say, minimum=minimum)
     names = {column.name for block in kept for column in block}
     efforts_shown = [column for column in last if column.name in names]
     shown = [column for column in columns.values() if column.name in names and column.quantity != "effort"]
@@ -174,14 +174,14 @@ def _ranked_links(mechanism: Mechanism, structure: Structure) -> list[str]:
 
 
 def fitting(
-    fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, say: Say, *, least: int
+    fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, say: Say, *, minimum: int
 ) -> list[list[Column]]:
-    """The first of the blocks (columns that belong together) that fit beside the fixed ones; at least ``least``."""
+    """The first blocks (columns that belong together) that fit next to the fixed ones; at least ``minimum``."""
     used = total_width(fixed, say)
     chosen: list[list[Column]] = []
     for block in blocks:
         wide = len(GAP) + total_width(block, say)
-        if len(chosen) >= least and used + wide > width:
+        if len(chosen) >= minimum and used + wide > width:
             break
         used += wide
         chosen.append(list(block))

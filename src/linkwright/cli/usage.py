@@ -29,10 +29,10 @@ def names_of(command: click.Command) -> list[str]:
     return [name for each in options for name in (*each.opts, *each.secondary_opts)]
 
 
-def did_you_mean(said: Message, word: str, known: Iterable[str], otherwise: str = "") -> str:
+def did_you_mean(text: Message, word: str, known: Iterable[str], otherwise: str = "") -> str:
     """A sentence about a mistyped word with the nearest known one."""
     offer = nearest(word, list(known))
-    return with_remedy(said, _('did you mean "{offer}"?', offer=offer) if offer else otherwise)
+    return with_remedy(text, _('did you mean "{offer}"?', offer=offer) if offer else otherwise)
 
 
 def usage_error(error: click.UsageError, command: click.Command, path: str) -> UsageError:
@@ -40,28 +40,28 @@ def usage_error(error: click.UsageError, command: click.Command, path: str) -> U
     see = _("see {command} --help", command=path)
     if isinstance(error, click.NoSuchOption):
         name = error.option_name
-        said = _('there is no option "{name}"', code="cli.unknown_option", name=name)
-        return UsageError(did_you_mean(said, name, names_of(command) if name.startswith("--") else (), see))
+        text = _('there is no option "{name}"', code="cli.unknown_option", name=name)
+        return UsageError(did_you_mean(text, name, names_of(command) if name.startswith("--") else (), see))
     if isinstance(error, click.MissingParameter) and error.param is not None:
         param = error.param
         name = param.opts[0] if isinstance(param, click.Option) else param.human_readable_name
-        said = _("{names} is missing", code="cli.missing", names=(name,))
+        text = _("{names} is missing", code="cli.missing", names=(name,))
     elif isinstance(error, click.BadOptionUsage):
         name = error.option_name
         flags = [each for each in command.params if isinstance(each, click.Option) and each.is_flag]
-        said = (
+        text = (
             _("{name} takes no value", code="cli.takes_no_value", name=name)
             if any(name in each.opts for each in flags)
             else _("{name} needs a value", code="cli.needs_value", name=name)
         )
     else:
-        said = _("{body}", body=error.format_message())
-    return UsageError(with_remedy(said, see))
+        text = _("{body}", body=error.format_message())
+    return UsageError(with_remedy(text, see))
 
 
 def extra_argument(word: str, command: click.Command, path: str, hint: str = "") -> UsageError:
     """The error for a word that a command does not take, with the option that may be meant."""
-    said = _('the argument "{name}" is not expected here', code="cli.unknown_argument", name=word)
+    text = _('the argument "{name}" is not expected here', code="cli.unknown_argument", name=word)
     looks = {
         "--output": bool(Path(word).suffix) and not is_model(word),
         "--at": _AMOUNT.match(word) is not None,
@@ -69,10 +69,10 @@ def extra_argument(word: str, command: click.Command, path: str, hint: str = "")
     }
     fitting = (name for name in names_of(command) if looks.get(name))
     remedy = hint or next((_("write {name} {word}", name=name, word=word) for name in fitting), None)
-    return UsageError(with_remedy(said, remedy or _("see {command} --help", command=path)))
+    return UsageError(with_remedy(text, remedy or _("see {command} --help", command=path)))
 
 
 def not_together(name: str, other: str, path: str) -> UsageError:
     """The error for options that exclude each other."""
-    said = NOT_TOGETHER.format(name=name, other=other)
-    return UsageError(with_remedy(said, _("see {command} --help", command=path)))
+    text = NOT_TOGETHER.format(name=name, other=other)
+    return UsageError(with_remedy(text, _("see {command} --help", command=path)))

@@ -11,7 +11,7 @@ from linkwright.cli.pictures import (
     names,
     paths,
     picture_file,
-    refuse_unknown_marks,
+    refuse_unknown_points,
     report_written,
     vectors,
 )
@@ -61,7 +61,7 @@ def run(options: Options, session: Session) -> int:
 
     seconds = duration(options.seconds, "--seconds")
     mechanism, _findings = read_model(options.file, session)
-    refuse_unknown_marks(mechanism, options)
+    refuse_unknown_points(mechanism, options)
     motion = cycle(mechanism, max(options.steps, options.frames), session)
     shown = vectors(motion, options, solved=True)
     animation = animate(

@@ -116,5 +116,5 @@ def run(options: Options, session: Session) -> int:
     if options.curves is not None:
         curves = found.curves
         write_table(options.curves, overlay_columns(curves), overlay_data(curves), force=options.force)
-    present(found, options, session, options.curves, apart=False)
+    present(found, options, session, options.curves, spaced=False)
     return 0

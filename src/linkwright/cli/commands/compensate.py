@@ -21,7 +21,7 @@ Finds the lift of a cam of the machine so that an output is constant while the i
 goes through a zone: what the follower at rest leaves is made good exactly; outside the
 zone the follower returns smoothly, with a dwell. The output is one that the model
 names (outputs: {lead: bed_guide - 180 mm*cylinder}), a coordinate, an angle or a
-displacement. --span looks for the zone of that length in which there is least to do."""
+displacement. --span looks for the zone of that length that needs the smallest lift."""
     ),
     """\
 linkwright compensate gallery:printing_press lead --zone "-882.734..-1449.5665 deg"

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from linkwright.cli.command import command
-from linkwright.cli.machine_options import CURVE_OPTIONS, FlywheelOptions, refuse_contradictions
+from linkwright.cli.machine_options import CURVE_OPTIONS, refuse_contradictions
 from linkwright.cli.options import RESULTS, Options, argument, count, fields, force, output
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
 from linkwright.fields.base import file_keys
+from linkwright.machine.drive_options import DriveOptions
 from linkwright.words import _
 
-FIELDS = file_keys(FlywheelOptions)
+FIELDS = file_keys(DriveOptions)
 #: Options that say the same, or of which one says nothing of the other's diagram.
-APART = (
+EXCLUSIVE = (
     ("areas", "load"), ("areas", "period"), ("torque", "scale"), ("inertia", "mass"), ("inertia", "gyration"),
 )  # fmt: skip
 
@@ -36,7 +37,7 @@ linkwright machine --torque "20000 + 9500*sin(2*theta) - 5700*cos(2*theta)" \\
     --speed 180rpm --fluctuation 0.01
 linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(theta)" \\
     --speed 150rpm --mass 500kg --gyration 0.4m""",
-    exclusive=[("disk", "rim"), ("areas", "torque"), *APART],
+    exclusive=[("disk", "rim"), ("areas", "torque"), *EXCLUSIVE],
 )
 @argument(
     "file",
@@ -59,12 +60,12 @@ linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(the
 def run(options: Options, session: Session) -> int:
     """Lays out motor and flywheel and prints them."""
     from linkwright.cli.files import present
-    from linkwright.cli.machine_rows import of_diagram, of_mechanism
     from linkwright.cli.source import read_model
+    from linkwright.machine.drive_design import of_diagram, of_mechanism
 
     refuse_contradictions(options)
     values = {name: getattr(options, name) for name in FIELDS}
-    flywheel = FlywheelOptions(**{name: each for name, each in values.items() if each is not None})
+    flywheel = DriveOptions(**{name: each for name, each in values.items() if each is not None})
     if options.file is None:
         flywheel.require_speed()
         session.show_result(of_diagram(flywheel, session.say))

@@ -70,7 +70,7 @@ def run(options: Options, session: Session) -> int:
         session.show_data(data | ({"error": "\n".join(errors)} if errors else {}))
     else:
         session.show_tables(found.table)
-        session.show_written(options.output, apart=True)
+        session.show_written(options.output, spaced=True)
     for each in errors:
         session.tell_error(each)
     return 2 if found.inapplicable else int(found.error is not None)

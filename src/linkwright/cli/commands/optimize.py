@@ -1,4 +1,4 @@
-"""``linkwright optimize``: the dimensions that make a number least, within what must be kept."""
+"""``linkwright optimize``: dimensions that minimise or maximise metrics under constraints."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ SETTINGS = {
 
 
 @command(
-    _("make a number of the machine least, within what must be kept"),
+    _("minimise or maximise metrics of a machine under constraints"),
     _(
         """\
-Varies dimensions within bounds so that one number or several become least (or
-greatest) while others are kept: a global search that judges all designs of a
-generation in one sweep, then exact gradients. The settings stand in the file's
-section "optimize", or here. Prints the design beside the start and writes the
+Varies dimensions within bounds to minimise or maximise one metric or several under
+constraints on others: a global search that evaluates all designs of a
+generation in one sweep, then exact gradients. The settings are in the file's
+section "optimize", or here. Prints the design next to the initial one and writes the
 model file with everything else as it was. Several objectives give a front."""
     ),
     """\
@@ -79,5 +79,5 @@ def run(options: Options, session: Session) -> int:
         raise
     written = write_models(options.output, found, force=options.force)
     write_diagram(found, options, session)
-    session.show_result(found, *written, options.plot, apart=False)
+    session.show_result(found, *written, options.plot, spaced=False)
     return 0

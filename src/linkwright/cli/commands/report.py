@@ -1,4 +1,4 @@
-"""``linkwright report``: the whole report of a machine, or of several."""
+"""``linkwright report``: the full report of a machine, or of several."""
 
 from __future__ import annotations
 

@@ -56,7 +56,10 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json"""
 )
 @flag("--static", help=_("forces without inertia"))
 @flag("--mark", help=_("leave gaps where a position cannot be reached, and say why, instead of refusing"))
-@flag("--prove", help=_("prove that the assembly is kept in every step, where groups have no closed form"))
+@flag(
+    "--prove",
+    help=_("prove that the assembly mode does not change in any step, where groups have no closed form"),
+)
 @flag(
     "--worked",
     help=_(

@@ -33,14 +33,14 @@ def run(options: Options, session: Session) -> int:
     from linkwright.cli.source import read_model
     from linkwright.kinematics.rank_of_motion import rank_sentence
     from linkwright.kinematics.structure_with_rank import analysed
-    from linkwright.kinetostatics.whole_program import whole_program
+    from linkwright.kinetostatics.program_of_results import program_of_results
 
     mechanism, _findings = read_model(options.file, session)
     structure = analysed(mechanism)
     rank = rank_sentence(mechanism, "en" if session.json else session.language)
     program = None
     if options.program or options.forces:
-        program = whole_program(mechanism, forces=options.forces)
+        program = program_of_results(mechanism, forces=options.forces)
     if session.json:
         data: dict[str, object] = {"ok": True, "name": mechanism.name, **structure.data(), "rank": rank}
         if program is not None:

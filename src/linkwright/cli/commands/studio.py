@@ -1,4 +1,4 @@
-"""``linkwright studio``: draw, change and solve a machine in the browser, its file beside it."""
+"""``linkwright studio``: draw, change and solve a machine in the browser, next to its file."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ NO_PORT = _(
 
 
 @command(
-    _("draw, change and solve a machine in the browser, its file beside it"),
+    _("draw, change and solve a machine in the browser, next to its file"),
     _(
         """\
 Opens the studio in the browser: the machine as on a living page, the text of its file beside it, both

@@ -37,7 +37,7 @@ def run(options: Options, session: Session) -> int:
         raise UsageError(
             _('no case has "{text}" in its name or source', code="validate.no_case", text=options.case)
         )
-    with progress(session, _("comparing")) as told:
-        found = validate(cases, told)
+    with progress(session, _("comparing")) as report:
+        found = validate(cases, report)
     session.show_result(found, every=options.every)
     return int(not found.ok)

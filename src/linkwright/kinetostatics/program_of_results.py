@@ -8,7 +8,7 @@ from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.mechanism.mechanism import Mechanism
 
 
-def whole_program(mechanism: Mechanism, *, forces: bool) -> Program:
+def program_of_results(mechanism: Mechanism, *, forces: bool) -> Program:
     """The program of a motion, or of a motion with its joint forces."""
     solver = MotionSolver(mechanism)
     names = solver.outputs.standard

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar
 
-from linkwright.cli.machine_options import FlywheelOptions
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import shown
 from linkwright.core.rows import Block, Numbers, Row
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.machine import running
+from linkwright.machine.drive_options import DriveOptions
 from linkwright.machine.energy import EnergyFluctuation, energy_fluctuation, fluctuation_from_areas
 from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia, on_faster_shaft, speed_fluctuation
 from linkwright.machine.motor import motor
@@ -43,7 +43,7 @@ LABELS = {
 
 
 @dataclass(frozen=True)
-class Layout(Numbers):
+class DriveDesign(Numbers):
     """What is found of torque curves, or of a machine (``running``) with the dimensions of its flywheel."""
 
     labels: ClassVar[Mapping[str, Message]] = LABELS
@@ -66,23 +66,21 @@ class Layout(Numbers):
         return [] if self.machine is None else self.machine.notes(language)
 
 
-def of_areas(energy: EnergyFluctuation, wanted: FlywheelOptions, say: Say) -> list[Block]:
+def of_areas(energy: EnergyFluctuation, options: DriveOptions, say: Say) -> list[Block]:
     """Rows of areas between torque curve and mean line."""
     first = [
         Row("energy_fluctuation", energy.value, "energy"),
         _after("energy_lowest", float(energy.energy.min()), int(energy.low), say),
         _after("energy_highest", float(energy.energy.max()), int(energy.high), say),
     ]
-    flywheel, rows = _by_formula(energy.value, wanted)
-    total = wanted.present + flywheel
-    if total and wanted.speed:
-        rows.append(share("formula_fluctuation", speed_fluctuation(energy.value, wanted.speed, total)))
-    return _blocks(first, rows, dimensions(flywheel, wanted.speed or 0.0, wanted))
+    flywheel, rows = _by_formula(energy.value, options)
+    total = options.present + flywheel
+    if total and options.speed:
+        rows.append(share("formula_fluctuation", speed_fluctuation(energy.value, options.speed, total)))
+    return _blocks(first, rows, dimensions(flywheel, options.speed or 0.0, options))
 
 
-def of_curves(
-    driver: TorqueCurve, load: TorqueCurve | None, wanted: FlywheelOptions, say: Say
-) -> list[Block]:
+def of_curves(driver: TorqueCurve, load: TorqueCurve | None, options: DriveOptions, say: Say) -> list[Block]:
     """Rows of a driving torque against a load; raises LinkwrightError for a mean torque of zero."""
     mean = driver.mean
     (_unused, lowest), (_unused2, highest) = driver.extremes()
@@ -100,14 +98,14 @@ def of_curves(
     resisting = TorqueCurve.constant(mean, period=driver.period) if load is None else load
     energy = energy_fluctuation(driver, resisting).without_rounding(mean * driver.period)
     first = [Row("mean_torque", mean, "torque")]
-    if wanted.speed:
-        found = motor(mean, wanted.speed, efficiency=wanted.efficiency, margin=wanted.margin)
+    if options.speed:
+        found = motor(mean, options.speed, efficiency=options.efficiency, margin=options.margin)
         first.append(Row("mean_power", found.mean_power, "power"))
         if found.power != found.mean_power:
             first.append(Row("motor_power", found.power, "power"))
         if load is not None and highest - lowest <= NOTHING * highest:
             alone = motor(
-                load.extremes()[1][1], wanted.speed, efficiency=wanted.efficiency, margin=wanted.margin
+                load.extremes()[1][1], options.speed, efficiency=options.efficiency, margin=options.margin
             )
             first.append(Row("motor_power_without_flywheel", alone.power, "power"))
     second = [
@@ -115,13 +113,13 @@ def of_curves(
         placed("energy_lowest", float(energy.energy.min()), "energy", energy.low),
         placed("energy_highest", float(energy.energy.max()), "energy", energy.high),
     ]
-    flywheel, third = _by_formula(energy.value, wanted)
-    total = wanted.present + flywheel
-    if total and wanted.speed:
-        third.append(share("formula_fluctuation", speed_fluctuation(energy.value, wanted.speed, total)))
-        third += speeds(true_speed(resisting, total, wanted.speed, driver=driver), lambda angle: angle, say)
+    flywheel, third = _by_formula(energy.value, options)
+    total = options.present + flywheel
+    if total and options.speed:
+        third.append(share("formula_fluctuation", speed_fluctuation(energy.value, options.speed, total)))
+        third += speeds(true_speed(resisting, total, options.speed, driver=driver), lambda angle: angle, say)
         third += _accelerations(driver.minus(resisting), total)
-    return _blocks(first, second, third, dimensions(flywheel, wanted.speed or 0.0, wanted))
+    return _blocks(first, second, third, dimensions(flywheel, options.speed or 0.0, options))
 
 
 def _blocks(*parts: list[Row]) -> list[Block]:
@@ -134,65 +132,65 @@ def _after(key: str, energy: float, area: int, say: Say) -> Row:
     return Row(key, energy, "energy", note=place, more={"after_area": area})
 
 
-def _by_formula(energy: float, wanted: FlywheelOptions) -> tuple[float, list[Row]]:
+def _by_formula(energy: float, options: DriveOptions) -> tuple[float, list[Row]]:
     """Flywheel that is needed beside what is there, 0 where none is asked for."""
-    rows = [Row("inertia", wanted.present, "inertia")] if wanted.present else []
-    if wanted.fluctuation is None or not wanted.speed:
+    rows = [Row("inertia", options.present, "inertia")] if options.present else []
+    if options.fluctuation is None or not options.speed:
         return 0.0, rows
-    needed = flywheel_inertia(energy, wanted.speed, wanted.fluctuation, present=wanted.present)
-    rows += [share("required_fluctuation", wanted.fluctuation), Row("flywheel", needed, "inertia")]
-    return needed, rows + _on_shaft(needed, wanted)
+    needed = flywheel_inertia(energy, options.speed, options.fluctuation, present=options.present)
+    rows += [share("required_fluctuation", options.fluctuation), Row("flywheel", needed, "inertia")]
+    return needed, rows + _on_shaft(needed, options)
 
 
 def _accelerations(excess: TorqueCurve, inertia: float) -> list[Row]:
-    (slow, least), (fast, most) = excess.extremes()
+    (slow, minimum), (fast, most) = excess.extremes()
     return [
-        placed("acceleration_smallest", least / inertia, "angular_acceleration", slow),
+        placed("acceleration_smallest", minimum / inertia, "angular_acceleration", slow),
         placed("acceleration_largest", most / inertia, "angular_acceleration", fast),
     ]
 
 
-def _on_shaft(flywheel: float, wanted: FlywheelOptions) -> list[Row]:
-    if wanted.ratio == 1.0:
+def _on_shaft(flywheel: float, options: DriveOptions) -> list[Row]:
+    if options.ratio == 1.0:
         return []
-    return [Row("shaft_flywheel", on_faster_shaft(flywheel, wanted.ratio), "inertia")]
+    return [Row("shaft_flywheel", on_faster_shaft(flywheel, options.ratio), "inertia")]
 
 
-def dimensions(flywheel: float, speed: float, wanted: FlywheelOptions) -> list[Row]:
+def dimensions(flywheel: float, speed: float, options: DriveOptions) -> list[Row]:
     """Dimensions of the flywheel on its shaft; none where no shape or no flywheel is asked for."""
-    if wanted.size is None or not flywheel > 0:
+    if options.size is None or not flywheel > 0:
         return []
-    size = wanted.size(on_faster_shaft(flywheel, wanted.ratio))
+    size = options.size(on_faster_shaft(flywheel, options.ratio))
     rows = [Row(f"{size.shape}_diameter", size.diameter, "length"), Row("width", size.width, "length")]
     if size.shape == "rim":
         rows.append(Row("thickness", size.thickness, "length"))
-    rim_speed = size.rim_speed(speed * abs(wanted.ratio))
+    rim_speed = size.rim_speed(speed * abs(options.ratio))
     return [*rows, Row("mass", size.mass, "mass"), Row("rim_speed", rim_speed, "velocity")]
 
 
-def of_mechanism(mechanism: Mechanism, wanted: FlywheelOptions, steps: int) -> Layout:
+def of_mechanism(mechanism: Mechanism, options: DriveOptions, steps: int) -> DriveDesign:
     """Motor and flywheel of a machine for steady running."""
     found = running.steady_running(
         solve_forces(mechanism, steps=steps),
-        fluctuation=FLUCTUATION if wanted.fluctuation is None else wanted.fluctuation,
-        ratio=wanted.ratio,
-        efficiency=wanted.efficiency,
-        margin=wanted.margin,
+        fluctuation=FLUCTUATION if options.fluctuation is None else options.fluctuation,
+        ratio=options.ratio,
+        efficiency=options.efficiency,
+        margin=options.margin,
     )
-    sized = Block("dimensions", "", dimensions(found.exact_flywheel, found.equivalent.speed, wanted))
-    return Layout(mechanism.name, lambda say: [*found.blocks(say), sized], found)
+    sized = Block("dimensions", "", dimensions(found.exact_flywheel, found.equivalent.speed, options))
+    return DriveDesign(mechanism.name, lambda say: [*found.blocks(say), sized], found)
 
 
-def of_diagram(wanted: FlywheelOptions, say: Say) -> Layout:
+def of_diagram(options: DriveOptions, say: Say) -> DriveDesign:
     """Motor and flywheel of a torque diagram, by its areas or by expressions."""
-    if wanted.areas is not None:
-        areas, scales = wanted.areas
+    if options.areas is not None:
+        areas, scales = options.areas
         torque, angle = scales or (1.0, 1.0)
         energy = fluctuation_from_areas(areas, torque_scale=torque, angle_scale=angle)
         title = say(_("Torque diagram of {count} areas", count=len(areas)))
-        return Layout(title, partial(of_areas, energy, wanted))
-    assert wanted.torque is not None
-    text, driver = wanted.torque
-    against, load = wanted.load or (say(_("its mean")), None)
+        return DriveDesign(title, partial(of_areas, energy, options))
+    assert options.torque is not None
+    text, driver = options.torque
+    against, load = options.load or (say(_("its mean")), None)
     title = say(_("T = {torque}, against {load}", torque=text, load=against))
-    return Layout(title, partial(of_curves, driver, load, wanted))
+    return DriveDesign(title, partial(of_curves, driver, load, options))
