@@ -172,7 +172,7 @@ def test_of_several_drivers_the_range_of_the_one_that_fails_is_told() -> None:
         "link": "rod2",
         "low": "500 mm",
         "high": "1500 mm",
-        "told": "with the other drivers at their start {reason}",
+        "reasons": "with the other drivers at their start {reason}",
     }
     with refused("motion.refused_told", lw.PositionError, **ends):
         lw.solve_motion(lw.loads(TWO_CYLINDERS))

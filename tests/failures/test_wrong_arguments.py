@@ -68,11 +68,11 @@ CALLS: list[tuple[Callable[[], object], str, dict[str, object]]] = [
     (lambda: FOUR_BAR.with_dimensions({3: 1.0}), "model.no_dimension", {"address": 3}),
     (lambda: lw.metrics(motion(), [3]), "names.no_such", {"noun": "metric", "name": 3}),
     (lambda: lw.limit_positions(motion(), None), "study.no_such_output", {"name": "None"}),
-    (lambda: sweep(outputs=None), "study.no_output_name", {"given": "None"}),
+    (lambda: sweep(outputs=None), "study.no_output_name", {"value": "None"}),
     (
         lambda: sweep(outputs=[("rocker.angle", "max", "min")]),
         "study.no_output_name",
-        {"given": "('rocker.angle', 'max', 'min')"},
+        {"value": "('rocker.angle', 'max', 'min')"},
     ),
     (
         lambda: sweep(outputs=OUTPUT, backend="jax"),
@@ -105,14 +105,14 @@ CALLS: list[tuple[Callable[[], object], str, dict[str, object]]] = [
         "given_instead.no_choice",
         {"names": ("auto", "forward", "reverse"), "option": "way", "value": "'back'"},
     ),
-    (lambda: slopes(of=[1], by=CRANK), "study.no_output_name", {"given": "1"}),
+    (lambda: slopes(of=[1], by=CRANK), "study.no_output_name", {"value": "1"}),
     (
         lambda: slopes(of=OUTPUT, by=CRANK).slope("rocker.angle", CRANK),
         "study.no_curve",
         {"output": "rocker.angle"},
     ),
     (lambda: aim({}, vary=CRANK), "study.no_outputs", {}),
-    (lambda: aim(3, vary=CRANK), "study.no_output_name", {"given": "3"}),
+    (lambda: aim(3, vary=CRANK), "study.no_output_name", {"value": "3"}),
     (lambda: aim(OUTPUT, vary=[]), "study.nothing_varied", {}),
     (
         lambda: aim({OUTPUT: "1"}, vary=CRANK),

@@ -41,8 +41,8 @@ def checked(forces: lw.Forces, index: int, cam: lw.Cam, phi: float, turned: floa
     if cam.follower.kind != "flat":
         size = math.radians(abs(found["α"]))
         assert size == pytest.approx(abs(float(contact.pressure_angle[0])), abs=1e-9)
-    if contact.bend[0] and "ρ" in found:
-        assert 1.0 / found["ρ"] == pytest.approx(float(contact.bend[0]), rel=1e-6)
+    if contact.curvature[0] and "ρ" in found:
+        assert 1.0 / found["ρ"] == pytest.approx(float(contact.curvature[0]), rel=1e-6)
 
 
 @pytest.mark.parametrize("touch", ["roller", "knife", "flat"])

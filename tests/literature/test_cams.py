@@ -74,7 +74,7 @@ def test_pressure_angle_and_curvature_are_those_of_the_closed_forms(turn: float,
     assert contact.pressure_angle == pytest.approx(np.arctan((v - turn * offset) / height), abs=1e-13)
     if offset == 0.0:
         bend = (height**2 + 2 * v**2 - height * a) / (height**2 + v**2) ** 1.5
-        assert 1 / contact.bend == pytest.approx(1 / bend - 0.008, rel=1e-10)
+        assert 1 / contact.curvature == pytest.approx(1 / bend - 0.008, rel=1e-10)
 
 
 @pytest.mark.parametrize("kind", ["roller", "flat"])

@@ -28,7 +28,7 @@ from linkwright.words import Message, _
 STANDING = 1e-6
 #: A speed below this share of the largest is zero.
 AT_REST = 1e-12
-#: A crossing meets within this share of the curve's length; two nearer than APART are one.
+#: A crossing meets within this share of the curve's length; two nearer than DISTINCT are one.
 SAME, DISTINCT = 1e-9, 1e-6
 #: Times closer than this many steps belong to a cusp or a fold, not to a crossing.
 NEIGHBOURS = 1e-3
@@ -42,7 +42,7 @@ LOOKS = np.array([0.031, 0.117, 0.213, 0.289, 0.377, 0.441, 0.537, 0.618, 0.703,
 ALONG = 1e-6
 #: A crossing within this share of the curve's length from a cusp is none.
 NEAR_CUSPS = 1e-4
-Spot = tuple[float, float]
+PlanePoint = tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -55,8 +55,8 @@ class CouplerCurve(Plotted):
     point: str
     length: float
     area: float
-    double_points: tuple[tuple[Spot, Spot], ...]
-    cusps: tuple[tuple[Spot, float], ...]
+    double_points: tuple[tuple[PlanePoint, PlanePoint], ...]
+    cusps: tuple[tuple[PlanePoint, float], ...]
     path: Floats = field(repr=False, compare=False)
 
 
@@ -108,7 +108,7 @@ def _once(analysis: Analysis, lap: float) -> Motion:
     return found
 
 
-def _among(spot: Spot, cusps: tuple[tuple[Spot, float], ...], near: float) -> bool:
+def _among(spot: PlanePoint, cusps: tuple[tuple[PlanePoint, float], ...], near: float) -> bool:
     """Whether a place is one of the cusps, from which a curve may run back on itself."""
     return any(np.hypot(spot[0] - x, spot[1] - y) <= near for (x, y), _unused in cusps)
 
@@ -159,7 +159,7 @@ def _repeated(analysis: Analysis, point: str) -> int:
 
 def _doubles(
     analysis: Analysis, point: str, path: Floats, length: float, lap: float
-) -> Iterator[tuple[Spot, Spot]]:
+) -> Iterator[tuple[PlanePoint, PlanePoint]]:
     """Crossings of the polygon, sharpened to those of the curve by Newton steps in both times."""
     places = np.array(crossings(path))
     if not len(places) or not analysis.resolver.possible:
@@ -179,7 +179,7 @@ def _doubles(
     across = np.abs(cross(velocity[:, 0], velocity[:, 1])) > ALONG * speeds
     interval = np.abs(times[:, 1] - times[:, 0]) % period
     met = np.hypot(*(position[:, 1] - position[:, 0]).T) <= SAME * length
-    found: list[Spot] = []
+    found: list[PlanePoint] = []
     for i in np.flatnonzero(
         met & across & (np.minimum(interval, period - interval) > NEIGHBOURS * abs(step))
     ):
@@ -196,10 +196,12 @@ def _pairs(analysis: Analysis, point: str, times: Floats) -> tuple[Floats, Float
     return track.position.reshape(-1, 2, 2), track.velocity.reshape(-1, 2, 2)
 
 
-def _cusps(analysis: Analysis, point: str, motion: Motion, length: float) -> Iterator[tuple[Spot, float]]:
+def _cusps(
+    analysis: Analysis, point: str, motion: Motion, length: float
+) -> Iterator[tuple[PlanePoint, float]]:
     """Local minima of the speed where it vanishes; those at the same place are one."""
     time, speed = _speeds(analysis, point, motion)
-    mean, interval, found = float(np.mean(speed)), float(np.ptp(time)) / POSITIONS, list[Spot]()
+    mean, interval, found = float(np.mean(speed)), float(np.ptp(time)) / POSITIONS, list[PlanePoint]()
     low = speed <= np.roll(speed, 1)
     for i in np.flatnonzero(low & (speed < np.roll(speed, -1)) & (speed < 0.3 * mean)).tolist():
         before, after = (time[i] - time[i - 1], time[(i + 1) % len(time)] - time[i])
@@ -314,5 +316,5 @@ class Cusp(CurveMetric):
             yield self.value(analysis, curve.point, len(curve.cusps), remarks=remarks, place=place, at=at)
 
 
-def _remark(key: str, message: Message, spot: Spot) -> Remark:
+def _remark(key: str, message: Message, spot: PlanePoint) -> Remark:
     return Remark(key, message.format(x=shown(spot[0], "length"), y=shown(spot[1], "length")))

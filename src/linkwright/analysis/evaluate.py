@@ -12,7 +12,7 @@ from linkwright.analysis.table import MetricsTable
 from linkwright.applied_loads.strokes import NEAR
 from linkwright.core.arguments import one_or_more, require
 from linkwright.core.arrays import Flags
-from linkwright.core.quantity import NOTHING
+from linkwright.core.quantity import ZERO_TOLERANCES
 from linkwright.errors import RequestError
 from linkwright.kinematics.full_turns import MOST
 from linkwright.kinematics.motion import Motion
@@ -131,12 +131,12 @@ def _without_rounding(rows: Sequence[MetricValue], negligible: Mapping[str, floa
     """The values, zero and without a place where one is negligible compared with the largest of its dimension, or
     smaller than ``negligible``.
 
-    Angles and lengths, which may be places, stay, and are shown as zero below ``quantities.NOTHING``; so do ratios,
+    Angles and lengths, which may be places, stay, and are shown as zero below ``ZERO_TOLERANCES``; so do ratios,
     of which a zero has its place.
     """
     largest: dict[str, float] = {}
     for row in rows:
-        if row.dimension not in (*NOTHING, "dimensionless") and isfinite(row.value):
+        if row.dimension not in (*ZERO_TOLERANCES, "dimensionless") and isfinite(row.value):
             largest[row.dimension] = max(largest.get(row.dimension, 0.0), abs(row.value))
     return [
         replace(row, value=0.0, at=None)

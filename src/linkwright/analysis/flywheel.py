@@ -20,7 +20,7 @@ from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.words import _
 
 #: A mean torque below this share of the largest one is zero.
-NOTHING = 1e-9
+ZERO_TOLERANCE = 1e-9
 #: What a flywheel follows from.
 EXCESS, MEAN, PEAK = (Summary("input_torque", kind) for kind in ("excess", "mean", "peak"))
 INERTIA = Summary("equivalent_inertia", "mean")
@@ -57,7 +57,7 @@ class EnergyFluctuation(Metric):
             return False
         analysis.ask((INERTIA, EXCESS, PEAK))  # found together
         mean = float(analysis.part(MEAN).value)
-        return abs(mean) > NOTHING * float(np.abs(analysis.forces.input_torque).max())
+        return abs(mean) > ZERO_TOLERANCE * float(np.abs(analysis.forces.input_torque).max())
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         yield Number(next(iter(analysis.motion.mechanism.drivers)), (EXCESS,))
@@ -87,7 +87,7 @@ def _inertia(
 ) -> Scalar:
     """The flywheel; NaN where the drivers do no work."""
     needed = maximum(energy / (fluctuation * speed * speed) - own, 0.0)
-    return select(maximum(mean, -mean) > NOTHING * peak, needed, float("nan"))
+    return select(maximum(mean, -mean) > ZERO_TOLERANCE * peak, needed, float("nan"))
 
 
 class TrueSpeed(EnergyFluctuation):

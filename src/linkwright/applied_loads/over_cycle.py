@@ -81,7 +81,7 @@ def switch_times(load: Load, signals: Signals) -> tuple[Floats, bool]:
     cycles away.
     """
     ends, complete = load.magnitude.phase.ends(signals)
-    return np.append(ends, load.magnitude.size.bends(signals)), complete
+    return np.append(ends, load.magnitude.size.kinks(signals)), complete
 
 
 class CycleCourse:

@@ -63,7 +63,7 @@ class Size(ABC):
         """What ``Course.lookup`` looks up."""
         return None
 
-    def bends(self, signals: Signals) -> Floats:
+    def kinks(self, signals: Signals) -> Floats:
         """Times, s, of its kinks, as far as these are known beforehand; perhaps several cycles away."""
         return np.empty(0)
 
@@ -188,7 +188,7 @@ class Table(Size):
         """Its places of the input or the time, which are known beforehand."""
         return () if isinstance(self.over, Output) else self.x
 
-    def bends(self, signals: Signals) -> Floats:
+    def kinks(self, signals: Signals) -> Floats:
         knots = np.array(self.known_at)
         found = knots if self.over == "time" or not len(knots) else times_of_inputs(knots, signals)
         return np.empty(0) if found is None else found

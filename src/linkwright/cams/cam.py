@@ -198,8 +198,8 @@ class Cam(CamShape):
     def _tightest(self, wall: CamCurve, start: float, end: float) -> float:
         """Smallest radius of curvature of the pitch curve there, m."""
         contact = wall.contact(np.linspace(start, end, 801))
-        bend = (1.0 - contact.growth) / self.follower.roller_radius
-        return 1.0 / max(float(bend.max()), 1e-12)
+        curvature = (1.0 - contact.growth) / self.follower.roller_radius
+        return 1.0 / max(float(curvature.max()), 1e-12)
 
     def _contact_lost(self) -> list[Finding]:
         """Where a set spring does not maintain the contact."""

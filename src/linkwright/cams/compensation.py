@@ -86,9 +86,9 @@ class _Return:
         for width in np.linspace(0.15, 0.5, 8) * (end - start):
             for level in levels.tolist():
                 ways = [_passage(each, level, width, back) for each, back in ((first, False), (last, True))]
-                bend = max(float(np.abs(powers(u, way)[2]).max()) for way in ways) / width**2
-                if bend < best:
-                    best, self.level, self.width, self.ways = bend, level, float(width), ways
+                curvature = max(float(np.abs(powers(u, way)[2]).max()) for way in ways) / width**2
+                if curvature < best:
+                    best, self.level, self.width, self.ways = curvature, level, float(width), ways
 
     def __call__(self, x: Floats) -> Floats:
         """Lift (n,) at angles between start and end, elsewhere the nearest end."""

@@ -20,9 +20,9 @@ from linkwright.laws.program import Program
 class Contact:
     """Where cam and follower touch at angles φ (n,).
 
-    ``point`` of the profile and ``normal`` (unit, from the cam into the follower) in the cam's axes, m; ``bend`` the
-    profile's curvature (1/m, positive where it is convex); ``growth``: the profile's length over that of the pitch
-    curve (of a flat face: its radius of curvature, m), not positive where the cam would have to fold back;
+    ``point`` of the profile and ``normal`` (unit, from the cam into the follower) in the cam's axes, m; ``curvature``
+    the profile's curvature (1/m, positive where it is convex); ``growth``: the profile's length over that of the
+    pitch curve (of a flat face: its radius of curvature, m), not positive where the cam would have to fold back;
     ``pressure_angle`` (rad) between normal and the follower's motion, positive where the cam pushes it to the side
     that the cam's surface moves to while it rises; ``along``: place of the contact on a flat face, m, from the
     follower's axis or pivot.
@@ -30,7 +30,7 @@ class Contact:
 
     point: Complexes
     normal: Complexes
-    bend: Floats
+    curvature: Floats
     growth: Floats
     pressure_angle: Floats
     along: Floats
@@ -94,10 +94,10 @@ class RollerCurve(CamCurve):
         p, p1, p2 = self.pitch(phi)
         speed = np.abs(p1)
         outward = 1j * self.turn * p1 / speed
-        bend = -self.turn * (p1.conj() * p2).imag / speed**3
-        growth = 1.0 - sign * self.follower.roller_radius * bend
+        curvature = -self.turn * (p1.conj() * p2).imag / speed**3
+        growth = 1.0 - sign * self.follower.roller_radius * curvature
         with np.errstate(divide="ignore"):
-            own = sign * bend / growth
+            own = sign * curvature / growth
         direction = self._world(phi)[3] * np.exp(-1j * self.turn * phi)
         angle = self.turn * np.angle(outward / direction)
         normal = sign * outward
@@ -136,10 +136,10 @@ class BarrelCurve(RollerCurve):
         _, p1, p2 = self.pitch(phi)
         speed = np.abs(p1)
         up = 1j * p1 / speed
-        bend = -(p1.conj() * p2).imag / speed**3
-        growth = 1.0 - sign * self.follower.roller_radius * bend
+        curvature = -(p1.conj() * p2).imag / speed**3
+        growth = 1.0 - sign * self.follower.roller_radius * curvature
         with np.errstate(divide="ignore"):
-            own = sign * bend / growth
+            own = sign * curvature / growth
         point = self.pitch(phi)[0] - sign * self.follower.roller_radius * up
         return Contact(point, sign * up, own, growth, np.angle(p1), np.zeros(len(phi)))
 
@@ -175,17 +175,17 @@ class FlatCurve(CamCurve):
         point = (support + 1j * slope) * normal
         growth = support + second
         with np.errstate(divide="ignore"):
-            bend = 1.0 / growth
+            curvature = 1.0 / growth
         none = np.zeros(len(phi))
         if not self.follower.oscillating:
-            return Contact(point, normal, bend, growth, none, -slope)
+            return Contact(point, normal, curvature, growth, none, -slope)
         assert self.follower.pivot_distance is not None
         turned = np.exp(1j * self.turn * phi)
         lever = point * turned - self.follower.pivot_distance
         arm = 1j * self.follower.side * normal * turned
         direction = -1j * self.follower.side * lever / np.abs(lever)
         angle = self.turn * np.angle(normal * turned / direction)
-        return Contact(point, normal, bend, growth, angle, (lever * arm.conj()).real)
+        return Contact(point, normal, curvature, growth, angle, (lever * arm.conj()).real)
 
     def reach(self, points: Complexes, phi: Floats) -> Floats:
         normal, support, _, _ = self._support(phi)

@@ -133,7 +133,7 @@ def _best_stiffness(s: Floats, need: Floats) -> float:
 
 def leverage(follower: Follower, contact: Contact) -> Floats:
     """Normal velocity of the follower at the contact per unit of its coordinate's rate, (n,): 1 or m per rad."""
-    arm: Floats = np.ones(len(contact.bend))
+    arm: Floats = np.ones(len(contact.curvature))
     if follower.oscillating:
         arm = np.abs(contact.along) if follower.kind == "flat" else np.full(len(arm), follower.arm or 0.0)
         if follower.kind == "flat":
@@ -145,6 +145,8 @@ def contact_pressure(
     force: Floats, contact: Contact, follower: Follower, width: float, material: CamMaterial
 ) -> Floats:
     """Hertz's pressure (Pa) of the line contact: √(F E*/(π b R)), 1/R of profile and roller; 0 without force."""
-    bend = contact.bend + (1.0 / follower.roller_radius if follower.kind == "roller" else 0.0)
-    inside = np.maximum(force, 0.0) * material.contact_modulus * np.maximum(bend, 0.0) / (math.pi * width)
+    curvature = contact.curvature + (1.0 / follower.roller_radius if follower.kind == "roller" else 0.0)
+    inside = (
+        np.maximum(force, 0.0) * material.contact_modulus * np.maximum(curvature, 0.0) / (math.pi * width)
+    )
     return np.asarray(np.sqrt(inside))

@@ -149,7 +149,9 @@ class CamDesign(Result):
     @cached_property
     def smallest_radius(self) -> Extreme | None:
         """The profile's smallest radius of curvature where it is convex (m), over all walls; None without any."""
-        found = [self._extreme(lambda phi, w=wall: w.contact(phi).bend, "max") for wall in self.cam.walls]
+        found = [
+            self._extreme(lambda phi, w=wall: w.contact(phi).curvature, "max") for wall in self.cam.walls
+        ]
         sharpest = max(found, key=lambda each: each.value)
         return Extreme(sharpest.place, 1.0 / sharpest.value) if sharpest.value > 0 else None
 
@@ -161,7 +163,7 @@ class CamDesign(Result):
         """
         if self.cam.follower.kind == "flat":
             return None
-        found = self._extreme(lambda phi: self.wall.contact(phi).bend, "min")
+        found = self._extreme(lambda phi: self.wall.contact(phi).curvature, "min")
         return Extreme(found.place, -1.0 / found.value) if found.value < -1e-9 * abs(self.size) else None
 
     @property
@@ -285,7 +287,7 @@ class CamDesign(Result):
         if radius is None or not radius >= 0:
             raise RequestError(_("the radius of the cutter is not known", code="cams.no_cutter"))
         contact = self.cam.walls[wall].contact(self.places(points))
-        hollow = -float(contact.bend.min())
+        hollow = -float(contact.curvature.min())
         if hollow * radius > 1 + 1e-9:
             raise RequestError(
                 _(
@@ -333,7 +335,7 @@ class CamDesign(Result):
         s, v, a, j = self.motion
         contact = self.contact
         with np.errstate(divide="ignore"):
-            radius = 1.0 / contact.bend
+            radius = 1.0 / contact.curvature
         found = {
             "angle [rad]": self.angles,
             f"lift [{lift}]": s,

@@ -178,7 +178,7 @@ def keeps(cam: CamShape, radius: float, phi: Floats) -> bool:
         if cam.follower.kind == "flat":
             if contact.growth.min() < max(limit, 0.0):
                 return False
-        elif contact.growth.min() <= 0 or (limit and contact.bend.max() > 1.0 / limit):
+        elif contact.growth.min() <= 0 or (limit and contact.curvature.max() > 1.0 / limit):
             return False
         if not _angles_within(there, phi, contact.pressure_angle):
             return False

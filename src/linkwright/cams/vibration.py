@@ -69,10 +69,10 @@ def _steady(program: Program, ratio: Floats, damping_ratio: float, count: int) -
         return np.array(passed)
 
     left = over_a_turn(np.zeros((len(ratio), 2)))[-1]
-    whole = np.eye(2) - _exponential(state, program.period)
-    resonant = np.linalg.det(whole) < _RESONANCE
-    whole[resonant] = np.eye(2)
-    start = np.linalg.solve(whole, left[:, :, None])[:, :, 0]
+    system_matrix = np.eye(2) - _exponential(state, program.period)
+    resonant = np.linalg.det(system_matrix) < _RESONANCE
+    system_matrix[resonant] = np.eye(2)
+    start = np.linalg.solve(system_matrix, left[:, :, None])[:, :, 0]
     start[resonant] = 0.0
     passed = over_a_turn(start)
     found = np.array([

@@ -8,7 +8,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.session import Session
 from linkwright.cli.usage import did_you_mean
 from linkwright.words import _
-from linkwright.words.sentence import Worded, in_language
+from linkwright.words.sentence import LocalizedText, in_language
 
 CALCULATIONS = _("Calculations of machine parts (linkwright beam, statics, vibration, …):")
 TASKS = _("Tasks of synthesis (linkwright synthesize gallery:NAME):")
@@ -62,4 +62,4 @@ def title_and_purpose(name: str) -> dict[str, str]:
     root, _unused3 = read_nodes(first, name)
     assert root is not None
     given = Reader(name).free(root)
-    return {"name": name, "title": Worded(given["name"]), "purpose": Worded(given["purpose"])}
+    return {"name": name, "title": LocalizedText(given["name"]), "purpose": LocalizedText(given["purpose"])}

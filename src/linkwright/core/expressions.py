@@ -111,14 +111,14 @@ class Expression:
         arguments of ``abs``, ``sign`` and ``step``, differences of those of ``min`` and ``max``."""
         found = []
 
-        def seen(name: str) -> Callable[..., Any]:
+        def noted_function(name: str) -> Callable[..., Any]:
             def call(*of: Any) -> Any:
                 found.append(of[0] - of[1] if len(of) > 1 else of[0])
                 return ON_VALUES[name](*of)
 
             return call
 
-        noted = {name: seen(name) for name in ("abs", "sign", "step", "min", "max")}
+        noted = {name: noted_function(name) for name in ("abs", "sign", "step", "min", "max")}
         evaluate(self.tree, values, {**ON_VALUES, **noted})
         return found
 

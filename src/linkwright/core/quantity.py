@@ -19,7 +19,7 @@ SHOWN: Mapping[str, tuple[str, float]] = {
     "second_moment_of_area": ("mm⁴", 1e12),
 }
 #: Sizes, SI, below which an angle and a length of a machine are rounding.
-NOTHING: Mapping[str, float] = {"angle": 1e-9, "length": 1e-15}
+ZERO_TOLERANCES: Mapping[str, float] = {"angle": 1e-9, "length": 1e-15}
 MINUS, INFINITE, MISSING = "−", "∞", "–"
 
 
@@ -35,7 +35,7 @@ def shown_factor(dimension: str) -> float:
 
 def number(value: float, dimension: str = "", digits: int = 6) -> str:
     """The number alone, in the shown unit; zero without a sign, rounding of an angle or a length as zero."""
-    if abs(value) < NOTHING.get(dimension, 0.0):
+    if abs(value) < ZERO_TOLERANCES.get(dimension, 0.0):
         return "0"
     if math.isinf(value):
         return INFINITE if value > 0.0 else f"-{INFINITE}"

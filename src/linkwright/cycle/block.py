@@ -46,8 +46,8 @@ class Block:
         self.swings, self.machine, self.designs, self.count = swings, swings.machine, designs, count
         self.span = Span(self.machine.course, self._periods(), np.zeros(count))
         self.known = self.machine.tracked(designs, self.span.period)
-        self.bends = self._bends()
-        self.base = Stretches(self.span, self.bends)
+        self.kinks = self._kinks()
+        self.base = Stretches(self.span, self.kinks)
         found = events(swings.rates, self.known, designs, self.base) if swings.rates else []
         self.reversals = {swings.swings[int(each.name)]: each for each in found}
         self.limits = {
@@ -68,9 +68,9 @@ class Block:
         rate = float(course.first.law.coordinate(np.array([course.begin]))[1][0])
         return self.designs.get(f"{course.first.name}.speed", np.full(self.count, rate))
 
-    def _bends(self) -> list[Events]:
+    def _kinks(self) -> list[Events]:
         """Where joints go over from one formula to the next."""
-        formulas = self.machine.bends()
+        formulas = self.machine.kinks()
         if formulas is None:
             return []
         sines, cosines = formulas
@@ -119,7 +119,7 @@ class Block:
         """From derivatives by limits, reversals and bends those by the columns of the designs."""
         for limits in self.limits.values():
             back.add(*limits.pull())
-        for each in (*self.reversals.values(), *self.bends):
+        for each in (*self.reversals.values(), *self.kinks):
             back.through(each)
         if self.machine.course.turns:
             by_speed = -self.span.bar * self.span.period / self.speed
@@ -128,7 +128,7 @@ class Block:
     def forget(self) -> None:
         """Sets all derivatives to zero."""
         self.span.bar[:] = 0.0
-        for each in (*self.reversals.values(), *self.bends):
+        for each in (*self.reversals.values(), *self.kinks):
             each.bar[:] = 0.0
         for limits in self.limits.values():
             limits.bar[:] = 0.0

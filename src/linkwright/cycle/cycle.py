@@ -119,7 +119,7 @@ class Cycle(Asked):
     def columns(self) -> frozenset[str]:
         """The dimensions that vary on which anything depends."""
         machine = self.machine
-        formulas = [self.formula, *self.swings.formulas, *(machine.bends() or ())]
+        formulas = [self.formula, *self.swings.formulas, *(machine.kinks() or ())]
         formulas += [self.signed] if self.signed else []
         acting = {name for name in machine.phases for each in formulas if acts_name(name) in each.columns}
         ends = {input_end(name, which) for name in acting for which in (0, 1)}

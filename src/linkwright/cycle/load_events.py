@@ -149,7 +149,7 @@ class LoadEvents:
                 for x in size.x:
                     self._at_input("", np.full(self.block.count, x), every)
             else:
-                found.append(size.bends(signals))
+                found.append(size.kinks(signals))
         times = np.concatenate(found)
         if course.closed:
             times = course.begin + (times - course.begin) % course.duration

@@ -403,25 +403,25 @@ class Machine:
         """Whether the parts of a joint, or two links, move against each other at all."""
         return bool(np.nanmax(np.abs(moving_rate(self.nominal, term)), initial=0.0) > 0.0)
 
-    def bends(self) -> tuple[Formula, Formula] | None:
+    def kinks(self) -> tuple[Formula, Formula] | None:
         """Zero where joints go over from one formula to the next, or half a turn from there; cosines that tell
         which."""
-        joints = {name: joint.bends for name, joint in self.mechanism.joints.items() if joint.bends}
+        joints = {name: joint.kinks for name, joint in self.mechanism.joints.items() if joint.kinks}
         if not joints:
             return None
         motion = self.traces.motion
 
         def turned(*, cosines: bool) -> dict[str, Scalar]:
             found: dict[str, Scalar] = {}
-            for name, bends in joints.items():
-                a, b = (motion.poses[link].direction for link in (bends.carrier, bends.link))
-                for k, angle in enumerate(bends.angles):
-                    turn = angle + motion.dimensions(bends.phase)
+            for name, kinks in joints.items():
+                a, b = (motion.poses[link].direction for link in (kinks.carrier, kinks.link))
+                for k, angle in enumerate(kinks.angles):
+                    turn = angle + motion.dimensions(kinks.phase)
                     c, s, along, across = cos(turn), sin(turn), a.dot(b), a.cross(b)
                     found[f"{name} {k}"] = along * c + across * s if cosines else across * c - along * s
             return found
 
-        key = tuple((name, bends.angles) for name, bends in joints.items())
+        key = tuple((name, kinks.angles) for name, kinks in joints.items())
         sines = self.formula(("bends", key), partial(turned, cosines=False))
         return sines, self.formula(("bends there", key), partial(turned, cosines=True))
 

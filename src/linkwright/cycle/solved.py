@@ -33,7 +33,7 @@ class Solved(Block, Summaries):
         self.full = None if cycle.full is None else Block(cycle.full, self.designs, count)
         self.loads = LoadEvents(self, self.full)
         bending = [self.reversals[each] for each in cycle.bending if each in self.reversals]
-        found: list[Cuts] = [*self.bends, *self.loads.families, *bending]
+        found: list[Cuts] = [*self.kinks, *self.loads.families, *bending]
         families = list({id(each): each for each in found}.values())
         self.stretches = Stretches(self.span, families, self.loads.knots)
         self.corners: list[Events] = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from linkwright.equations.terms import NOTHING, Term
+from linkwright.equations.terms import ZERO_TOLERANCE, Term
 
 #: Significant digits of a result, and the fewest and most of a substituted number.
 RESULT, FEWEST, MOST = 6, 6, 15
@@ -47,7 +47,7 @@ def last_place(value: float, error: float = 0.0) -> int:
 
 def printed(value: float, place: int) -> str:
     """A result to the digit of ``10**place``."""
-    if abs(value) < max(0.5 * 10.0**place, NOTHING):
+    if abs(value) < max(0.5 * 10.0**place, ZERO_TOLERANCE):
         return "0"
     exponent = math.floor(math.log10(abs(value)))
     if exponent >= 7 or exponent < -4 or place > 0:

@@ -13,7 +13,7 @@ from linkwright.equations.latex import latex
 from linkwright.equations.notation import Atom, Row, quantity, upright
 from linkwright.equations.reading import filled, names, normal, read, read_name, sides
 from linkwright.equations.reading import plain as unmarked
-from linkwright.equations.terms import NOTHING, Pair, Term, symbol
+from linkwright.equations.terms import ZERO_TOLERANCE, Pair, Term, symbol
 from linkwright.equations.typeset import plain, typeset
 from linkwright.errors import SelfCheckError
 from linkwright.words import _
@@ -219,7 +219,7 @@ class Step:
         used = [each for each in names(formula) if each in self.known]
         if not numbers and used and (of or {*names(formula)} <= {*used, "e", "π"}):
             numbers = filled(formula, self._put_in(used, dimension, digits))
-        shown = number(0.0 if not dimension and abs(value) < NOTHING else value, dimension)
+        shown = number(0.0 if not dimension and abs(value) < ZERO_TOLERANCE else value, dimension)
         found = "" if unmarked(numbers) in (formula, shown) else numbers
         self.items.append(Equation(symbol, formula, found, shown, shown_unit(dimension), value))
         self.known[normal(symbol)] = (value, dimension)

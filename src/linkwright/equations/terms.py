@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from operator import mul
 
 #: Anything smaller (SI) is nothing but rounding.
-NOTHING = 1e-12
+ZERO_TOLERANCE = 1e-12
 Leaf = Callable[["Term"], float]
 Function = Callable[["Term", list[float]], float]
 
@@ -71,7 +71,7 @@ class Term:
     @property
     def is_rounding(self) -> bool:
         """Whether the amount of a symbol or a number is nothing but rounding; degrees are small units."""
-        return abs(self.amount) < (100.0 * NOTHING if self.degrees else NOTHING)
+        return abs(self.amount) < (100.0 * ZERO_TOLERANCE if self.degrees else ZERO_TOLERANCE)
 
     def evaluate(self, leaf: Leaf, apply: Mapping[str, Function] | None = None) -> float:
         """The term with ``leaf`` deciding what every symbol and number is worth; NaN where it has no value.

@@ -24,7 +24,7 @@ from linkwright.events.stretches import Stretches
 #: Pieces of a lap to begin with, and to what share of its size they meet a signal.
 PIECES, MET = 6, 1e-5
 #: Share of a signal's size up to which it is rounding of zero.
-NOTHING = 1e-11
+ZERO_TOLERANCE = 1e-11
 #: Newton's steps at most; one of this share of the bracket is the last, as what is left is its square.
 STEPS, NEAR = 60, 1e-7
 #: A turn this near to zero, as share of the signal's size in its piece, may hide two roots between two looks.
@@ -192,7 +192,7 @@ class _Search:
         """Neighbours among the places that decide with different signs, and the stretches before and after the cut,
         or the rest, that lies between them; -1 where none does."""
         curve = self.curve
-        nothing = NOTHING * np.maximum(curve.size, 0.0)
+        nothing = ZERO_TOLERANCE * np.maximum(curve.size, 0.0)
         self._make_sure(signal, piece, looks, nothing)
         values = np.repeat(curve.mean_values[:, :, None], len(LOOKS), axis=2)
         values[near] = looks.T
@@ -279,7 +279,7 @@ class _Search:
             self.low[piece] + 0.5 * self.width[piece] * (1.0 + each) for each in (x, low, high)
         )
         value = self._at(self.formula, piece, time)[signal, np.arange(len(piece))]
-        nothing = NOTHING * self.curve.size[signal, self.curve.design[piece]]
+        nothing = ZERO_TOLERANCE * self.curve.size[signal, self.curve.design[piece]]
         passed = np.flatnonzero(((value > 0.0) != above) & (np.abs(value) > nothing))
         signal, piece, above, time = signal[passed], piece[passed], above[passed], time[passed]
         left, right, edges = left[passed], right[passed], np.full((2, len(passed)), -1)

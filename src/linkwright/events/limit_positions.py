@@ -21,9 +21,9 @@ from linkwright.events.events import events
 from linkwright.events.formula import ROW, Known
 from linkwright.events.solved_again import (
     SolvedAgain,
-    bend_rows,
-    of_bends,
+    kink_rows,
     of_bounded_rate,
+    of_kinks,
     of_rate,
     solved_at,
 )
@@ -184,12 +184,12 @@ class _Way:
     def _cuts(self, course: Course) -> Floats:
         """Times, s, of change points, and at which joints go over to another formula."""
         found = [self.reach.changes]
-        bending = [each.bends for each in self.motion.mechanism.joints.values() if each.bends is not None]
-        for bends in bending:
-            rows, phase = bend_rows(bends), self.motion.mechanism.dimension(bends.phase)
-            signals = SolvedAgain(self.between, self.reach, rows, of_bends(bends, phase), len(bends.angles))
+        bending = [each.kinks for each in self.motion.mechanism.joints.values() if each.kinks is not None]
+        for kinks in bending:
+            rows, phase = kink_rows(kinks), self.motion.mechanism.dimension(kinks.phase)
+            signals = SolvedAgain(self.between, self.reach, rows, of_kinks(kinks, phase), len(kinks.angles))
             for k, each in enumerate(events(signals, NO_NUMBERS, ONE, Stretches(one_span(course), []))):
-                cosines, _unused = of_bends(bends, phase, cosines=True)(self.rows(rows, each.time))
+                cosines, _unused = of_kinks(kinks, phase, cosines=True)(self.rows(rows, each.time))
                 found.append(each.time[cosines[k] > 0.0])
         time = np.concatenate(found)
         return np.asarray(

@@ -13,7 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.outputs import row_name, row_names
 from linkwright.curves.pieces import HIGH, LOW, Columns
 from linkwright.events.formula import FEW, Known
-from linkwright.joints.base import Bends
+from linkwright.joints.base import Kinks
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.reachable_intervals import Reach
 
@@ -104,23 +104,23 @@ def of_bounded_rate(typical: float) -> Made:
     return made
 
 
-def bend_rows(bends: Bends) -> tuple[str, ...]:
+def kink_rows(kinks: Kinks) -> tuple[str, ...]:
     """The rows that tell where a joint goes over from one formula to another."""
-    links = [link for link in (bends.carrier, bends.link) if link != "frame"]
+    links = [link for link in (kinks.carrier, kinks.link) if link != "frame"]
     return tuple(
         name for link in links for name in (*row_names("direction", link), row_name("angular_velocity", link))
     )
 
 
-def of_bends(bends: Bends, phase: float, *, cosines: bool = False) -> Made:
+def of_kinks(kinks: Kinks, phase: float, *, cosines: bool = False) -> Made:
     """Sines of the angles that a joint is beyond its bends, or of their cosines, which tell these from the places
     half a turn on."""
-    turns = np.array(bends.angles)[:, None] + phase
+    turns = np.array(kinks.angles)[:, None] + phase
     fixed = np.array([[1.0], [0.0], [0.0]])
 
     def made(rows: Floats) -> tuple[Floats, Floats]:
         rest = iter(np.split(rows, range(3, len(rows), 3)))
-        a, b = (fixed if link == "frame" else next(rest) for link in (bends.carrier, bends.link))
+        a, b = (fixed if link == "frame" else next(rest) for link in (kinks.carrier, kinks.link))
         along, across = a[0] * b[0] + a[1] * b[1], a[0] * b[1] - a[1] * b[0]
         sine = across * np.cos(turns) - along * np.sin(turns)
         cosine = along * np.cos(turns) + across * np.sin(turns)

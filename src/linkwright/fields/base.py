@@ -23,7 +23,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Section
 from linkwright.fields.reading import Place, Reader
 from linkwright.words import LANGUAGES, Message, _, pgettext
-from linkwright.words.sentence import Worded
+from linkwright.words.sentence import LocalizedText
 
 Schema = dict[str, Any]
 
@@ -308,15 +308,15 @@ class Text(Field):
 
 
 @dataclass(frozen=True)
-class WordedText(Text):
+class LocalizedTextField(Text):
     """Any text, or one in each language: ``{en: Press, zh: 压力机}``."""
 
     def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> str | None:
         if not isinstance(node, MappingNode) or not node.entries:
             return super().read(reader, node, place, siblings)
         texts = reader.table(node, place, _IN_LANGUAGES) or {}
-        given_texts = {language: text for language, text in texts.items() if text}
-        return Worded(given_texts) if given_texts else None
+        by_language = {language: text for language, text in texts.items() if text}
+        return LocalizedText(by_language) if by_language else None
 
     def shape(self) -> Schema:
         texts = {language: field.shape() for language, field in _IN_LANGUAGES.items()}
@@ -329,7 +329,7 @@ class WordedText(Text):
         return {"anyOf": [super().shape(), by_language]}
 
     def written(self, value: Any) -> Any:
-        return dict(value.texts) if isinstance(value, Worded) else value
+        return dict(value.texts) if isinstance(value, LocalizedText) else value
 
 
 _IN_LANGUAGES: Mapping[str, Field] = {language: Text(doc=f"the text, {language}") for language in LANGUAGES}

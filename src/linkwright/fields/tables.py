@@ -30,7 +30,7 @@ class Table(Field):
 
     @classmethod
     def of(cls, made: type, **settings: Any) -> Table:
-        """The table of what :func:`linkwright.fields.base.given` declares in a dataclass."""
+        """The table of what :func:`linkwright.fields.base.file_key` declares in a dataclass."""
         return cls(file_keys(made), made, **settings)
 
     def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:

@@ -13,7 +13,7 @@ from linkwright.applied_loads.base import Load, read_load
 from linkwright.core import expressions
 from linkwright.core.expression_tree import Derived, derived
 from linkwright.errors import Finding, QuantityError, Severity
-from linkwright.fields.base import Count, Field, Free, WordedText
+from linkwright.fields.base import Count, Field, Free, LocalizedTextField
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, below
 from linkwright.fields.reading import Place
@@ -35,9 +35,9 @@ FORMAT = 1
 TASK_KEYS = ("format", "name", "purpose", "source", "expected", "synthesis", "report")
 HEADER: Mapping[str, Field] = {
     "format": Count(FORMAT, required=True, doc=_("1, in the first line")),
-    "name": WordedText(doc=_("name of the mechanism")),
-    "purpose": WordedText(doc=_("what it is for, one sentence")),
-    "source": WordedText(doc=_("where it is taken from")),
+    "name": LocalizedTextField(doc=_("name of the mechanism")),
+    "purpose": LocalizedTextField(doc=_("what it is for, one sentence")),
+    "source": LocalizedTextField(doc=_("where it is taken from")),
     "expected": Free(doc=_("numbers to compare results with; not interpreted")),
     "synthesis": Free(section="synthesis", doc=_("a task with its demands for the command synthesize")),
     "report": Free(

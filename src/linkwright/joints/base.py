@@ -82,7 +82,7 @@ class Report(Protocol):
 
 
 @dataclass(frozen=True)
-class Bends:
+class Kinks:
     """Angles of a link to its carrier, rad, at which a joint goes over from one formula to the next; the dimension
     ``phase``, rad, is added to them."""
 
@@ -199,7 +199,7 @@ class Joint(ABC):
         return ()
 
     @property
-    def bends(self) -> Bends | None:
+    def kinks(self) -> Kinks | None:
         """Where what the joint ties goes over from one formula to the next; None where it has one formula."""
         return None
 

@@ -17,10 +17,10 @@ from linkwright.formula.trace import Scalar, acos, asin, select, sqrt
 from linkwright.formula.vector import Vec
 from linkwright.joints.base import (
     JOINTS,
-    Bends,
     Entry,
     HigherPair,
     Joint,
+    Kinks,
     LackingError,
     Report,
     Size,
@@ -95,9 +95,9 @@ class CamJoint(HigherPair):
         return -1.0 if self.turn == "clockwise" else 1.0
 
     @property
-    def bends(self) -> Bends:
+    def kinks(self) -> Kinks:
         edges = tuple(self.sense * float(edge) for edge in self.lift.edges[:-1])
-        return Bends(self.cam, self.carrier, f"{self.name}.phase", edges)
+        return Kinks(self.cam, self.carrier, f"{self.name}.phase", edges)
 
     @cached_property
     def lift(self) -> LiftCurve:

@@ -10,9 +10,9 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import row_name
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.change_points import closes, passages, signs
+from linkwright.kinematics.change_point_crossing import ChangePointCrossing
+from linkwright.kinematics.change_points import closes, crossings, signs
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.passing_proof import modal
 from linkwright.kinematics.positions import Positions, at_one_time, at_times, off_law
 from linkwright.kinematics.solve import reached_modes
@@ -39,18 +39,18 @@ class Between:
             )
 
     @cached_property
-    def passing(self) -> list[Passage]:
+    def passing(self) -> list[ChangePointCrossing]:
         """Change points of the motion."""
         motion = self.motion
         if not motion.modes:
             return []
-        return [p for p in passages(motion.solver, motion.positions, motion.tracked) if p.touches]
+        return [p for p in crossings(motion.solver, motion.positions, motion.tracked) if p.touches]
 
     @cached_property
-    def bars(self) -> list[Passage]:
+    def bars(self) -> list[ChangePointCrossing]:
         """Where a group cannot be assembled, or tracked, though it can be at the adjacent positions."""
         motion = self.motion
-        found = passages(motion.solver, motion.positions, motion.tracked)
+        found = crossings(motion.solver, motion.positions, motion.tracked)
         return [p for p in found if p.barred or p.kind == "end"]
 
     @property

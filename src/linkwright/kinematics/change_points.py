@@ -23,8 +23,8 @@ from linkwright.core.outputs import row_name
 from linkwright.core.search import edge, ends, lowest
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.trace import Scalar, minimum
+from linkwright.kinematics.change_point_crossing import ChangePointCrossing, Kind
 from linkwright.kinematics.groups import upstream
-from linkwright.kinematics.passage import Kind, Passage
 from linkwright.kinematics.passing_proof import FINE, NEAR, measures, modal
 from linkwright.kinematics.positions import Positions, at_times, off_law
 from linkwright.kinematics.solver import MotionSolver
@@ -50,7 +50,9 @@ MANY = 3
 Way = Callable[[Floats], Positions]
 
 
-def passages(solver: MotionSolver, positions: Positions, tracked: TrackedBranch | None) -> list[Passage]:
+def crossings(
+    solver: MotionSolver, positions: Positions, tracked: TrackedBranch | None
+) -> list[ChangePointCrossing]:
     """All places between solved positions where a group's modes or pins meet, or where it cannot pass."""
     if not positions.is_way:
         return []
@@ -62,7 +64,7 @@ def passages(solver: MotionSolver, positions: Positions, tracked: TrackedBranch 
     return _Search(solver, divided, tracked, count).found_between()
 
 
-def signs_of_passages(solver: MotionSolver, positions: Positions) -> tuple[str, ...] | None:
+def outputs_at_crossings(solver: MotionSolver, positions: Positions) -> tuple[str, ...] | None:
     """Names of the outputs that show where :func:`passages` may find something; None where these do not tell."""
     if not positions.is_way or parts(solver, positions) > 1:
         return None
@@ -156,8 +158,8 @@ class _Search:
         self.tracked = tracked
         self.parts = parts
         self.beneath = _beneath_tracked(solver)
-        self.passing: list[Passage] = []
-        self.flipping: dict[str, list[Passage]] = {}
+        self.passing: list[ChangePointCrossing] = []
+        self.flipping: dict[str, list[ChangePointCrossing]] = {}
         self.barred: Floats = np.empty(0)
 
     @cached_property
@@ -169,7 +171,7 @@ class _Search:
         """The first and the last place."""
         return (-np.inf, np.inf) if self.positions.closed else (0.0, self.positions.count - 1.0)
 
-    def found(self) -> list[Passage]:
+    def found(self) -> list[ChangePointCrossing]:
         """Those of all groups. A sign is turned only as far as the mechanism comes, which other groups decide as
         well: with what bars its way it is sought again."""
         for _ in range(ROUNDS):
@@ -182,13 +184,13 @@ class _Search:
             self.barred = barred
         return found
 
-    def _barred(self, found: Sequence[Passage]) -> Floats:
+    def _barred(self, found: Sequence[ChangePointCrossing]) -> Floats:
         """Places that cannot be assembled, or cannot be passed."""
         (codes,) = self._evaluate(("outcome",))
         gaps = [*found, *self._stretches()]
         return np.append(np.flatnonzero(~(codes <= 0.0)), [p.place for p in gaps if p.barred])
 
-    def _found(self) -> list[Passage]:
+    def _found(self) -> list[ChangePointCrossing]:
         self.solver, self.passing, self.flipping = self.base, [], {}
         groups = modal(self.base.motion)
         names = tuple(name for group in groups for name in measures(self.base.motion, group))
@@ -207,7 +209,7 @@ class _Search:
                 rows = dict(zip(names, self._evaluate(names), strict=True))
         return self.passing + self._poles()
 
-    def found_between(self) -> list[Passage]:
+    def found_between(self) -> list[ChangePointCrossing]:
         """Passages by the numbers of positions of which each step was divided, with stretches out of reach."""
         parts = self.parts
         found = [self._undivided(p) for p in [*self.found(), *self._stretches()]]
@@ -215,13 +217,13 @@ class _Search:
             (replace(p, flips=(p.flips[0] / parts, p.flips[1] / parts)) for p in found), key=lambda p: p.place
         )
 
-    def _undivided(self, p: Passage) -> Passage:
+    def _undivided(self, p: ChangePointCrossing) -> ChangePointCrossing:
         n = -(-self.positions.count // self.parts)
         place = p.place / self.parts
         before = min(max(int(np.ceil(place)) - 1, 0), n - 1)
         return replace(p, before=before, after=(before + 1) % n, share=place - before)
 
-    def _stretches(self) -> list[Passage]:
+    def _stretches(self) -> list[ChangePointCrossing]:
         """Where a dyad cannot be assembled though it can at both adjacent positions."""
         (codes,) = self._evaluate(("outcome",))
         asked = codes[:: self.parts] == 0.0
@@ -234,13 +236,13 @@ class _Search:
                 if group.dyad is not None:
                     before = float(i * self.parts + k)
                     place = edge(self._assembled, before, before + 1.0)[0]
-                    found.append(self._passage(group.group.name, place, 0.0, "gap"))
+                    found.append(self._change_point(group.group.name, place, 0.0, "gap"))
         return found
 
     def _assembled(self, places: Floats) -> Flags:
         return np.asarray(self._evaluate(("outcome",), places)[0] <= 0.0)
 
-    def _poles(self) -> list[Passage]:
+    def _poles(self) -> list[ChangePointCrossing]:
         """Where two guides of a group become parallel, and what slides on them goes through infinity."""
         placed = self.base.motion.placed
         slides = {
@@ -258,7 +260,7 @@ class _Search:
             for place in self._crossings(name, row):
                 around = self._evaluate(displacements, np.array([place - 1e-6, place + 1e-6]))
                 if not (np.abs(np.diff(around)) < size).all():
-                    found.append(self._passage(group, place, 0.0, "pole"))
+                    found.append(self._change_point(group, place, 0.0, "pole"))
         return found
 
     def _crossings(self, name: str, row: Floats) -> list[float]:
@@ -287,7 +289,7 @@ class _Search:
         )
         return float(before[0])
 
-    def _flips(self, p: Passage, blocked: Flags) -> tuple[float, float]:
+    def _flips(self, p: ChangePointCrossing, blocked: Flags) -> tuple[float, float]:
         """From there on; in a closed cycle that cannot be passed, backwards from its first position."""
         bars = np.append(np.flatnonzero(blocked), self.barred)
         if not self.positions.closed or not len(bars):
@@ -295,15 +297,15 @@ class _Search:
         first, last = float(bars.min()), float(bars.max())
         return (p.place, first) if p.place < first else (min(last, p.place), p.place)
 
-    def _of_group(self, group: str, rows: Mapping[str, Floats]) -> list[Passage]:
+    def _of_group(self, group: str, rows: Mapping[str, Floats]) -> list[ChangePointCrossing]:
         found = []
         quality, *distance = measures(self.base.motion, group)
         for place, smallest in self._lowest(quality, self._valleys(rows[quality], NEAR)):
             if abs(smallest) <= TOUCH:
                 kind: Kind = "end" if group in self.beneath else "change"
-                found.append(self._passage(group, self._centred(quality, place), smallest, kind))
+                found.append(self._change_point(group, self._centred(quality, place), smallest, kind))
             elif smallest < 0:
-                found.append(self._passage(group, place, smallest, "gap"))
+                found.append(self._change_point(group, place, smallest, "gap"))
         for name in distance:
             largest = float(np.nanmax(rows[name], initial=0.0))
             near = rows[name] < NEAR * largest
@@ -311,13 +313,13 @@ class _Search:
             for place, smallest in self._lowest(name, valleys):
                 at, *around = self._evaluate((quality,), place + np.array([0.0, -1e-3, 1e-3]))[0]
                 if at < -TOUCH and self._alone(place, rows[quality], found):
-                    found.append(self._passage(group, place, float(at), "gap"))
+                    found.append(self._change_point(group, place, float(at), "gap"))
                 elif smallest <= MEETING * largest and min(around) > TOUCH:
                     kind = "end" if group in self.beneath else "meeting"
-                    found.append(self._passage(group, place, float(min(around)), kind))
+                    found.append(self._change_point(group, place, float(min(around)), kind))
         return sorted(found, key=lambda p: p.place)
 
-    def _alone(self, place: float, quality: Floats, found: Sequence[Passage]) -> bool:
+    def _alone(self, place: float, quality: Floats, found: Sequence[ChangePointCrossing]) -> bool:
         """Whether a gap lies between two positions that can be assembled, and is not found yet."""
         ends = np.array([np.floor(place), np.ceil(place)], dtype=int) % len(quality)
         known = any(p.barred and abs(p.place - place) < 1.0 for p in found)
@@ -360,14 +362,16 @@ class _Search:
                 place += float(h * (a - b) / (a + b)) if a + b > 0 else 0.0
         return place
 
-    def _passage(self, group: str, place: float, quality: float, kind: Kind) -> Passage:
+    def _change_point(self, group: str, place: float, quality: float, kind: Kind) -> ChangePointCrossing:
         n = self.positions.count
         if abs(place - round(place)) < ON_IT:
             place = float(round(place))
         if self.positions.closed and place <= 0.0:
             place += n
         before = min(max(int(np.ceil(place)) - 1, 0), n - 1)
-        return Passage(group, before, (before + 1) % n, place - before, quality, kind, self._input(place))
+        return ChangePointCrossing(
+            group, before, (before + 1) % n, place - before, quality, kind, self._input(place)
+        )
 
     def _input(self, place: float) -> float:
         """The first driver's coordinate at a place."""
@@ -399,7 +403,7 @@ def _beneath_tracked(solver: MotionSolver) -> frozenset[str]:
     return frozenset(group.name for group in upstream(solver.structure, solver.mechanism))
 
 
-def _sign(passing: Sequence[Passage], group: str, mode: float, place: Floats) -> Floats:
+def _sign(passing: Sequence[ChangePointCrossing], group: str, mode: float, place: Floats) -> Floats:
     sign = np.full(len(place), mode)
     for p in passing:
         if p.group == group and p.touches and p.place > 0.0:
@@ -407,14 +411,16 @@ def _sign(passing: Sequence[Passage], group: str, mode: float, place: Floats) ->
     return sign
 
 
-def signs(passing: Sequence[Passage], modes: Mapping[str, float], place: Floats | int) -> dict[str, Floats]:
+def signs(
+    passing: Sequence[ChangePointCrossing], modes: Mapping[str, float], place: Floats | int
+) -> dict[str, Floats]:
     """Sign of every flipping group's mode at places (or a count of positions), the first one as the file says."""
     groups = dict.fromkeys(p.group for p in passing if p.touches)
     place = np.arange(float(place)) if isinstance(place, int) else place
     return mode_inputs({group: _sign(passing, group, modes[group], place) for group in groups})
 
 
-def closes(passing: Sequence[Passage]) -> bool:
+def closes(passing: Sequence[ChangePointCrossing]) -> bool:
     """Whether every group is back in its first mode at the end of a closed cycle."""
     groups = [p.group for p in passing if p.touches and p.flips[1] == np.inf]
     return all(groups.count(group) % 2 == 0 for group in groups)
@@ -449,7 +455,7 @@ def cut_off(codes: Floats, positions: Positions, breaks: Set[int] = frozenset())
     return np.where(good & ~reached, 1.0, 0.0)
 
 
-def mark_singular(codes: Floats, passing: Sequence[Passage], structure: Structure) -> None:
+def mark_singular(codes: Floats, passing: Sequence[ChangePointCrossing], structure: Structure) -> None:
     """Makes the outcome of positions at which a group's modes or outer pins meet singular, in place."""
     numbers = {group.name: number for number, group in enumerate(structure.groups, 1)}
     for p in passing:

@@ -107,7 +107,7 @@ class Rows:
     """Equations between links, with their derivatives, in the trace of the dimensions."""
 
     def __init__(self, ends: Ends, values: Sequence[Scalar], angles: Angles) -> None:
-        self.ends_seen, self.angles = ends, angles
+        self.joint_ends, self.angles = ends, angles
         self._rows = [_Row(ends, value) for value in values]
         self._last: tuple[list[Pose], _Real] | None = None
 
@@ -119,12 +119,12 @@ class Rows:
     @property
     def ends(self) -> tuple[str, ...]:
         """The links on whose motion the equations depend."""
-        return tuple(self.ends_seen.links)
+        return tuple(self.joint_ends.links)
 
     def _real(self, poses: Poses) -> _Real:
-        here = [poses[link] for link in self.ends_seen.links]
+        here = [poses[link] for link in self.joint_ends.links]
         if self._last is None or any(a is not b for a, b in zip(self._last[0], here, strict=True)):
-            self._last = here, _Real(self.ends_seen, poses, self.angles)
+            self._last = here, _Real(self.joint_ends, poses, self.angles)
         return self._last[1]
 
     def residual(self, poses: Poses) -> list[Scalar]:
@@ -139,24 +139,31 @@ class Rows:
     def _parts(self, link: str, poses: Poses) -> list[Part]:
         real = self._real(poses)
         if link not in real.parts:
-            real.parts[link] = [_part(self.ends_seen, row, link, real) for row in self._rows]
+            real.parts[link] = [_part(self.joint_ends, row, link, real) for row in self._rows]
         return real.parts[link]
 
     def wrenches(self, multipliers: Sequence[Scalar], poses: Poses) -> dict[str, Wrench]:
         """What multipliers of the rows exert on both links of the pair: λ ∂r/∂(x, y, θ)."""
         return {
-            end: _wrench(self._parts(end, poses), multipliers) for end in (self.ends_seen.a, self.ends_seen.b)
+            end: _wrench(self._parts(end, poses), multipliers)
+            for end in (self.joint_ends.a, self.joint_ends.b)
         }
 
     def drift(self, states: States) -> list[Scalar]:
         """First derivative of the equations in time."""
-        real, rates = self._real(_Poses(states)), in_time(self.ends_seen, lambda moving: moving.rates(states))
+        real, rates = (
+            self._real(_Poses(states)),
+            in_time(self.joint_ends, lambda moving: moving.rates(states)),
+        )
         return [_along(row.shared, rates, real) for row in self._rows]
 
     def bend(self, states: States) -> list[Scalar]:
         """Second derivative of the equations in time."""
-        real, rates = self._real(_Poses(states)), in_time(self.ends_seen, lambda moving: moving.rates(states))
-        seconds = in_time(self.ends_seen, lambda moving: moving.seconds(states))
+        real, rates = (
+            self._real(_Poses(states)),
+            in_time(self.joint_ends, lambda moving: moving.rates(states)),
+        )
+        seconds = in_time(self.joint_ends, lambda moving: moving.seconds(states))
         return [_twice(row, rates, seconds, real) for row in self._rows]
 
 

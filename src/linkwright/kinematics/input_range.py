@@ -18,7 +18,7 @@ from linkwright.core.search import edge
 from linkwright.elements.topology import Group
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.branch import FLOOR, Branch
-from linkwright.kinematics.change_points import mark_singular, passages, signs
+from linkwright.kinematics.change_points import crossings, mark_singular, signs
 from linkwright.kinematics.cycle import time_span
 from linkwright.kinematics.fold import fold
 from linkwright.kinematics.passing_proof import modal
@@ -314,7 +314,7 @@ class _Search:
         positions = self.positions(q)
         tracked = self.solver.track(positions)
         states = {} if tracked is None else tracked.states
-        found = passages(self.solver, positions, tracked)
+        found = crossings(self.solver, positions, tracked)
         modes = signs(found, self.solver.assembly.modes, len(q))
         codes = self._solver(modes).evaluate(("outcome",), positions, states, modes)[0]
         mark_singular(codes, found, self.solver.structure)

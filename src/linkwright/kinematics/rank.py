@@ -30,7 +30,7 @@ ZERO_DRAWN = 1e-6
 #: A drawing whose joints gape by less than this share of the size closes.
 CLOSED = 1e-9
 #: Of at most so many links positions are sought from places at random: from so many of these, until so many close.
-MOST_STREWN, STREWN, ENOUGH = 30, 16, 4
+MAX_LINKS, ATTEMPTS, MAX_POSITIONS = 30, 16, 4
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ def rank_from_dimensions(mechanism: Mechanism) -> RankReport | None:
     pairs, whose phases a position found so need not keep, and of more than 30 links.
     """
     system = ConstraintEquations(mechanism)
-    if mechanism.higher or len(system.links) > MOST_STREWN:
+    if mechanism.higher or len(system.links) > MAX_LINKS:
         return None
     here, rank = _assembled(system)
     if here is None or system.freedoms - rank == grubler(counts(mechanism)):
@@ -226,12 +226,12 @@ def _assembled(system: ConstraintEquations) -> tuple[Floats | None, int]:
     """
     random, found = np.random.default_rng(0), list[tuple[Floats | None, int]]()
     extent = np.tile([1.0, 1.0, math.pi], len(system.links))
-    for _unused in range(STREWN):
+    for _unused in range(ATTEMPTS):
         strewn = random.uniform(-1.0, 1.0, system.freedoms) * extent
         here, gap = _closed(system, strewn, held=next(iter(system.mechanism.drivers), None))
         if gap <= CLOSED:
             found.append((here, numeric_rank(system.jacobian(here), ZERO_DRAWN)))
-        if len(found) == ENOUGH:
+        if len(found) == MAX_POSITIONS:
             break
     return max(found, key=lambda each: each[1], default=(None, 0))
 

@@ -11,12 +11,12 @@ import numpy as np
 from linkwright.core.arrays import Indices
 from linkwright.core.outputs import row_name
 from linkwright.core.quantity import shown
+from linkwright.kinematics.change_point_crossing import ChangePointCrossing
 from linkwright.kinematics.change_points import closes
 from linkwright.kinematics.cycle import FEW, cycle_turns, not_back, together
 from linkwright.kinematics.full_turns import MOST
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.outcome import Outcome
-from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.positions import Positions, coordinate_text
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import number
@@ -166,7 +166,7 @@ def branch_notes(motion: Motion) -> tuple[Message, ...]:
     )
 
 
-def passage_notes(passing: Sequence[Passage], positions: Positions) -> tuple[Message, ...]:
+def passage_notes(passing: Sequence[ChangePointCrossing], positions: Positions) -> tuple[Message, ...]:
     """What the user should know about change points and gaps between positions."""
     messages = [_passage_note(p, positions) for p in passing]
     if positions.closed and not closes(passing):
@@ -180,7 +180,7 @@ def passage_notes(passing: Sequence[Passage], positions: Positions) -> tuple[Mes
     return tuple(dict.fromkeys(messages))
 
 
-def _passage_note(p: Passage, positions: Positions) -> Message:
+def _passage_note(p: ChangePointCrossing, positions: Positions) -> Message:
     name = next(iter(positions.coordinates))
     where = f"{name} = {shown(float(p.at), 'angle' if positions.rotary[name] else 'length')}"
     return _PASSAGES[p.kind].format(links=tuple(p.group.split("+")), where=where)

@@ -11,9 +11,9 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.search import ends
 from linkwright.kinematics.between_positions import Between
+from linkwright.kinematics.change_point_crossing import ChangePointCrossing
 from linkwright.kinematics.fold import fold
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.solve import marked
 
 #: How far, rad or share of the size, before an end that is searched Newton's method for its fold begins, how far from
@@ -37,9 +37,9 @@ class Reach:
         passing = [] if self._between is None else self._between.passing
         return np.array([self._time_at(p) for p in passing])
 
-    def _time_at(self, passage: Passage) -> float:
+    def _time_at(self, crossing: ChangePointCrossing) -> float:
         """When it is passed, s."""
-        return float(np.interp(passage.place, np.arange(float(len(self._times))), self._times))
+        return float(np.interp(crossing.place, np.arange(float(len(self._times))), self._times))
 
     @cached_property
     def passed(self) -> Flags:

@@ -12,17 +12,17 @@ from linkwright.core.arguments import STEPS, require
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_groups
 from linkwright.errors import RequestError
+from linkwright.kinematics.change_point_crossing import ChangePointCrossing
 from linkwright.kinematics.change_points import (
+    crossings,
     cut_off,
     mark_singular,
-    passages,
+    outputs_at_crossings,
     signs,
-    signs_of_passages,
 )
 from linkwright.kinematics.cycle import over_cycle, time_span
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
-from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.passing_proof import clear_of_zero
 from linkwright.kinematics.positions import Positions, at_inputs, at_times
 from linkwright.kinematics.reach_messages import branch_notes, passage_notes, turn_notes
@@ -147,7 +147,7 @@ class MotionRun:
             return at_once
         states = {} if tracked is None else tracked.states
         modes, messages = reached_modes(self.solver, self.positions) if self.single else ({}, ())
-        found = [] if modes else passages(self.solver, self.positions, tracked)
+        found = [] if modes else crossings(self.solver, self.positions, tracked)
         if any(p.touches for p in found):
             modes = signs(found, self.solver.assembly.modes, self.positions.count)
         if modes:
@@ -165,7 +165,7 @@ class MotionRun:
     def _at_once(self) -> Motion | None:
         """The motion where all positions are reached and show that nothing is passed between two of them; None where
         they do not."""
-        measures = signs_of_passages(self.solver, self.positions)
+        measures = outputs_at_crossings(self.solver, self.positions)
         if measures is None:
             return None
         names = (*self.solver.outputs.standard, *measures)
@@ -182,7 +182,7 @@ class MotionRun:
         self,
         states: Mapping[str, Floats],
         modes: Mapping[str, Floats],
-        found: list[Passage],
+        found: list[ChangePointCrossing],
         breaks: frozenset[int],
         names: tuple[str, ...],
     ) -> Motion:
@@ -242,7 +242,7 @@ def reached_modes(solver: MotionSolver, positions: Positions) -> tuple[dict[str,
         return {}, ()
     begin = time_span(solver.mechanism)[0]
     turn = at_times(solver.mechanism, begin + duration * np.arange(LOOKS) / LOOKS, duration)
-    passing = passages(solver, turn, None)
+    passing = crossings(solver, turn, None)
     if not passing or any(p.barred for p in passing):
         return {}, ()
     turns, share = np.divmod((positions.time - begin) / duration, 1.0)

@@ -138,10 +138,10 @@ class SmoothedTable(Through):
             raise RequestError(
                 _(
                     "no smooth rise comes within {tolerance:.3g} of the points, the nearest within "
-                    "{least:.3g}; give a larger tolerance",
+                    "{minimum:.3g}; give a larger tolerance",
                     code="laws.not_smoothed",
                     tolerance=self.tolerance,
-                    least=far(fitted(low)),
+                    minimum=far(fitted(low)),
                 )
             )
         for _unused in range(30):

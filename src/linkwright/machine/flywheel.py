@@ -16,7 +16,7 @@ FLUCTUATION = 0.02
 #: How files give another one.
 COEFFICIENT = Number(above=0.0, below=1.0, doc=_("coefficient of speed fluctuation"))
 #: A mean torque below this share of the largest one is zero.
-NOTHING = 1e-9
+ZERO_TOLERANCE = 1e-9
 
 
 def flywheel_inertia(energy: float, speed: float, fluctuation: float, *, present: float = 0.0) -> float:

@@ -22,7 +22,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation
 from linkwright.machine.equivalent import Equivalent, steady_rate
-from linkwright.machine.flywheel import NOTHING, flywheel_inertia, on_faster_shaft, speed_fluctuation
+from linkwright.machine.flywheel import ZERO_TOLERANCE, flywheel_inertia, on_faster_shaft, speed_fluctuation
 from linkwright.machine.motor import Motor, motor
 from linkwright.machine.speed import SpeedCurve
 from linkwright.words import Message, Say, _
@@ -201,7 +201,9 @@ class SteadyRunning(Plotted, Numbers):
     @property
     def evened(self) -> Message | None:
         """That the motor of the mean power suffices only with a flywheel, or with the inertia of the machine."""
-        if self.driven is not None or self.power_without_flywheel <= self.motor.power * (1.0 + NOTHING):
+        if self.driven is not None or self.power_without_flywheel <= self.motor.power * (
+            1.0 + ZERO_TOLERANCE
+        ):
             return None
         powers = (self.motor.power, self.power_without_flywheel)
         most, peak = (shown(each, "power") for each in powers)
@@ -284,7 +286,7 @@ def require_steady(forces: Forces) -> None:
 
 def _require_load(mean: float, forces: Forces) -> None:
     largest = float(np.abs(forces.input_torque).max())
-    if abs(mean) <= NOTHING * largest or largest == 0:
+    if abs(mean) <= ZERO_TOLERANCE * largest or largest == 0:
         raise LinkwrightError(
             _(
                 "the mean torque of {name!r} over its cycle is zero: no work is done, so there is no "

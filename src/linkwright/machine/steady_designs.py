@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats
 from linkwright.curves.pieces import MET, Pieces
 from linkwright.curves.polynomials import WEIGHTS, Peak, largest, weights_at
-from linkwright.machine.flywheel import NOTHING
+from linkwright.machine.flywheel import ZERO_TOLERANCE
 from linkwright.machine.speeds import Speeds, SteadyCycles
 
 #: Kinds of numbers, with the weights of the largest and the smallest speed in them; the ``size`` is the flywheel with
@@ -43,7 +43,7 @@ class SteadyDesigns:
             "fastest": np.abs(self.speed) * speeds.fastest[2],
             "slowest": np.abs(self.speed) * speeds.slowest[2],
         }[kind]
-        works = np.abs(self.mean) > NOTHING * self.pieces.size[self.effort]
+        works = np.abs(self.mean) > ZERO_TOLERANCE * self.pieces.size[self.effort]
         return np.where(works, found, np.nan)
 
     def met(self, kind: str, fluctuation: float | None = None) -> Flags:

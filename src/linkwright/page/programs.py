@@ -115,7 +115,7 @@ class PagePrograms:
     def bends(self) -> list[Plain]:
         """Where cams and the like go over to another formula: angles of a link against its carrier, to which a
         dimension is added."""
-        found = [joint.bends for joint in self.mechanism.joints.values() if joint.bends is not None]
+        found = [joint.kinks for joint in self.mechanism.joints.values() if joint.kinks is not None]
         phase = self.solver.nominal.parameters
         return [
             {

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from linkwright import gallery
 from linkwright.errors import Finding, ModelError
-from linkwright.fields.base import Count, Field, Free, Word, WordedText, table_schema
+from linkwright.fields.base import Count, Field, Free, LocalizedTextField, Word, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, towards
 from linkwright.fields.reading import Place
@@ -49,9 +49,9 @@ KINDS: Mapping[str, str] = {
 HEADING: Mapping[str, Field] = {
     "format": Count(FORMAT, required=True, doc=_("1, in the first line")),
     "kind": Word(tuple(KINDS), required=True, doc="say what is calculated, such as kind: beam"),
-    "name": WordedText(doc="name of the calculation"),
-    "purpose": WordedText(doc=_("what it is for, one sentence")),
-    "source": WordedText(doc=_("where it is taken from")),
+    "name": LocalizedTextField(doc="name of the calculation"),
+    "purpose": LocalizedTextField(doc=_("what it is for, one sentence")),
+    "source": LocalizedTextField(doc=_("where it is taken from")),
     "expected": Free(doc=_("numbers to compare results with; not interpreted")),
     "parameters": Free(doc="named quantities for use in expressions"),
     "report": Free(doc="title, own text, errata and more for the command report", section="report"),

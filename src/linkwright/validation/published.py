@@ -11,7 +11,7 @@ from typing import Any
 from linkwright import gallery
 from linkwright.files.model_file import load
 from linkwright.words import _
-from linkwright.words.sentence import Worded
+from linkwright.words.sentence import LocalizedText
 
 #: Units of the last printed digit by which a rounded number may differ.
 ROUNDED = 0.51
@@ -64,7 +64,7 @@ def from_data() -> Iterator[Published]:
 
     folder = files(__package__) / "data"
     for entry in yaml.safe_load((folder / "published.yaml").read_text("utf-8")):
-        head = Worded(entry["case"]), entry["source"], entry["probe"]
+        head = LocalizedText(entry["case"]), entry["source"], entry["probe"]
         within = float(entry.get("within", ROUNDED))
         if "table" in entry:
             rows = csv.DictReader((folder / entry["table"]).read_text("utf-8").splitlines())

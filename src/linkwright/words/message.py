@@ -17,7 +17,7 @@ from typing import Protocol, runtime_checkable
 
 LOCALES = Path(__file__).parent.parent / "locale"
 LANGUAGES = ("en", *sorted(each.parts[-3] for each in LOCALES.glob("*/LC_MESSAGES/linkwright.mo")))
-NOTHING: Mapping[str, object] = MappingProxyType({})
+NO_VALUES: Mapping[str, object] = MappingProxyType({})
 _BRACE = re.compile("[{}]")
 _FIELD = re.compile(r"(?<!\{)(?:\{\{)*\{\w")
 
@@ -47,7 +47,7 @@ class Message(str):
     def __new__(
         cls,
         msgid: str,
-        values: Mapping[str, object] = NOTHING,
+        values: Mapping[str, object] = NO_VALUES,
         *,
         plural: str = "",
         context: str = "",

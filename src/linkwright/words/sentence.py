@@ -14,7 +14,7 @@ _OWN_NAMES = re.compile(
 )
 
 
-class Worded(str):
+class LocalizedText(str):
     """A text that a file gives in several languages: ``texts``, by language.
 
     It reads as the text of one language, English unless ``say("zh")`` gave it, or as the first one that there is.
@@ -22,7 +22,7 @@ class Worded(str):
 
     texts: Mapping[str, str]
 
-    def __new__(cls, texts: Mapping[str, str], language: str = LANGUAGES[0]) -> Worded:
+    def __new__(cls, texts: Mapping[str, str], language: str = LANGUAGES[0]) -> LocalizedText:
         worded = super().__new__(cls, texts.get(language) or next(iter(texts.values())))
         worded.texts = dict(texts)
         return worded
@@ -30,18 +30,18 @@ class Worded(str):
     def __getnewargs__(self) -> tuple[Mapping[str, str]]:  # type: ignore[override]
         return (self.texts,)
 
-    def say(self, language: str = LANGUAGES[0]) -> Worded:
+    def say(self, language: str = LANGUAGES[0]) -> LocalizedText:
         """The text in a language."""
-        return Worded(self.texts, language)
+        return LocalizedText(self.texts, language)
 
-    def on_one_line(self) -> Worded:
+    def on_one_line(self) -> LocalizedText:
         """The same, each text on one line."""
-        return Worded({language: one_line(text) for language, text in self.texts.items()})
+        return LocalizedText({language: one_line(text) for language, text in self.texts.items()})
 
 
 def in_language(text: str, language: str) -> str:
     """A message or localized text in a language; plain texts as they are."""
-    return text.say(language) if isinstance(text, Message | Worded) else text
+    return text.say(language) if isinstance(text, Message | LocalizedText) else text
 
 
 NAMES = {

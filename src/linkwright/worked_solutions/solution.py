@@ -11,7 +11,7 @@ from linkwright.core.outputs import Output
 from linkwright.elements.topology import Group
 from linkwright.equations.reading import of_file, read_name
 from linkwright.equations.steps import Step, Written
-from linkwright.equations.terms import NOTHING, ZERO, Term, symbol, total
+from linkwright.equations.terms import ZERO, ZERO_TOLERANCE, Term, symbol, total
 from linkwright.equations.text import Solution, page
 from linkwright.errors import LinkwrightError, RequestError, require_language, speaker
 from linkwright.kinematics.groups import dyad_shape, in_one_step
@@ -90,7 +90,7 @@ def _drivers(step: Step, forces: Forces, book: Book, sum_of: Term) -> None:
         letter = "F" if book.mechanism.joints[driver.joint].coordinate == "slide" else "M"
         value = float(forces.driver_effort(name)[book.index])
         terms.append((symbol(f"{letter}_{name}", value), rate))
-    if len(terms) == 1 and abs(terms[0][1].amount) > NOTHING and not sum_of.is_zero:
+    if len(terms) == 1 and abs(terms[0][1].amount) > ZERO_TOLERANCE and not sum_of.is_zero:
         effort, rate = terms[0]
         step.say(book.say(_("The driver's power takes the sum to zero, so its effort once more:")))
         unit = "N" if effort.plain.startswith("F") else "N·m"

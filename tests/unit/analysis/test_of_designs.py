@@ -313,23 +313,23 @@ def test_a_load_against_a_velocity_is_certain(course: str) -> None:
 def test_bends_of_a_lift_are_passed_on_the_way_to_and_again_on_the_way_back() -> None:
     machine = lw.loads(ROCKING)
     cycle = found(machine, ["lobe.phase", "slide.mass"], ["rms_input_torque", "peak_reaction"])
-    bends = machine.joints["lobe"].bends
+    kinks = machine.joints["lobe"].kinks
     angle = lw.solve_motion(machine).link("cam").angle
-    assert bends is not None
-    there = np.array(bends.angles) + machine.dimension("lobe.phase")
+    assert kinks is not None
+    there = np.array(kinks.angles) + machine.dimension("lobe.phase")
     passed = np.mod(there - angle.min(), 2.0 * np.pi) < np.ptp(angle)
     solved = Solved(cycle.cycle, {by: np.array([machine.dimension(by)]) for by in cycle.machine.varied})
-    assert sum(len(each.time) for each in solved.bends) == 2 * passed.sum() > 0
+    assert sum(len(each.time) for each in solved.kinks) == 2 * passed.sum() > 0
 
 
 def test_a_cam_behind_wheels_takes_no_more_pieces_than_its_bends_ask_for() -> None:
     """Over five turns of the shaft every stretch between bends is as short as those of the cam itself."""
     machine = lw.loads(CAM_BEHIND_GEARS.replace("teeth: [30, 60]", "teeth: [15, 75]"))
-    cycle, bends = found(machine, ["slide.mass"], ["rms_input_torque"]), machine.joints["lobe"].bends
-    assert bends is not None
+    cycle, kinks = found(machine, ["slide.mass"], ["rms_input_torque"]), machine.joints["lobe"].kinks
+    assert kinks is not None
     solved = Solved(cycle.cycle, {"slide.mass": np.array([0.5])})
-    assert sum(len(each.time) for each in solved.bends) == len(bends.angles)
-    assert len(solved.pieces.stretch) <= 24 * len(bends.angles)
+    assert sum(len(each.time) for each in solved.kinks) == len(kinks.angles)
+    assert len(solved.pieces.stretch) <= 24 * len(kinks.angles)
     values, _ = cycle.evaluate({"slide.mass": np.array([0.5])})
     (known,) = lw.metrics(lw.solve_forces(machine), "rms_input_torque")
     assert values["rms_input_torque"][0] == pytest.approx(known.value, rel=1e-11)

@@ -27,7 +27,7 @@ def program(rise: float = 0.024, law: str = "cycloidal", beta: float = 90.0) -> 
 
 def test_a_roller_as_large_as_the_radius_of_curvature_makes_a_cusp() -> None:
     wall = RollerCurve(program(), lw.Follower(roller_radius=0.008), 0.03)
-    sharp = 0.008 + 1 / max(wall.contact(np.linspace(0, 2 * np.pi, 200_001)).bend)
+    sharp = 0.008 + 1 / max(wall.contact(np.linspace(0, 2 * np.pi, 200_001)).curvature)
     base = 0.038 - sharp
     for share, cut in ((0.999, False), (1.001, True)):
         roller = share * sharp

@@ -213,7 +213,7 @@ def test_a_straight_row_of_inputs_is_one_way(triad: Motion) -> None:
     journey = _Journey(solver.tracker(), positions, False)
     assert journey._in_line() and not journey.lawful
     assert journey._shares() == pytest.approx(q / 2.0)
-    way = journey.tracked()
+    way = journey.track_branch()
     exact = lw.solve_motion(triad.mechanism, at=q)
     agree(dict(way.states), tracked(exact))
     for other, line in ((q[::-1], True), (q[[0, 2, 1, *range(3, 9)]], False), (np.append(q[:8], 1.9), True)):
@@ -335,7 +335,7 @@ def test_a_second_sweep_follows_no_way_again(monkeypatch: pytest.MonkeyPatch) ->
 
     mechanism = lw.load("gallery:triad")
     first, anew = swept(mechanism), swept(lw.load("gallery:triad"))
-    monkeypatch.setattr(_Journey, "followed", lambda *_: pytest.fail("followed again"))
+    monkeypatch.setattr(_Journey, "track_branch", lambda *_: pytest.fail("followed again"))
     monkeypatch.setattr(PathStep, "__init__", lambda *_: pytest.fail("traced again"))
     second = swept(mechanism)
     assert np.isfinite(second["input_torque", "rms"]).all()

@@ -9,7 +9,7 @@ import linkwright as lw
 from linkwright.kinematics.solve import with_times
 
 
-@pytest.mark.parametrize("followed", [True, False])
+@pytest.mark.parametrize("tracked", [True, False])
 def test_further_times_of_a_motion_lie_on_its_way(tracked: bool) -> None:
     """They are reached where the positions on both sides are, and these are what they were."""
     text = general_case(7017).text if tracked else TRIPLE_ROCKER.format(x=4.0, y=0.0, start=0.0)

@@ -14,20 +14,20 @@ from tests.invariants.fourbars import fourbar
 import linkwright as lw
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
+from linkwright.kinematics.change_point_crossing import ChangePointCrossing
 from linkwright.kinematics.change_points import (
     _divided,
     closes,
+    crossings,
     cut_off,
     mark_singular,
     nearness,
+    outputs_at_crossings,
     parts,
-    passages,
     signs,
-    signs_of_passages,
     way,
 )
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.passage import Passage
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.reach_messages import passage_notes
 from linkwright.kinematics.solver import MotionSolver
@@ -43,11 +43,11 @@ def row(
     return Positions(q, {"driver": (q, one, 0 * one)}, {"driver": rotary}, period, cycle)
 
 
-def passage(
+def crossing(
     before: int, kind: Any = "change", share: float = 0.5, group: str = "a+b", **more: Any
-) -> Passage:
+) -> ChangePointCrossing:
     place = before + share
-    return Passage(
+    return ChangePointCrossing(
         group, before, before + 1, share, 0.0, kind, 0.1 * place, more.get("flips", (place, np.inf))
     )
 
@@ -90,53 +90,55 @@ def test_positions_are_one_way_if_they_follow_each_other_closely_or_are_a_cycle(
 
 def test_a_group_has_its_other_sign_behind_every_change_point() -> None:
     passing = [
-        passage(1),
-        passage(3, "meeting"),
-        passage(2, "gap"),
-        passage(4, group="c+d", flips=(0.5, 4.5)),
+        crossing(1),
+        crossing(3, "meeting"),
+        crossing(2, "gap"),
+        crossing(4, group="c+d", flips=(0.5, 4.5)),
     ]
     found = signs(passing, {"a+b": 1.0, "c+d": -1.0, "e": 1.0}, 6)
     assert {name: sign.tolist() for name, sign in found.items()} == {
         "mode:a+b": [1, 1, -1, -1, 1, 1],
         "mode:c+d": [-1, 1, 1, 1, 1, -1],
     }
-    assert signs([passage(0)], {"a+b": -1.0}, 3)["mode:a+b"].tolist() == [-1, 1, 1]
+    assert signs([crossing(0)], {"a+b": -1.0}, 3)["mode:a+b"].tolist() == [-1, 1, 1]
     at = signs(passing, {"a+b": 1.0, "c+d": -1.0}, np.array([1.4, 1.6]))
     assert at["mode:a+b"].tolist() == [1, -1]
-    assert signs([passage(-1, share=1.0)], {"a+b": 1.0}, 2)["mode:a+b"].tolist() == [1, 1]
+    assert signs([crossing(-1, share=1.0)], {"a+b": 1.0}, 2)["mode:a+b"].tolist() == [1, 1]
     assert [p.touches for p in passing] == [True, True, False, True] == [not p.barred for p in passing]
     assert passing[1].place == 3.5
 
 
 def test_a_cycle_closes_if_every_group_passes_an_even_number() -> None:
-    assert closes([]) and closes([passage(1), passage(3)]) and closes([passage(1, "gap")])
-    assert not closes([passage(1)]) and not closes([passage(1), passage(2, group="c")])
-    assert closes([passage(1, flips=(1.5, 4.0))])
+    assert closes([]) and closes([crossing(1), crossing(3)]) and closes([crossing(1, "gap")])
+    assert not closes([crossing(1)]) and not closes([crossing(1), crossing(2, group="c")])
+    assert closes([crossing(1, flips=(1.5, 4.0))])
 
 
 def test_positions_on_a_change_point_are_singular() -> None:
     structure = SimpleNamespace(groups=[SimpleNamespace(name="x"), SimpleNamespace(name="a+b")])
     codes = np.zeros(5)
     mark_singular(
-        codes, [passage(1), passage(1, share=1.0), passage(2, "gap", 1.0), passage(4, share=1.0)], structure
+        codes,
+        [crossing(1), crossing(1, share=1.0), crossing(2, "gap", 1.0), crossing(4, share=1.0)],
+        structure,
     )  # type: ignore[arg-type]
     assert codes.tolist() == [-2, 0, -2, 0, 0]
 
 
 def test_change_points_and_gaps_are_said_once_with_their_place() -> None:
     along = row(8)
-    twice = [replace(passage(1, share=0.0), at=np.pi / 3), replace(passage(1, share=0.0), at=np.pi / 3)]
+    twice = [replace(crossing(1, share=0.0), at=np.pi / 3), replace(crossing(1, share=0.0), at=np.pi / 3)]
     (said,) = passage_notes(twice, along)
     assert "a, b" in said and "driver = 60°" in said
-    assert "driver = 250 mm" in passage_notes([replace(passage(1), at=0.25)], row(8, rotary=False))[0]
-    assert "driver = 0°" in passage_notes([replace(passage(1), at=-1e-13)], along)[0]
+    assert "driver = 250 mm" in passage_notes([replace(crossing(1), at=0.25)], row(8, rotary=False))[0]
+    assert "driver = 0°" in passage_notes([replace(crossing(1), at=-1e-13)], along)[0]
     kinds = [
-        passage_notes([passage(1, kind)], along)[0].code for kind in ("change", "meeting", "gap", "pole")
+        passage_notes([crossing(1, kind)], along)[0].code for kind in ("change", "meeting", "gap", "pole")
     ]
     assert len(set(kinds)) == 4
-    assert len(passage_notes([passage(1)], row(8, closed=True))) == 2
-    assert len(passage_notes([passage(1), passage(2)], row(8, closed=True))) == 2
-    assert len(passage_notes([passage(1)], along)) == 1
+    assert len(passage_notes([crossing(1)], row(8, closed=True))) == 2
+    assert len(passage_notes([crossing(1), crossing(2)], row(8, closed=True))) == 2
+    assert len(passage_notes([crossing(1)], along)) == 1
 
 
 PUSHED = """
@@ -205,7 +207,7 @@ def test_the_same_passages_are_found_however_coarse_the_steps(
     start: float,
 ) -> None:
     mechanism = fourbar(*lengths, start=start)
-    coarse, fine = (passages(MotionSolver(mechanism), over_cycle(mechanism, n), None) for n in (steps, 720))
+    coarse, fine = (crossings(MotionSolver(mechanism), over_cycle(mechanism, n), None) for n in (steps, 720))
     if kinds != ["gap"]:
         assert sorted(p.kind for p in coarse) == sorted(p.kind for p in fine) == kinds
         angles, exact = (
@@ -254,7 +256,7 @@ def test_how_near_a_dyad_comes_is_the_least_of_its_square_and_of_its_pins_distan
 
 def test_what_shows_passages_is_named_where_steps_are_fine_and_guides_stay_apart() -> None:
     def shown(mechanism: lw.Mechanism, steps: int) -> tuple[str, ...] | None:
-        return signs_of_passages(MotionSolver(mechanism), over_cycle(mechanism, steps))
+        return outputs_at_crossings(MotionSolver(mechanism), over_cycle(mechanism, steps))
 
     names = shown(fourbar(1, 3, 2.5, 2, start=20.0), 360)
     assert names == ("quality:coupler+rocker", "fact:coupler+rocker|distance²")
@@ -262,13 +264,13 @@ def test_what_shows_passages_is_named_where_steps_are_fine_and_guides_stay_apart
     assert shown(store.machine("tangent_mechanism"), 720) is None
 
 
-def found_between(mechanism: lw.Mechanism, begin: float, end: float, steps: int) -> list[Passage]:
+def found_between(mechanism: lw.Mechanism, begin: float, end: float, steps: int) -> list[ChangePointCrossing]:
     """Passages of an open way between two crank angles, deg."""
     cycle = Cycle(start=np.radians(begin), end=np.radians(end))
     mechanism = replace(mechanism, cycle=cycle)
     positions = over_cycle(mechanism, steps)
     assert not positions.closed and positions.count == steps + 1
-    return passages(MotionSolver(mechanism), positions, None)
+    return crossings(MotionSolver(mechanism), positions, None)
 
 
 @pytest.mark.parametrize("steps", [7, 40, 131])
@@ -298,7 +300,7 @@ def test_a_stretch_out_of_reach_lies_behind_the_last_position_that_can_be(start:
     """A crank of 1.05 m: A and O2 are more than 5 m apart from 160° to 200°."""
     edge = np.arccos((1.05**2 + 16.0 - 25.0) / 8.4)
     mechanism = fourbar(1.05, 3, 2, 4, start=start)
-    found = passages(MotionSolver(mechanism), over_cycle(mechanism, steps), None)
+    found = crossings(MotionSolver(mechanism), over_cycle(mechanism, steps), None)
     angles = np.radians(start + 360.0 * np.arange(steps) / steps)
     hidden = not (np.cos(angles) < np.cos(edge)).any()
     assert [p.kind for p in found] == (["gap"] if hidden else [])
@@ -337,7 +339,7 @@ def test_a_slotted_arm_that_turns_fully_has_its_guides_parallel_twice(start: flo
     mechanism = replace(mechanism, drivers={"driver": replace(driver, law=law)}, cycle=Cycle(turns=1.0))
     positions = over_cycle(mechanism, steps)
     assert positions.closed
-    found = passages(MotionSolver(mechanism), positions, None)
+    found = crossings(MotionSolver(mechanism), positions, None)
     expected = sorted(((a - start) % 360.0) / 360.0 * steps for a in (90.0, 270.0))
     assert [p.kind for p in found] == ["pole", "pole"]
     assert [p.place for p in found] == pytest.approx(expected, abs=1e-5)

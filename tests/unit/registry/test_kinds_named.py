@@ -72,7 +72,7 @@ def classes(registry: Registry) -> set[str]:
     """Names of the kinds' classes and of the classes between them and the base."""
     kinds = [each if isinstance(each, type) else type(each) for each in map(registry.__getitem__, registry)]
     own = {base for kind in kinds for base in kind.__mro__ if base.__module__.startswith("linkwright.")}
-    return {each.__name__ for each in own if not each.__module__.endswith((".base", ".lower"))}
+    return {each.__name__ for each in own if not each.__module__.endswith((".base", ".lower_pair"))}
 
 
 def told(text: str) -> list[ast.AST]:

@@ -74,7 +74,7 @@ def _table(design: CamDesign, points: int) -> str:
     for number, wall in enumerate(design.cam.walls):
         contact = wall.contact(phi)
         with np.errstate(divide="ignore"):
-            radius = _MM / contact.bend
+            radius = _MM / contact.curvature
         rows = zip(np.degrees(phi), contact.point, contact.normal, radius, strict=True)
         lines += [
             f"{number},{a:.9g},{_MM * p.real:.9g},{_MM * p.imag:.9g},{n.real:.9g},{n.imag:.9g},{r:.9g}"

@@ -26,7 +26,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plotting.diagrams.axes import SYMBOLS, InputAxis, unit_of
 from linkwright.words import Say, _
 from linkwright.words.characters import one_line
-from linkwright.words.sentence import Worded
+from linkwright.words.sentence import LocalizedText
 
 Result: TypeAlias = Mechanism | Motion | Forces | SteadyRunning
 TURN = 2 * np.pi
@@ -62,7 +62,7 @@ class Source:
     def label(self) -> str:
         """Its name in the legend."""
         name = self._label or (self.mechanism.name if self.result_running is None else "")
-        return name.on_one_line() if isinstance(name, Worded) else one_line(name)
+        return name.on_one_line() if isinstance(name, LocalizedText) else one_line(name)
 
     @property
     def mechanism(self) -> Mechanism:

@@ -51,7 +51,7 @@ def draw_cam_checks(result: CamDesign, request: Request) -> Figure:
     panels = [Panel(request.say(_("pressure angle α")), "angle", (pressed,))]
     largest = 5.0 * result.size
     with np.errstate(divide="ignore"):
-        radius = 1.0 / contact.bend
+        radius = 1.0 / contact.curvature
     bent = np.where(np.abs(radius) < largest, radius, np.nan)
     panels.append(Panel(request.say(_("radius of curvature ρ")), "length", (Curve("", bent),)))
     if result.loaded and result.cam.barrel_radius is None:

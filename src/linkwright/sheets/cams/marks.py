@@ -100,8 +100,8 @@ def _tightest(picture: Picture, paper: Paper, design: CamDesign, outer: float) -
     if radius is None or radius.value > 2 * outer:
         return
     contact = design.wall.contact(radius.place + np.array([-_SIDE_STEP, 0.0, _SIDE_STEP]))
-    side = int(np.argmin(np.abs(contact.bend - 1.0 / radius.value)))
-    if not math.isclose(float(contact.bend[side]), 1.0 / radius.value, rel_tol=1e-5):
+    side = int(np.argmin(np.abs(contact.curvature - 1.0 / radius.value)))
+    if not math.isclose(float(contact.curvature[side]), 1.0 / radius.value, rel_tol=1e-5):
         return  # it is on another wall
     point, inward = paper.point(contact.point[side]), -complex(contact.normal[side])
     centre = point + paper.length(radius.value) * pair(inward)

@@ -11,7 +11,7 @@ Kind = Literal["change", "meeting", "end", "gap", "pole"]
 
 
 @dataclass(frozen=True)
-class Passage:
+class ChangePointCrossing:
     """Where a group's modes meet (``change``), its outer pins meet (``meeting``), or it cannot pass: out of reach
     (``gap``), or infinitely far as its guides become parallel (``pole``). An ``end`` is one of the first two beneath
     a group without closed form, which cannot be tracked through it.
