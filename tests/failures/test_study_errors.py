@@ -41,12 +41,12 @@ def machine() -> lw.Mechanism:
         (
             {"coupler.length": "2..3 m:0"},
             "study.no_count",
-            {"address": "coupler.length", "whole": "2..3 m:0"},
+            {"address": "coupler.length", "value": "2..3 m:0"},
         ),
         (
             {"coupler.length": "2..3 m:many"},
             "study.no_count",
-            {"address": "coupler.length", "whole": "2..3 m:many"},
+            {"address": "coupler.length", "value": "2..3 m:many"},
         ),
         ({"coupler.length": "2..3 mn"}, "unknown-unit", {"text": "mn"}),
         ({"coupler.length": "-2..3 m:3"}, "model.set_outside", {"address": "coupler.length"}),
@@ -106,7 +106,7 @@ def test_numbers_of_joints_loads_and_cycles_need_their_units(
         address=address,
         text=given,
         need=kind,
-        told=told,
+        mismatch=told,
         write=write,
         example=unit,
         **own,
@@ -268,7 +268,7 @@ def test_a_subject_that_a_metric_does_not_have() -> None:
 
 def test_sweeps_refuse_what_no_design_can_have() -> None:
     lengths = np.array([3.0, 3.5])
-    with refused("study.uneven", told="coupler.length: 2, rocker.length: 3"):
+    with refused("study.uneven", counts="coupler.length: 2, rocker.length: 3"):
         sweep(machine(), {"coupler.length": lengths, "rocker.length": np.ones(3)}, outputs=["B.x max"])
     with refused("study.no_summary", offer="rms", output="driver.effort", kind="rmss"):
         sweep(machine(), {"coupler.length": lengths}, outputs=[("driver.effort", "rmss")])

@@ -410,7 +410,7 @@ def test_a_curve_that_no_four_bar_draws_closely_enough() -> None:
         lw.free_curve([(0.9, 0), (0.9, 1.7), (0, 0.6), (1.3, 0.6)], joints=5, error=0.001, seconds=1.0)
     assert caught.value.nearest is not None
     assert caught.value.nearest.best.error < 0.25
-    assert float(str(caught.value.values["least"])) == pytest.approx(
+    assert float(str(caught.value.values["minimum"])) == pytest.approx(
         caught.value.nearest.best.error, rel=1e-2
     )
 

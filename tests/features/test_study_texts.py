@@ -215,7 +215,7 @@ def test_designs_barred_between_two_positions_are_said_to_be() -> None:
         assert re.search(r"\n2 .*\(coupler, rocker\)|\n2 .*（coupler、rocker）", found.text(language))
     with refused("study.none_passes", count=2) as none:
         lw.study(machine, {"rocker.length": [0.69, 0.695]}, metrics=["B.velocity max"], steps=5)
-    assert len(none.value.values["told"]) == 1
+    assert len(none.value.values["causes"]) == 1
 
 
 def test_what_is_made_once_says_in_short_what_it_is() -> None:

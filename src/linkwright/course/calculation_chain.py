@@ -28,7 +28,7 @@ class Line:
 
     @property
     def is_given(self) -> bool:
-        """Whether it is only told, not reckoned."""
+        """Whether it is given data, not calculated."""
         return self.formula is self.result
 
     @cached_property
@@ -49,7 +49,7 @@ def lines_of(solution: Worked) -> tuple[Line, ...]:
 
 @dataclass(frozen=True)
 class Calculation:
-    """Equations that are reckoned one after the other."""
+    """Equations that are evaluated one after the other."""
 
     lines: tuple[Line, ...]
 
@@ -59,10 +59,10 @@ class Calculation:
         functions: Mapping[str, Function] | None = None,
         data: Mapping[str, float] | None = None,
     ) -> Values:
-        """Results by output (angles in degrees), every line reckoned from those before it.
+        """Results by output (angles in degrees), every line evaluated from those before it.
 
         ``change``: puts another formula into lines; ``functions``: other meanings of ``cos``, ``sin``, ``atan2``;
-        ``given``: other values of symbols that are only told. A value that a formula does not have (a root of a
+        ``data``: other values of given symbols. A value that a formula does not have (a root of a
         negative number) is NaN, and so is what follows from it.
         """
         every = self._evaluated(change, functions, data)
@@ -78,7 +78,7 @@ class Calculation:
         functions: Mapping[str, Function] | None = None,
         data: Mapping[str, float] | None = None,
     ) -> list[float]:
-        """Values of all lines; where functions mean what they do, only what a change reaches is reckoned anew."""
+        """Values of all lines; where functions mean what they do, only what a change reaches is evaluated anew."""
         known, moved, found = dict(data or {}), set(data or ()), list[float]()
         right = self._right if functions is None else [math.nan] * len(self.lines)
         apply = {**APPLY, **(functions or {})}

@@ -42,7 +42,7 @@ _NO_COLUMN = _(
 class Grade:
     """One sheet: which answers are right (None: not answered), and the mistakes that explain all wrong ones.
 
-    ``mistakes``: names, the likeliest first, more than one only where the numbers cannot tell them apart; ``where``:
+    ``mistakes``: names, the likeliest first, more than one only where the numbers cannot distinguish them; ``where``:
     the symbol, group or link of the first one; ``fault``: why the sheet cannot be graded, with its line: then nothing
     is right or wrong.
     """

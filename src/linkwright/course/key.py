@@ -25,7 +25,7 @@ _NO_KEY = _(
 
 
 def read_key(key: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:
-    """A key from its data or its path; raises RequestError where it cannot be read or is not whole."""
+    """A key from its data or its path; raises RequestError where it cannot be read or is incomplete."""
     found, path = (key, "key") if isinstance(key, Mapping) else (_read(key), str(key))
     if not isinstance(found, Mapping) or found.get("format") != FORMAT or "variants" not in found:
         raise RequestError(_NO_KEY.format(path=path))
@@ -55,7 +55,7 @@ def _read(path: str | Path) -> Any:
 
 
 def _faults(key: Mapping[str, Any]) -> Iterator[str]:
-    """Places of what is missing or no such thing as stands there."""
+    """Places of what is missing or invalid."""
     tolerance = key.get("tolerance")
     if not _number(tolerance) or not 0.0 < float(tolerance) <= 0.2:  # type: ignore[arg-type]
         yield "tolerance"

@@ -1,6 +1,6 @@
 """The usual mistakes of worked solutions, and the answers that each of them leads to.
 
-Every mistake changes a line of the solution, a function or a given number; all that follows is reckoned with it, as
+Every mistake changes a line of the solution, a function or a given number; all that follows is calculated with it, as
 on a student's sheet.
 """
 
@@ -35,7 +35,7 @@ class Consequence:
 
 
 class Sheet:
-    """The solution of one position of a mechanism, as it is reckoned on paper."""
+    """The solution of one position of a mechanism, as it is calculated on paper."""
 
     def __init__(self, mechanism: Mechanism, at: float) -> None:
         self.mechanism, self.at = mechanism, at
@@ -114,7 +114,7 @@ def missing_parenthesis(sheet: Sheet) -> Made:
 
 
 def _pairs(sheet: Sheet) -> Made:
-    """The same slip in both coordinates of a point."""
+    """The same mistake in both coordinates of a point."""
     for number, line in enumerate(sheet.lines[:-1]):
         follower = sheet.lines[number + 1]
         if (

@@ -26,7 +26,7 @@ from linkwright.words import Say, _
 
 #: Width of the pictures of questions, pixels.
 PICTURE = 640
-#: Largest and least height of a sheet's drawing, of it with the rows of the tables, and of a row, mm; its share of
+#: Maximum and minimum height of a sheet's drawing, of it with the rows of the tables, and of a row, mm; its share of
 #: the width.
 TALLEST, LOWEST, ROOM, ROW, SHARE = 110.0, 30.0, 196.0, 5.0, 0.8
 Files = dict[str, bytes]
@@ -241,7 +241,7 @@ from pathlib import Path
 
 
 def generate(data):
-    """Picks one of the variants that stand beside this file."""
+    """Picks one of the variants next to this file."""
     variants = json.loads((Path(__file__).parent / "variants.json").read_text("utf-8"))
     chosen = random.choice(variants)
     data["params"]["picture"] = chosen["picture"]

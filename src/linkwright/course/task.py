@@ -105,7 +105,7 @@ class Task:
 
 def task(mechanism: Mechanism) -> Task:
     """The task of a model; raises ModelError with all findings about its settings, LinkwrightError for a machine
-    whose position is not told by its input."""
+    whose position its input does not determine."""
     if not mechanism.steady:
         raise LinkwrightError(
             _(
@@ -147,7 +147,7 @@ class _Reading(SectionReading):
             return None
 
     def _ranges(self) -> dict[str, tuple[float, float]]:
-        """Limits of the dimensions that change; the sizes of all links by a share where nothing is said."""
+        """Limits of the dimensions that change; the sizes of all links by a share by default."""
         section = self.given.get("vary")
         if section is None:
             sizes = {name: self.mechanism.dimension(name) for name in _usual_sizes(self.mechanism)}
@@ -184,7 +184,7 @@ class _Reading(SectionReading):
         return None
 
     def _questions(self, sheet: Sheet) -> tuple[Question, ...]:
-        """The numbers asked for; those of the last group, and of what drives, where nothing is said."""
+        """The numbers asked for; those of the last group, and of what drives, by default."""
         section = self.given.get("ask")
         if section is None:
             return _usual_questions(sheet)

@@ -41,7 +41,7 @@ SPREAD = 4.0
 #: Why a design is no variant: it does not pass its cycle, transmits worse than the model, has answers of another sign
 #: or size, shows other mistakes, or has the answers of another variant.
 Failing = Literal["stuck", "flat", "unlike", "mistakes", "same"]
-#: Mistakes lead to answers that are so many tolerances apart, from the right ones and from each other.
+#: Answers of mistakes differ by so many tolerances from the right ones and from each other.
 MIN_DIFFERENCE = 3.0
 #: What variants do that cannot be used, and what helps.
 TOO_FEW = {
@@ -83,8 +83,8 @@ class Variant:
 
 @dataclass(frozen=True)
 class Difficulty:
-    """``transmission_angle``: least and largest among the variants' smallest, rad; ``ratio``: of an answer's largest
-    to its smallest size, in the question where they lie furthest apart (angles left out)."""
+    """``transmission_angle``: min and max among the variants' smallest, rad; ``ratio``: of an answer's largest
+    to its smallest size, in the question where they differ most (angles left out)."""
 
     transmission_angle: tuple[float, float] | None
     ratio: float
@@ -125,7 +125,7 @@ class Variants:
 
     @property
     def difficulty(self) -> Difficulty:
-        """How far the variants lie apart in what makes a task hard."""
+        """How much the variants differ in what makes a task hard."""
         angles = [each.transmission_angle for each in self.variants if each.transmission_angle is not None]
         ratios = [
             max(abs(column)) / min(abs(column))
@@ -171,7 +171,7 @@ class Variants:
     def save(
         self, folder: str | Path, forms: Sequence[str] = (), language: str = "en", *, force: bool = False
     ) -> list[Path]:
-        """Write the files into a folder, each whole; returns their paths.
+        """Write the files into a folder, each atomically; returns their paths.
 
         Raises LinkwrightError, and writes none, where one cannot be written or is there already unless ``force``.
         """

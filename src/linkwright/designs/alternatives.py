@@ -240,9 +240,9 @@ def _nothing_shared(labels: Sequence[str], own: Sequence[Sequence[str]]) -> str:
         f"{label!r}: {(names or ['…'])[0]!r}" for label, names in zip(labels, own, strict=True)
     )
     return _(
-        "the alternatives share no output to compare: {told}; say which output of each is "
+        "the alternatives share no output to compare: {alternatives}; specify which output of each is "
         "meant, such as output={{{example}}} (on the command line --of, one name per file)",
         code="study.no_common_output",
-        told=named,
+        alternatives=named,
         example=example,
     )

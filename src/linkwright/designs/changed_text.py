@@ -1,7 +1,7 @@
 """The text of a model file with changed dimensions, which reads back as the changed machine.
 
-A number is written where it stands, a key that is not there is added. What an assembled drawing says, the geometry of
-links drawn in it, phases of wheels and assemblies, is said anew by the drawing of the changed machine.
+A number is replaced in place, a missing key is added. What an assembled drawing says, the geometry of
+links drawn in it, phases of wheels and assemblies, is derived anew from the drawing of the changed machine.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _DIGITS = range(12, 18)
 
 @dataclass(frozen=True)
 class Written:
-    """How a text holds a number in a unit of ``factor`` SI: with ``before`` and ``after`` in place of what stands at
+    """How a text holds a number in a unit of ``factor`` SI: with ``before`` and ``after`` in place of what is at
     ``span``, its first offset and the one behind it."""
 
     span: tuple[int, int]
@@ -44,7 +44,7 @@ class Written:
     factor: float
 
     def text(self, value: float) -> str:
-        """What takes the place of what stands there."""
+        """The replacement text."""
         return f"{self.before}{digits(value, self.factor)}{self.after}"
 
 

@@ -16,23 +16,23 @@ def unlike(alternatives: Sequence[Alternative]) -> tuple[str, ...]:
     """Sentences on loads, inputs and outputs in which the alternatives differ."""
     tasks: dict[Message, Callable[[Alternative], tuple[str, ...]]] = {
         _(
-            "! The alternatives carry different loads ({told}): torque, power, reactions and "
+            "! The alternatives carry different loads ({values}): torque, power, reactions and "
             "flywheel compare unlike things.",
             code="compare.unlike_loads",
         ): lambda each: _loads(each.mechanism),
         _(
-            "! The alternatives are driven at different speeds ({told}): rates, forces and powers "
+            "! The alternatives are driven at different speeds ({values}): rates, forces and powers "
             "compare unlike things.",
             code="compare.unlike_speeds",
         ): lambda each: _speeds(each.mechanism),
         _(
-            "! The outputs of the alternatives are of different kinds ({told}): their travels and "
+            "! The outputs of the alternatives are of different kinds ({values}): their travels and "
             "rates compare unlike things.",
             code="compare.unlike_outputs",
         ): lambda each: (each.output.dimension,),
     }
     return tuple(
-        message.format(told=[_named_facts(each, read(each)) for each in alternatives])
+        message.format(values=[_named_facts(each, read(each)) for each in alternatives])
         for message, read in tasks.items()
         if len({_rounded(read(each)) for each in alternatives}) > 1
     )

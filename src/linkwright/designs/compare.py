@@ -220,7 +220,7 @@ def compare(
         metrics: registered design numbers, with a subject if wanted (``peak_reaction O5``); ``travel``,
             ``output_velocity``, ``output_acceleration``, ``pivot_reaction`` (of the output's pivot), ``flywheel``;
             summaries of outputs (``driver.effort rms``). None: the usual ones that apply.
-        weights: of metrics in the ranking, 1 where nothing is said; 0 leaves one out.
+        weights: of metrics in the ranking, default 1; 0 leaves one out.
         output: the link or guide that does the work, by one name for all, or by the label of each alternative.
             None: the last one solved of those whose name all share.
         fluctuation: coefficient of speed fluctuation δ for the flywheels.

@@ -32,7 +32,7 @@ from linkwright.words import _
 
 #: Designs up to which what finds their numbers together may choose to do so without a compiler.
 FEW = 512
-#: Designs whose numbers are kept together.
+#: Designs whose metrics are stored together.
 PIECE = 8192
 
 
@@ -89,7 +89,7 @@ def numbers_of(
     """Metrics of the chosen ones of all designs; ``known``: on what else they depend.
 
     Formulas of summaries are found ``together`` as far as that is certain, the others, and what is no such formula,
-    one by one; all of them are kept where parts are kept.
+    one by one; all are stored in the current checkpoints.
     """
     found = Numbers({name: np.full(len(next(iter(columns.values()))), np.nan) for name in names}, {}, {}, {})
     cycles, total = _cycles(mechanism, columns, names, asked) if together else [], len(designs)

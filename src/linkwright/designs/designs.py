@@ -45,12 +45,12 @@ class Sweep(Plotted, Tabular, Frozen):
 
     ``varied``: values of the varied dimensions; ``assembled``: number of ``positions`` at which each design can be
     put together, or with ``partial`` that it reaches on its way from the first of them, as ``Motion.ok`` counts;
-    ``ok``: which designs pass the whole cycle, (designs,);
+    ``ok``: which designs pass the full cycle, (designs,);
     ``result["driver.effort", "rms"]`` or ``result["driver.effort rms"]`` a summary, NaN for designs
     that do not pass the whole cycle (unless ``partial`` was asked for). Where ``steps`` were given, those of outputs
     are of these positions, and ``notes`` says how far they are off. ``branch_margin`` (designs,): how far the
     step nearest to another assembly was from being refused, 1 far, 0 at the edge, where groups without closed form
-    are followed (their steps keep the determinant's sign, the correction small and both ends' exact rates on one
+    are tracked (their steps keep the determinant's sign, the correction small and both ends' exact rates on one
     curve); None where all groups have a closed form.
     """
 
@@ -283,7 +283,7 @@ def sweep_curves(
 ) -> Iterator[tuple[slice, dict[str, Floats]]]:
     """Outputs of many designs over the positions, a few thousand designs at a time: (designs, n) by name, SI.
 
-    Arguments and errors as for :func:`sweep`; curves of designs that do not pass the whole cycle are NaN.
+    Arguments and errors as for :func:`sweep`; curves of designs that do not pass the full cycle are NaN.
     """
     positions = over_cycle(mechanism, steps)
     columns = design_values(mechanism, vary)

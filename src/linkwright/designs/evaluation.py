@@ -12,11 +12,11 @@ from linkwright.designs.criteria import criterion
 from linkwright.errors import speaker
 from linkwright.words import Say, _, language_of
 
-#: Share of a cycle beside a change point at which the direction of an infinite reaction is told.
+#: Distance from a change point, as a share of the cycle, at which the direction of an infinite reaction is reported.
 NEIGHBOUR_SHARE = 1e-3
-#: Share of its largest value up to which a reaction's least one is where it passes zero.
+#: Share of its largest value up to which a reaction's minimum counts as zero.
 PASSING = 1e-9
-#: Reasons given per alternative.
+#: Reasons reported per alternative.
 REASONS = 3
 MARK = "*"
 
@@ -145,7 +145,7 @@ def _pivot(each: Alternative, say: Say) -> str:
     joint, link = each.pivot
     highest, lowest = map(each.analysis.part, each.reactions)
     force = each.forces_at(highest.time).reaction(joint, on=link)[0]
-    if not np.isfinite(force).all():  # on a change point: as it is beside
+    if not np.isfinite(force).all():  # on a change point: the value next to it
         neighbour = highest.time - NEIGHBOUR_SHARE * (each.motion.positions.period or 0.0)
         force = each.forces_at(neighbour).reaction(joint, on=link)[0]
     return say(

@@ -30,7 +30,7 @@ BY_LOADS = _("by loads or metrics", code="study.by_loads")
 class Failure:
     """Designs that fail for one reason.
 
-    ``group``: the first group that fails (None where it is a load, or cannot be told); ``kind``: ``unreachable``,
+    ``group``: the first group that fails (None where it is a load, or is unknown); ``kind``: ``unreachable``,
     ``singular``, ``barred`` (between two positions), ``unfit`` (wheels off their distance), ``load`` or
     ``followed``; ``designs``: their numbers; ``example``: what happens to the first one.
     """

@@ -75,7 +75,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
         if not load.magnitude.has_formula:
             raise LinkwrightError(
                 _(
-                    "loads.{name}: a load of the kind {kind!r} is found from the whole cycle, for which "
+                    "loads.{name}: a load of the kind {kind!r} is found from the complete cycle, for which "
                     "no derivative is known; vary the dimension in a study instead",
                     code="study.cycle_load_slope",
                     name=load.name,

@@ -32,7 +32,7 @@ SIZES, RUBBING = "sizes of loads", "doubt of friction"
 @dataclass(frozen=True)
 class LoadedCycle:
     """A mechanism whose loads and friction are traced, and the ``limits`` between which these act; None where they
-    need none; ``constants``: numbers that programs take beside dimensions."""
+    need none; ``constants``: numbers that programs take in addition to dimensions."""
 
     traced: Traced
     loads: AlongInput = AlongInput(frozenset())

@@ -233,7 +233,7 @@ def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str]) -
     if hulls := tuple(name for name in missing if swept(name, mechanism)):
         return _(
             "{names} of {name!r} has a gradient where no change point is passed and, over other "
-            "cycles than whole turns at constant speed, groups have closed forms and no "
+            "cycles than full turns at constant speed, groups have closed forms and no "
             "dimension moves the inputs; for its value use sweep",
             code="study.objective_swept",
             names=hulls,
@@ -256,14 +256,14 @@ def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str]) -
             values = {"load": name, "output": output, "count": count}
             return _(
                 "{name!r}: the load {load!r} has the sign of the rate of {output}, which changes it "
-                "{count} times in a turn, where gradients beside groups without closed form take two "
+                "{count} times in a turn, where gradients with groups without closed form take two "
                 "changes; for summaries use sensitivity with steps, for design numbers study",
             ).format(name=mechanism.name, **values)
     return NO_GRADIENTS.format(name=mechanism.name)
 
 
 def of_path(mechanism: Mechanism, names: tuple[str, ...], path: PathError, backend: Backend) -> Part:
-    """A path error over the cycle, kept for the machine; ``names`` on which it does not depend are left out."""
+    """A path error over the cycle, cached for the machine; ``names`` on which it does not depend are left out."""
     target = np.array(path.target, dtype=float)
     key = (names, path.point, target.shape, target.tobytes(), backend)
     made = replace(path, target=target)

@@ -99,7 +99,7 @@ def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:
         return error.sentence
     return (
         _(
-            "it could not be followed from position to position together with the others; give more steps",
+            "it could not be tracked from position to position together with the others; give more steps",
         )
         if motion.complete
         else motion.refusal().sentence

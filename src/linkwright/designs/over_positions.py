@@ -37,9 +37,9 @@ from linkwright.words import _
 VALUE = "objective"
 NO_GRADIENTS = _(
     "{name!r} has friction in more than 16 pairs of one group, or (for numbers of the cycle) passes "
-    "change points, or has friction beside cams or groups without closed form, on a guide that is pressed"
+    "change points, or has friction with cams or groups without closed form, on a guide that is pressed"
     " from both sides or teeth and chains that pull both ways, loads that divide by an output or follow a"
-    " link that turns through, or, over other cycles than whole turns at constant speed, phases by "
+    " link that turns through, or, over other cycles than full turns at constant speed, phases by "
     "outputs with more limits than two, groups without closed form, or dimensions that move the inputs, "
     "so no gradient of many designs is found; for summaries use sensitivity with steps, which takes one "
     "design at a time, for design numbers study",
@@ -228,7 +228,7 @@ def counted_turns(traced: Traced) -> dict[str, Floats]:
     """Rotations of links that a dyad places in the machine as it is, (n,) by name, near which those of designs are.
 
     Raises:
-        RequestError: a link turns too far between two positions for its turns to be told.
+        RequestError: a link turns too far between two positions to count its turns.
     """
     carried = traced.solver.motion.angles.carried
     if not carried:

@@ -145,21 +145,21 @@ def _count(text: str | None, address: str, full_text: str) -> int:
     if not text.strip().isdecimal() or int(text) < 1:
         raise RequestError(
             _(
-                '{address}={whole}: "{text}" is no number of values; end a range in a whole number, '
+                '{address}={value}: invalid number of values "{text}"; end a range in an integer, '
                 "such as :11",
                 code="study.no_count",
                 address=address,
-                whole=full_text,
+                value=full_text,
                 text=text.strip(),
             )
         )
     if int(text) > 1_000_000:
         raise RequestError(
             _(
-                "{address}={whole}: {count} values are too many; give a million or fewer",
+                "{address}={value}: {count} values are too many; give a million or fewer",
                 code="study.count_large",
                 address=address,
-                whole=full_text,
+                value=full_text,
                 count=text,
             )
         )
@@ -186,12 +186,12 @@ def _require_unit(mechanism: Mechanism, address: str, unit: str, text: str) -> N
         ).format(example=example)
         raise RequestError(
             _(
-                "{address}={text}: this is {need}, but {told}; {write}",
+                "{address}={text}: expected {need}, but {mismatch}; {write}",
                 code="study.wrong_unit",
                 address=address,
                 text=text,
                 need=need,
-                told=mismatch,
+                mismatch=mismatch,
                 write=write,
             )
         )

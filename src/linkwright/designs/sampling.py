@@ -16,7 +16,7 @@ from linkwright.words import _
 MOST = 1_000_000
 
 
-BAD_SEED = _("the seed is {seed}; give a whole number that is not negative", code="study.bad_seed")
+BAD_SEED = _("invalid seed {seed}; expected an integer of 0 or more", code="study.bad_seed")
 
 
 def grid(ranges: Sequence[Range]) -> dict[str, Floats]:

@@ -45,7 +45,7 @@ class Slopes:
 
     @cached_property
     def inputs(self) -> dict[str, Floats]:
-        """All inputs per position apart from the drivers'."""
+        """All inputs per position except the drivers'."""
         return {**self.traced.nominal.states, **self.loads.fields}
 
     @cached_property

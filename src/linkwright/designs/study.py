@@ -45,7 +45,7 @@ _Piece = tuple[dict[str, Floats], dict[str, str], dict[str, None], dict[int, str
 
 #: Fewer designs than this are solved one by one; designs that a worker of a cluster takes at a time.
 FEW, PIECE = 8, 512
-#: Designs whose numbers are found at once before they are kept.
+#: Designs whose metrics are computed at once before they are stored.
 AT_ONCE = 8192
 #: What is measured when nobody says what, as far as it applies.
 USUAL = ("travel", "transmission_angle", "peak_input_torque", "rms_input_torque", "peak_reaction")
@@ -395,8 +395,8 @@ def _none_moves(count: int, failures: Iterable[Failure]) -> str:
         for f in failures
     ]
     return _(
-        "none of the {count} designs can pass its cycle: {told}; widen or move the ranges",
+        "none of the {count} designs can pass its cycle: {causes}; widen or move the ranges",
         code="study.none_passes",
         count=count,
-        told=causes,
+        causes=causes,
     )

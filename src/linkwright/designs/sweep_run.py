@@ -162,7 +162,7 @@ class SweepRun:
         return found
 
     def _curves(self, names: Sequence[str], part: Mapping[str, Floats], first: int) -> dict[str, Floats]:
-        """The outputs of a block, (designs, n) each; kept where parts are kept."""
+        """The outputs of a block, (designs, n) each; stored in the current checkpoints."""
         return checkpointed(lambda: self._curves_found(names, part, first), lambda: (self.own, part, *names))
 
     def _curves_found(
@@ -215,7 +215,7 @@ class SweepRun:
         return identity(dump(replace(self.mechanism, optimize={})), *known)
 
     def _block(self, part: Mapping[str, Floats], first: int) -> Results:
-        """The results of a block, with what they have of single designs; kept where parts are kept."""
+        """The results of a block, with what they have of single designs; stored in the current checkpoints."""
 
         def found() -> tuple[Results, dict[int, str], list[int]]:
             unloaded, alone = dict(self.unloaded), set(self.alone)
@@ -236,7 +236,7 @@ class SweepRun:
         pieces, count = [], len(next(iter(part.values())))
         self.backend = self.manner.backend
         if self.backend == "auto" and count * self.positions.count >= WORTH_COMPILING and available():
-            self.backend = "llvm"  # as it serves the whole block
+            self.backend = "llvm"  # as it serves the full block
         for low, high in paced(count):
             pieces.append(self._computed({a: c[low:high] for a, c in part.items()}, first + low))
             self.tell(first + high)
@@ -258,7 +258,7 @@ class SweepRun:
         return results
 
     def _alone(self, changes: Mapping[str, float], number: int) -> dict[str, float]:
-        """The same of one design as a machine by itself; why it has no forces is kept under its ``number``."""
+        """The same of one design as a machine by itself; why it has no forces is stored under its ``number``."""
         found: dict[str, float] = {PASSED: False, **{each.name: np.nan for each in self.asked}}
         try:
             motion = motion_alone(self.traced, changes)
@@ -343,7 +343,7 @@ class SweepRun:
         return results, np.flatnonzero(alone | (self.manner.partial & ~complete & (count > 0)))
 
     def _touching(self, found: Results, part: Mapping[str, Floats], complete: Flags) -> Flags:
-        """Which designs of a block that reach the ``whole`` cycle touch a change point between two positions, or
+        """Which designs of a block that reach the ``complete`` cycle touch a change point between two positions, or
         cannot pass there."""
         touching = np.zeros(len(complete), dtype=np.bool_)
         if not self._state_dependent and self.positions.count >= 3:

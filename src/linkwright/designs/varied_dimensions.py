@@ -71,8 +71,8 @@ def varied_ranges(
             count = max(1, high - low + 1)
             raise RequestError(
                 _(
-                    "{address} gives numbers of teeth, which are whole; write "
-                    "{address}={low}..{high}:{count}, every whole number of a grid",
+                    "{address} gives numbers of teeth, which are integers; write "
+                    "{address}={low}..{high}:{count}, every integer of a grid",
                     code="study.whole_teeth",
                     address=each.address,
                     low=low,
@@ -89,7 +89,7 @@ def between(bounds: Range) -> float:
 
 
 def gives_part_of_tooth(mechanism: Mechanism, address: str, value: float) -> bool:
-    """Whether a value makes a number of teeth that is not whole."""
+    """Whether a value makes a number of teeth that is not an integer."""
     try:
         changed = mechanism.with_dimensions({address: float(value)})
     except LinkwrightError:
@@ -132,9 +132,9 @@ def design_values(mechanism: Mechanism, vary: Mapping[str, ArrayLike]) -> dict[s
         lengths_text = ", ".join(f"{address}: {len(column)}" for address, column in columns.items())
         raise RequestError(
             _(
-                "the dimensions have different numbers of values ({told}); give one per design each",
+                "the dimensions have different numbers of values ({counts}); give one per design each",
                 code="study.uneven",
-                told=lengths_text,
+                counts=lengths_text,
             )
         )
     count = lengths.pop() if lengths else 1
@@ -147,7 +147,7 @@ def _column(address: str, values: ArrayLike) -> Floats:
     except (ValueError, TypeError):
         raise RequestError(
             _(
-                "{address}: {given} is no list of numbers; give SI values, such as [0.05, 0.06] for "
+                "{address}: invalid list of numbers {given}; give SI values, such as [0.05, 0.06] for "
                 "50 and 60 mm",
                 code="study.no_numbers",
                 address=address,
@@ -186,7 +186,7 @@ def misfits(mechanism: Mechanism, address: str, change: float) -> list[Message]:
 
 
 def refuse_misfits(mechanism: Mechanism, addresses: Iterable[str]) -> None:
-    """Refuses dimensions that pairs of wheels fix, so that nothing can be said of a change of one of them alone.
+    """Refuses dimensions that pairs of wheels fix, so that none of them can change alone.
 
     Raises:
         RequestError: with what would no longer fit.

@@ -33,7 +33,7 @@ VECTORS = {"position": _("position"), "velocity": _("velocity"), "acceleration":
 
 @dataclass(frozen=True)
 class Place:
-    """Where a column stands: its sheet, the number of the column, and the column itself as written."""
+    """Place of a column: its sheet, the number of the column, and the column itself as written."""
 
     sheet: str
     index: int
@@ -118,7 +118,7 @@ class Charts:
         return Chart(f"{name}: {word}", self._input_title, f"{word} [{places[0].column.unit}]", curves)
 
     def _reactions(self) -> list[Chart]:
-        """Sizes of all joint forces, so many in a chart as can be told apart."""
+        """Sizes of all joint forces, as many in a chart as can be distinguished."""
         forces = self.results.forces
         if forces is None or not loaded(forces):
             return []
@@ -132,7 +132,7 @@ class Charts:
         return [Chart(word, self._input_title, axis, part) for part in parts]
 
     def _efforts(self) -> Iterator[Chart]:
-        """What the drivers supply: torques and forces apart."""
+        """What the drivers supply: torques and forces separately."""
         by_unit: dict[str, list[Curve]] = {}
         for name in self.mechanism.drivers:
             place = self.places.get(("forces", name, "effort"))
@@ -218,7 +218,7 @@ def _follows(values: Floats) -> bool:
 
 
 def _scales(chart: Chart) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Limits of the axes: the whole input from left to right in the order of time; a hodograph to one scale."""
+    """Limits of the axes: the full input from left to right in the order of time; a hodograph to one scale."""
     x = _known([curve.x.column.values for curve in chart.curves])
     y = _known([curve.y.column.values for curve in chart.curves])
     if chart.square:

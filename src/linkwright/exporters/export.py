@@ -73,7 +73,7 @@ def export(
     language: str = "en",
     **options: Any,
 ) -> Path:
-    """Write a result to a file for other programs, whole or not at all.
+    """Write a result to a file for other programs, atomically.
 
     Args:
         result: forces or a motion as they are; a mechanism is solved first, with forces where it has masses or

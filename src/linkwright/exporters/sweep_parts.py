@@ -1,4 +1,4 @@
-"""Sweeps that outgrow memory: designs by number, computed part by part, each part a Parquet file written whole."""
+"""Sweeps that outgrow memory: designs computed part by part, each part an atomically written Parquet file."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from linkwright.words import _, pgettext
 from linkwright.words.sentence import in_language
 
 Sampling = Literal["grid", "sobol"]
-#: Designs of a part; of a whole sweep, at most.
+#: Designs of a part; of a complete sweep, at most.
 PART, MOST = 16384, 10**12
 
 
@@ -184,9 +184,9 @@ class SweepParts(Tabular):
         return {name: np.concatenate([part[name] for part in found]) for name in found[0]}
 
     def best(self, name: str, count: int = 10, *, largest: bool | None = None) -> dict[str, Floats]:
-        """The columns of the designs with the least (``largest``: greatest) values, in order; NaN is left out.
+        """The columns of the designs with the smallest (``largest``: largest) values, in order; NaN is left out.
 
-        Where ``largest`` is left out, the greatest of registered design numbers that are better so, else the least.
+        Where ``largest`` is left out, the largest of metrics that are better when higher, else the smallest.
         """
         if largest is None:
             metric = METRICS.get(name.partition(" ")[0])
@@ -214,7 +214,7 @@ class SweepParts(Tabular):
         return best_columns
 
     def ranges(self) -> dict[str, tuple[float, float, int]]:
-        """Least and greatest value of every column, and how many designs have one."""
+        """Minimum and maximum of every column, and how many designs have one."""
         found: dict[str, tuple[float, float, int]] = {}
         for part in self.each():
             for name, column in part.items():
@@ -249,7 +249,7 @@ def sweep_parts(
     Args:
         mechanism, outputs, steps: as in :func:`sweep`.
         vary: by address a range ``1.2..1.3 m:11``, values ``1.2, 1.25 m``, or numbers in SI, as in :func:`study`.
-        folder: where the Parquet files go; made where it does not exist. Files are written whole or not at all, so
+        folder: where the Parquet files go; made where it does not exist. Files are written atomically, so
             the same call after an interruption goes on with the parts that are missing.
         sampling: ``grid``: every combination; ``sobol``: ``samples`` designs, scrambled by ``seed``.
         part: designs of a part, rounded up to a power of two.

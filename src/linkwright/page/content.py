@@ -181,13 +181,13 @@ def _hash(text: str) -> str:
 
 @dataclass(frozen=True)
 class LivingPage:
-    """A living page: ``html`` is the whole file. Notebooks show it in a frame of its own, ``height`` pixels tall."""
+    """A living page: ``html`` is the complete file. Notebooks show it in a frame, ``height`` pixels tall."""
 
     html: str
     height: int = 720
 
     def save(self, path: str | Path, *, force: bool = False) -> Path:
-        """Writes the file, whole or not at all.
+        """Writes the file atomically.
 
         Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
         """
@@ -206,7 +206,7 @@ class LivingPage:
 def living_page(
     machine: Mechanism | Document, *compared: Mechanism | Document, steps: int = STEPS, language: str = "en"
 ) -> LivingPage:
-    """The living page of a machine, with others beside it for comparison.
+    """The living page of a machine, with others for comparison.
 
     Args:
         machine: a mechanism, or a document, whose text the page gives back with the changed numbers.

@@ -50,7 +50,7 @@ class Dimension:
 
 
 def _plain(how: Written) -> list[object]:
-    """Where it stands, what is before it and behind it."""
+    """Its place, what is before it and after it."""
     return [*how.span, how.before, how.after]
 
 

@@ -24,7 +24,7 @@ def packed(row: Any) -> str:
 
 
 def positions(motion: Motion, arrays: Mapping[str, Floats], signs: Mapping[str, float]) -> Plain:
-    """The inputs per position, ``arrays``; a single driver of constant speed is said by its law. ``signs``: of the
+    """The inputs per position, ``arrays``; a single driver of constant speed is given by its law. ``signs``: of the
     assembly modes."""
     along, mechanism = motion.positions, motion.mechanism
     modes = list(motion.modes)

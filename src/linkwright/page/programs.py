@@ -52,7 +52,7 @@ def _rate_of(term: FrictionTerm) -> str:
 class PagePrograms:
     """The formula of one mechanism and its inputs.
 
-    Outputs of ``main`` beside those of motion and forces: ``d:GUIDE`` direction of a guide, ``m:GROUP``
+    Outputs of ``main`` besides those of motion and forces: ``d:GUIDE`` direction of a guide, ``m:GROUP``
     transmission angle and ``quality:GROUP`` closeness to change points of a dyad, ``ok`` and ``outcome``.
     """
 
@@ -129,7 +129,7 @@ class PagePrograms:
 
     @cached_property
     def iterated(self) -> bool:
-        """Whether a group without closed form is followed from position to position."""
+        """Whether a group without closed form is tracked from position to position."""
         return bool(self.motion.solver.motion.next_states)
 
     @cached_property

@@ -76,7 +76,7 @@ def _forces(page: PagePrograms) -> Iterator[Output]:
 
 
 def numbers(page: PagePrograms, known: Mapping[Output, Plain]) -> list[Plain]:
-    """Design numbers over the whole cycle; ``kind`` says how one follows from a signal."""
+    """Metrics over the full cycle; ``kind``: how one follows from a signal."""
     found = []
     rotating = _one_steady_turn(page)
     for output in mechanism_outputs(page.mechanism) if page.motion.positions.count > 1 else ():

@@ -46,7 +46,7 @@ TEXTS = {
     ),
     "page.link": _("Copy the link"),
     "page.copied": _("The link with the changed dimensions is in the clipboard."),
-    "page.link_shown": _("The link with the changed dimensions stands in the address line."),
+    "page.link_shown": _("The link with the changed dimensions is in the address line."),
     "page.download": _("Download the model"),
     "page.not_written": _("The file gives these in another way, so they are not written into it: {names}."),
     "page.print": _("Print"),
@@ -77,7 +77,7 @@ TEXTS = {
         "Forces are not shown: the limit positions between which the loads act are not certain.",
     ),
     "page.followed": _(
-        "The assembly is followed from position to position (margin {value}); `linkwright "
+        "The assembly is tracked from position to position (margin {value}); `linkwright "
         "solve --prove` says whether that is proved.",
     ),
     "page.undrawn": _("Not drawn here, but part of all numbers: {names}."),
@@ -97,7 +97,7 @@ TEXTS = {
         "between them: loads without a formula are known only there.",
     ),
     "page.sampled_all": _(
-        "Least and largest values are those of the {count} positions, not of what lies between them.",
+        "Minimum and maximum are those of the {count} positions, not of what lies between them.",
     ),
     "outcome.apart": _("group {signature} ({links}) cannot be assembled: {reason}"),
     "outcome.singular": _(
@@ -105,7 +105,7 @@ TEXTS = {
         "where its motion is not determined by the driver",
     ),
     "outcome.lost": _(
-        "group {signature} ({links}) cannot be followed to this position: it is out of reach "
+        "group {signature} ({links}) cannot be tracked to this position: it is out of reach "
         "or beyond a singular position",
     ),
     "outcome.rrr_far": _(

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Heading:
-    """What a file says about its calculation beside the problem: its ``purpose``, the settings of its ``report``, all
+    """What a file holds besides the problem: its ``purpose``, the settings of its ``report``, all
     of its values as plain data (``file_values``, for the given data of the report) with the attributes ``as_read``
     from them, and ``warnings`` about its words."""
 
@@ -53,7 +53,7 @@ HEADING = ("name", "source", *(each.name for each in fields(Heading)))
 class Problem(Heading, ABC):
     """One calculation as the file or the code gave it; subclasses are frozen dataclasses in SI units.
 
-    ``kind`` is its name in files, ``fields`` the keys of its file beside the heading: its own attributes.
+    ``kind`` is its name in files, ``fields`` the keys of its file after the heading: its own attributes.
     """
 
     kind: ClassVar[str]
@@ -165,7 +165,7 @@ class Result(Plotted, Numbers):
 
 
 def signed(parts: Sequence[float], dimension: str = "") -> str:
-    """Numbers as a sum, ``40 − 110``, what is zero or rounding beside the largest left out."""
+    """Numbers as a sum, ``40 − 110``, what is zero or rounding against the largest left out."""
     largest = max((abs(part) for part in parts), default=0.0)
     terms = [float(part) for part in parts if abs(part) > ROUNDING * largest]
     text = " ".join(f"{'−' if part < 0 else '+'} {number(abs(part), dimension)}" for part in terms)

@@ -21,7 +21,7 @@ from linkwright.words import Message, _
 
 @dataclass(frozen=True)
 class Known(Either):
-    """A name of some known values, or a table; ``other``: what is said of another name."""
+    """A name of some known values, or a table; ``other``: the message about another name."""
 
     known: Mapping[str, Any]
     other: Message
@@ -111,7 +111,7 @@ def _any(
     likely: Sequence[str] = (),
 ) -> tuple[float, units.Dimension] | None:
     """SI value and dimension of one value, of a ``likely`` dimension where it is of one; a bare number takes the unit
-    of the whole list."""
+    of the complete list."""
     text = reader.quantity_text(node, place, "20.1 mm")
     if text is None:
         return None

@@ -78,7 +78,7 @@ def loads(text: str, name: str = "<text>", folder: str | Path = ".") -> Problem:
 
 
 def solve(problem: Problem, source: str | Path) -> Result:
-    """The result of a file's problem; what only the solution shows to be wrong is said with its place in the file."""
+    """The result of a file's problem; mistakes that only the solution shows get their place in the file."""
     try:
         return problem.solve()
     except ModelError as error:

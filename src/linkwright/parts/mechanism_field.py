@@ -1,4 +1,4 @@
-"""The key ``mechanism`` of calculations about a mechanism: a model file, found beside the file that names it."""
+"""The key ``mechanism`` of calculations about a mechanism: a model file, relative to the file that names it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from linkwright.words import _
 if TYPE_CHECKING:
     from typing import Self
 
-MECHANISM = Text(required=True, doc="model file of the mechanism, beside this file, or gallery:NAME")
+MECHANISM = Text(required=True, doc="model file of the mechanism, relative to this file, or gallery:NAME")
 
 
 def load_referenced(name: str, folder: Path) -> Mechanism:

@@ -174,7 +174,7 @@ def drawing_in(language: str) -> Iterator[None]:
 
 
 def new_figure(size: tuple[float, float]) -> Figure:
-    """An empty figure, width and height in inches; apart from matplotlib's global state."""
+    """An empty figure, width and height in inches; independent of matplotlib's global state."""
     language, stack = _drawn_now.get()
     stack.enter_context(style(language))
     from matplotlib.figure import Figure as New
@@ -191,7 +191,7 @@ class Diagram:
     language: str = "en"
 
     def save(self, path: str | Path, *, dpi: float = 200.0, force: bool = False) -> Path:
-        """Write it as .svg, .pdf or .png (``dpi`` dots per inch), whole or not at all.
+        """Write it as .svg, .pdf or .png (``dpi`` dots per inch), atomically.
 
         Raises LinkwrightError for another ending, a folder that cannot be written, a text that no font can write, and
         for a file that is there already unless ``force``.

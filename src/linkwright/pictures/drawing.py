@@ -85,7 +85,7 @@ PIXELS = 96.0 / 25.4
 class Drawing:
     """A kinematic drawing; notebooks show it, ``svg`` is its text, ``save`` writes it.
 
-    ``notes``: sentences on what was asked for and cannot be seen, such as forces that are all zero.
+    ``notes``: sentences on what was asked for and is invisible, such as forces that are all zero.
     """
 
     svg: str
@@ -99,9 +99,9 @@ class Drawing:
         width: int | None = None,
         force: bool = False,
     ) -> Path:
-        """Write it as .svg, .png (``width`` pixels across) or .pdf, whole or not at all.
+        """Write it as .svg, .png (``width`` pixels across) or .pdf, atomically.
 
-        PNG and PDF need ``linkwright[plot]``; ``fonts``: font files used beside the system's.
+        PNG and PDF need ``linkwright[plot]``; ``fonts``: font files used in addition to the system's.
         Raises LinkwrightError for another suffix, a missing package or font, a folder that cannot be written, and for
         a file that is there already unless ``force``.
         """
@@ -146,16 +146,16 @@ def _paper(left: float, top: float, width: float, height: float) -> Element:
 def document(
     content: Sequence[SvgNode], box: Box, title: str, size: float | None, *, millimetre: float | None = None
 ) -> str:
-    """A whole SVG document over a box; ``size`` is its longer side in pixels, ``millimetre`` instead the printed
+    """A complete SVG document over a box; ``size`` is its longer side in pixels, ``millimetre`` instead the printed
     width of a unit, mm."""
     if size is not None and not SIZES[0] <= real("size", size) <= SIZES[1]:
         raise RequestError(
             _(
-                "a drawing cannot be {size:.12g} pixels large; give {least} to {most}",
+                "a drawing cannot be {size:.12g} pixels large; give {minimum} to {maximum}",
                 code="picture.bad_size",
                 size=size,
-                least=SIZES[0],
-                most=SIZES[1],
+                minimum=SIZES[0],
+                maximum=SIZES[1],
             )
         )
     left, top = box[0] - MARGIN, box[1] - MARGIN

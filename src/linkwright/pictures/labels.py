@@ -275,7 +275,7 @@ def text_of(label: Label, chosen: Candidate) -> Text:
 
 
 def written(label: Label, chosen: Candidate) -> list[SvgNode]:
-    """The text at its place, with a leader where it stands far off."""
+    """The text at its place, with a leader where it is far off."""
     left, top, right, bottom = chosen.box
     found = []
     if label.leader and chosen.gap > LEADER:

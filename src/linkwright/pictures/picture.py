@@ -30,7 +30,7 @@ Anchor = Literal["start", "middle", "end"]
 #: A line of text in parts, each with its level: 0 on the line, -1 index below, 1 index above.
 Runs: TypeAlias = tuple[tuple[str, int], ...]
 Words: TypeAlias = str | Runs
-#: Heights of capital letters, mm (GB/T 14691, ISO 3098): the least; of texts; of captions.
+#: Heights of capital letters, mm (GB/T 14691, ISO 3098): the minimum; of texts; of captions.
 MIN_TEXT, TEXT, CAPTION = 2.5, 3.5, 5.0
 #: Height of a capital letter and depth of a descender in sizes of the font; size of indices.
 CAPITAL, DESCENT, INDEX = 0.72, 0.24, 0.72
@@ -389,7 +389,7 @@ def runs_width(runs: Runs, height: float) -> float:
 
 
 def line_width(runs: Runs, size: float) -> float:
-    """The width of a line of text at a size of its font; an index above stands over the one below."""
+    """The width of a line of text at a size of its font; an index above is placed over the one below."""
     wide = above = 0.0
     for text, level in runs:
         part = text_width(text, size * (INDEX if level else 1.0))

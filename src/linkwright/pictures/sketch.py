@@ -24,7 +24,7 @@ class Sketch:
     """Symbols, lines and names in the units of the paper, y down; names are put where nothing is drawn.
 
     ``extent``: the corners of texts, which have room on the paper but keep no name away; ``notes``: sentences on what
-    was asked for and cannot be seen.
+    was asked for and is invisible.
     """
 
     def __init__(self) -> None:

@@ -295,7 +295,7 @@ class Animation:
         progress: Progress | None = None,
         force: bool = False,
     ) -> Path:
-        """Write it as .svg, .gif or .mp4, whole or not at all.
+        """Write it as .svg, .gif or .mp4, atomically.
 
         ``width``: pixels across of GIF and MP4; ``progress`` is called with the frames done and their number.
         GIF needs ``linkwright[plot]``, MP4 ``linkwright[video]``. Raises LinkwrightError for another suffix, a
@@ -307,11 +307,11 @@ class Animation:
         if suffix != ".svg" and not WIDTHS[0] <= integer("width", width) <= WIDTHS[1]:
             raise RequestError(
                 _(
-                    "a film cannot be {width:.12g} pixels wide; give a width from {least} to {most}",
+                    "a film cannot be {width:.12g} pixels wide; give a width from {minimum} to {maximum}",
                     code="picture.bad_film_width",
                     width=width,
-                    least=WIDTHS[0],
-                    most=WIDTHS[1],
+                    minimum=WIDTHS[0],
+                    maximum=WIDTHS[1],
                 )
             )
         if suffix == ".svg":
@@ -362,7 +362,7 @@ class Animation:
 
     @cached_property
     def _ink(self) -> list[Floats]:
-        """Everything over the whole motion."""
+        """Everything over the full motion."""
         ink = [line for index in self.run for line in self.scene.ink(index)]
         ink += [
             line for index in self.run for line in load_marks(self.scene.machine, index, forces=False).ink

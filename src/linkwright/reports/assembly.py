@@ -146,7 +146,7 @@ def _parts_of(block: Block, document: Document) -> Iterator[Block]:
 
 
 def _own(text: str, own: Settings, document: Document, title: str) -> Iterator[Block]:
-    """The blocks of own text; behind one that cannot be printed as it was meant stands why."""
+    """The blocks of own text; after one that cannot be printed as intended comes the reason."""
     for block, faults in own_text(text, context=own.text_context):
         yield block
         for fault in faults:

@@ -19,11 +19,11 @@ from linkwright.reports.settings import Settings
 from linkwright.words import Message, Say, _
 from linkwright.words.sentence import in_language
 
-#: Sections of machines' reports whose own text stands behind a heading of a calculation, by the heading.
+#: Sections of machines' reports whose own text follows a heading of a calculation, by the heading.
 PLACES: Mapping[Message, str] = {
     _("Purpose"): "task", _("Sketch"): "drawing", _("Solution"): "worked",
 }  # fmt: skip
-#: Share of the page's width of a sketch, and its greatest height, mm.
+#: Share of the page's width of a sketch, and its maximum height, mm.
 WIDE, TALLEST = 0.8, 90.0
 
 

@@ -80,7 +80,7 @@ def symbols(text: str) -> str:
 
 
 def noted(text: str) -> str:
-    """A formula as it stands on a line, ``φ1``, as it is printed."""
+    """A formula on a line, ``φ1``, as it is printed."""
     return f"{_NOTE}{literal(text)}{_NOTED}"
 
 
@@ -324,7 +324,7 @@ class Numbers:
         )
 
     def before(self, index: int) -> str:
-        """What stands before the text of a heading: its number."""
+        """The number before the text of a heading."""
         return f"{self.of[index]}  " if index in self.of else ""
 
     def shown(self, span: Span) -> tuple[str, str]:

@@ -1,4 +1,4 @@
-"""Pictures of Assur groups, each apart from the machine, which is seen faded behind it."""
+"""Pictures of Assur groups, each separate from the machine, which is drawn faded behind it."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plotting.diagrams.outputs import main_output
 
-#: Numbers whose recommended limits say how a machine passes on forces: the first that is not kept is looked at.
+#: Numbers whose recommended limits say how a machine passes on forces: the first that is exceeded is examined.
 JUDGED = ("transmission_angle", "pressure_angle", "singularity")
 #: What a driver must supply.
 EFFORT = "peak_input_torque"

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from linkwright.words import Message, _, pgettext
 
-#: Keys of models and calculations alike.
+#: Keys of both models and calculations.
 SHARED: Mapping[str, Message] = {
     "acceleration": _("acceleration"),
     "angle": _("angle"),

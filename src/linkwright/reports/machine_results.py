@@ -89,7 +89,7 @@ class Case:
 
     @cached_property
     def motion(self) -> Motion:
-        """The whole cycle; positions that are not reached are marked."""
+        """The full cycle; positions that are not reached are marked."""
         found = solve_motion(self.mechanism, failures="mark")
         if not found.ok.any():
             raise LinkwrightError(found.outcomes[0].sentence)
@@ -227,7 +227,7 @@ class Case:
 
     @property
     def _usual(self) -> int:
-        """24 positions; one more where these would lie whole turns of the input apart."""
+        """24 positions; one more where these would differ by full turns of the input."""
         law = next(iter(self.mechanism.drivers.values())).law
         turns = abs(law.constant_speed or 0.0) * (self.motion.positions.period or 0.0) / (48.0 * np.pi)
         return 25 if law.rotary and turns > 0.5 and abs(turns - round(turns)) < 1e-9 else 24

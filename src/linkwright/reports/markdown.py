@@ -162,7 +162,7 @@ class _Reader:
         self.faults.append(Fault(sentence, code))
 
     def blocks(self, nodes: Sequence[SyntaxTreeNode]) -> Iterator[Block]:
-        """Blocks of nodes; a paragraph that is the caption of the table beside it goes there."""
+        """Blocks of nodes; a paragraph that is the caption of the adjacent table goes there."""
         rest = list(nodes)
         while rest:
             node, behind = rest.pop(0), rest[0] if rest else None
@@ -229,7 +229,7 @@ class _Reader:
         return Table(self.line(_inline(words)) if words else "", cells[0], tuple(cells[1:]), align, label)
 
     def line(self, nodes: Sequence[SyntaxTreeNode]) -> str:
-        """A text where no block can stand; a picture there is told."""
+        """A text where no block can stand; a picture there is reported."""
         found = ""
         for part in self.inline(nodes):
             if isinstance(part, str):
@@ -238,7 +238,7 @@ class _Reader:
                 found += part.caption
                 self.wrong(
                     _(
-                        'the picture "{text}" stands in a heading, a table or a link, where no picture can '
+                        'the picture "{text}" is in a heading, a table or a link, where no picture can '
                         "stand; give it a paragraph of its own",
                         code="report.picture_in_line",
                         text=part.caption,
@@ -348,7 +348,7 @@ class _Reader:
 
 
 def _attributes(rest: list[SyntaxTreeNode]) -> str:
-    """What stands in braces behind a picture; it is taken away."""
+    """The text in braces after a picture; it is removed."""
     if not rest or rest[0].type != "text" or not (found := _ATTRIBUTES.match(rest[0].content)):
         return ""
     token = rest[0].token
@@ -364,6 +364,6 @@ def _labelled(text: str) -> tuple[str, str]:
 
 
 def _caption(node: SyntaxTreeNode) -> str:
-    """The caption that a paragraph holds for the table beside it; empty where it is none."""
+    """The caption that a paragraph holds for the adjacent table; empty where it is none."""
     found = _CAPTION.fullmatch(node.children[0].content) if node.type == "paragraph" else None
     return found[1] if found else ""

@@ -69,7 +69,7 @@ class Heads:
 
 
 def without_rounding(results: Mapping[Output, Floats]) -> dict[Output, Floats]:
-    """Results, zero where a number is nothing beside the largest of its dimension; residuals as they are."""
+    """Results, zero where a number is negligible against the largest of its dimension; residuals as they are."""
     sizes: dict[str, float] = {}
     for output, values in results.items():
         sizes[output.dimension] = max(sizes.get(output.dimension, 0.0), largest(values))

@@ -22,7 +22,7 @@ SOURCES = "references"
 
 @dataclass(frozen=True)
 class Calculation:
-    """A calculation, or a task of synthesis that stands alone, with the settings of its file."""
+    """A calculation, or a task of synthesis on its own, with the settings of its file."""
 
     problem: Problem | TaskFile
     settings: Settings
@@ -87,7 +87,7 @@ def parts(
 
     Calculations stand where ``calculations`` is named, else once in their places between the parts of the machines.
     Own chapters of the first file that stand between two sections of machines belong to the first machine; its others
-    are of the whole report. The chapters of further files stand in the parts of their machines and behind their
+    are of the complete report. The chapters of further files stand in the parts of their machines and behind their
     calculations, unless sections were ``asked`` for by name.
     """
     cases = tuple(each for each in subjects if isinstance(each, Case))

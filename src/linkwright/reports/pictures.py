@@ -22,7 +22,7 @@ DOTS, SMALLEST, WIDEST, TEXT = 150.0, 0.25, 0.85, 6.69
 
 
 _NO_PICTURE = _(
-    'there is no picture "{name}" in {folder}; pictures are looked for beside the model file',
+    'there is no picture "{name}" in {folder}; pictures are searched next to the model file',
     code="report.no_picture",
 )
 
@@ -36,7 +36,7 @@ class Picture:
 
 
 def picture_of(name: str, folder: str) -> Picture:
-    """The picture of a file that lies beside the model; raises LinkwrightError where it is none."""
+    """The picture of a file next to the model; raises LinkwrightError where it is none."""
     path = Path(folder, unquote(name))
     if path.suffix.lower() not in FORMS:
         raise LinkwrightError(

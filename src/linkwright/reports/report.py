@@ -90,7 +90,7 @@ class Report:
             self.document.missing.append(sentence)
 
     def save(self, path: str | Path, *, force: bool = False) -> Path:
-        """Write it, whole or not at all; the ending of ``path`` says which form.
+        """Write it atomically; the ending of ``path`` says which form.
 
         Raises LinkwrightError for another ending, where the file cannot be written, and for one that is there already
         unless ``force``.
@@ -132,8 +132,8 @@ def report(
         positions: of the tables: so many, numbered from a limit position, or those listed in their order
             (``"0..-360 deg:15 deg"``, ``["0 deg", "60 deg", "limits"]``, ``{"from": "0 deg", "step": "-15 deg",
             "count": 25}``); else what the file says, else 24, or 25 where the input would be the same in all of them.
-        folder: where pictures of own texts are looked for; empty: beside the file of each machine.
-        progress: is told how many sections are done, and of how many.
+        folder: where pictures of own texts are looked for; empty: next to the file of each machine.
+        progress: called with the number of finished sections and of all.
 
     Returns:
         The report; ``save("report.pdf")``, ``.html``, ``.docx``. A section that cannot be made says so in it, and in

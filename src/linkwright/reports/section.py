@@ -16,7 +16,7 @@ from linkwright.words import Message, _
 
 @dataclass(frozen=True)
 class Section:
-    """One section; ``rank``: where it stands unless the user orders them; ``optional``: left out without a word where
+    """One section; ``rank``: its place unless the user orders them; ``optional``: left out without a word where
     it has nothing to show (raises Missing), unless it is asked for by name; ``common``: about all machines of a
     report together; ``blocks``: of one machine, or of all, raise Missing, or another LinkwrightError, where there are
     none."""

@@ -26,7 +26,7 @@ from linkwright.words import LANGUAGES, Message, _, pgettext
 if TYPE_CHECKING:
     from linkwright.reports.markdown import TextContext
 
-#: What a list of sections can name beside these: all that are not named, and calculations among the files.
+#: What else a list of sections can name: all that are not named, and calculations among the files.
 OTHER_SECTIONS = ("rest", "calculations")
 #: Lines of a cover, in their order, that are a row each.
 COVER_ROWS: Mapping[str, Message] = {
@@ -54,7 +54,7 @@ SAYINGS: Sayings = {
 class Erratum:
     """A mistake of the source: where, what is printed, what is right, why."""
 
-    where: str = file_key(Line(doc=_("where it stands in the source")))
+    where: str = file_key(Line(doc=_("its place in the source")))
     printed: str = file_key(Line(doc=_("what is printed there")))
     right: str = file_key(Line(doc=_("what is right")))
     why: str = file_key(Line(doc=pgettext("key", "why")), "")
@@ -170,7 +170,7 @@ class CoverField(Keys):
 COVER: Mapping[str, Field] = {
     "school": Line(doc=_("name of the school, at the top")),
     "kind": Line(doc=_("what the document is (default: Course design report)")),
-    "logo": Line(doc=_("picture beside the model file: PNG, JPG or SVG")),
+    "logo": Line(doc=_("picture next to the model file: PNG, JPG or SVG")),
     "faculty": Line(doc=_("faculty or department")),
     "major": Line(doc=_("major")),
     "class": Line(doc=pgettext("key", "class")),
@@ -188,7 +188,7 @@ SECTIONS = Listed(
 
 @dataclass(frozen=True)
 class Settings:
-    """What a report is told; ``positions`` in the tables (those that are listed, or so many, numbered from
+    """Settings of a report; ``positions`` in the tables (those that are listed, or so many, numbered from
     ``numbered_from``, ``"rocker min"``; None: as many as show the cycle); ``cover``: None without one;
     ``references``: own sources by the name by which texts cite them; ``folder``: where pictures lie.
     """
@@ -226,7 +226,7 @@ class Settings:
 
 
 _KEYS = file_keys(Settings)
-#: What can be said for one language alone.
+#: Keys that can differ by language.
 OWN = {key: each for key, each in _KEYS.items() if key not in ("positions", "numbered_from", "fluctuation")}
 SECTION = Keys({
     **_KEYS,
@@ -245,7 +245,7 @@ def settings(
 
     Pictures that they name lie in ``folder``.
 
-    What stands under a language's own key (``zh: {title: …}``) goes before the rest in that language. Raises
+    Values under a language's own key (``zh: {title: …}``) precede the rest in that language. Raises
     ModelError with all findings.
     """
     reading = _Reading(section, mechanism, folder)

@@ -1,4 +1,4 @@
-"""How reports look: what stands before their Typst text, their cover, and the style of their web pages."""
+"""How reports look: the head of their Typst text, their cover, and the style of their web pages."""
 
 from __future__ import annotations
 
@@ -70,9 +70,9 @@ HEAD = """\
     image(bytes(svg), format: "svg", width: share * 170mm, height: high * 1mm)
   }}
 }}
-#let lw-pictures(..given) = {{
-  if lw-is-html {{ html.elem("div", attrs: (class: "pictures"))[#given.pos().join()] }} else {{
-    align(center, given.pos().map(each => box(each)).join(h(1fr, weak: true)))
+#let lw-pictures(..images) = {{
+  if lw-is-html {{ html.elem("div", attrs: (class: "pictures"))[#images.pos().join()] }} else {{
+    align(center, images.pos().map(each => box(each)).join(h(1fr, weak: true)))
   }}
 }}
 #let lw-need = if not lw-is-html {{
@@ -139,7 +139,7 @@ COVER = """\
   }
 }
 """
-#: What a web page has beside its own style.
+#: What a web page has in addition to its own style.
 STYLE = """\
 <style>body{font:16px/1.55 "Noto Serif","Libertinus Serif","DejaVu Serif","Noto Serif CJK SC","Songti SC",serif;\
 max-width:52rem;margin:2rem auto;padding:0 1rem;color:#1c2733;background:#fff}table{border-collapse:collapse;\

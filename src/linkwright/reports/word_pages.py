@@ -78,7 +78,7 @@ def word(document: Document) -> bytes:
 
 
 class _Writer:
-    """Adds block after block; ``indent`` of what stands within a list or a quotation, inches."""
+    """Adds block after block; ``indent`` of blocks within a list or a quotation, inches."""
 
     def __init__(self, document: Document, file: Any) -> None:
         self.document, self.file = document, file

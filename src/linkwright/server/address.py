@@ -1,4 +1,4 @@
-"""The address of a folder's studio, kept from one start to the next, so that open windows find the server again."""
+"""The address of a folder's studio, stored from one start to the next, so that open windows find the server again."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Address:
 
 
 def recalled(folder: Path) -> Address | None:
-    """The address that was kept for a folder, if any."""
+    """The address stored for a folder, if any."""
     path = _path(folder)
     try:
         found = Address(**json.loads(path.read_bytes())) if path is not None else None
@@ -34,7 +34,7 @@ def recalled(folder: Path) -> Address | None:
 
 
 def remember(folder: Path, address: Address) -> None:
-    """Keeps an address where only this user can read it; without a cache folder nothing is kept."""
+    """Stores an address where only this user can read it; without a cache folder nothing is stored."""
     path = _path(folder)
     if path is None:
         return

@@ -112,7 +112,7 @@ class Draft(Document):
             self.write(old, flow(value))
 
     def put_section(self, key: str, entries: Mapping[str, Any]) -> None:
-        """Write a whole section, a line for each entry, those of mappings below them; without entries it goes."""
+        """Write a complete section, a line for each entry, those of mappings below them; without entries it goes."""
         old = next((entry for entry in self.root.entries if entry.key.text == key), None)
         if not entries:
             if old is not None:

@@ -35,7 +35,7 @@ _NO_CAM = _(
 def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
     """A link as the cam of a roller at a point of a link that is guided or pinned on the frame.
 
-    The base circle goes where the roller stands, so the lift begins in the drawing. A length as lift of a pinned
+    The base circle goes where the roller is, so the lift begins in the drawing. A length as lift of a pinned
     follower is the way of the roller.
     """
     shown = draft.shown()

@@ -23,7 +23,7 @@ from linkwright.server.removing import remove
 from linkwright.units import number
 from linkwright.words import _
 
-#: Drawn coordinates are whole multiples of this, m.
+#: Drawn coordinates are integer multiples of this, m.
 _FINEST = 1e-4
 #: Two numbers of teeth.
 _TEETH = re.compile(r"\s*([1-9][0-9]{0,5})\s*[:：]\s*([1-9][0-9]{0,5})\s*")
@@ -118,7 +118,7 @@ def _guide(draft: Draft, action: Mapping[str, Any]) -> None:
 
 
 def _slot(draft: Draft, action: Mapping[str, Any]) -> None:
-    """A block that slides along a moving link, from its first point to its last, at a point beside or on it."""
+    """A block that slides along a moving link, from its first point to its last, at a point next to or on it."""
     shown, along, at = draft.shown(), request.name(action, "along"), request.name(action, "at")
     ends = shown["links"].get(along, [])
     if len(ends) < 2 or not all(point in shown["points"] for point in (*ends, at)):
@@ -152,7 +152,7 @@ def _gear(draft: Draft, action: Mapping[str, Any]) -> None:
 
 
 def _optimize(draft: Draft, action: Mapping[str, Any]) -> None:
-    """The section that says what varies, what is made least and what is kept; none at all where nothing varies."""
+    """The section with variables, objectives and demands; none where nothing varies."""
     draft.put_section("optimize", request.mapping(action, "section"))
 
 

@@ -1,4 +1,4 @@
-"""Model files below one folder, with drafts that survive a killed process and versions that tell windows apart."""
+"""Model files below one folder, with drafts that survive a killed process and versions that distinguish windows."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ LARGEST = 1_000_000
 class Files:
     """Reads and writes model files of a folder; every change is stored as a draft until it is saved.
 
-    Windows and processes that share the folder are told of each other's changes: reading and writing are one step.
+    Windows and processes that share the folder see each other's changes: reading and writing are one step.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -101,7 +101,7 @@ class Files:
         return {**found, "name": name, "text": shown, "serial": serial, "recovered": recovered}
 
     def fresh(self, stem: str, window: str) -> str:
-        """A name that no file, no draft and no other window has; it is kept for the window until it opens another."""
+        """A name that no file, no draft and no other window has; reserved for the window until it opens another."""
         with self._lock:
             self._reserved = {name: owner for name, owner in self._reserved.items() if owner != window}
             place = 1

@@ -33,7 +33,7 @@ def optimised(text: str) -> Callable[[Job], None]:
     if not mechanism.optimize:
         raise RequestError(
             _(
-                "the text has no section optimize; choose what varies and what is made least first",
+                "the text has no section optimize; choose what varies and what is minimized first",
                 code="studio.no_optimize",
             )
         )
@@ -53,7 +53,7 @@ def _optimise(document: Document, job: Job) -> None:
 
 
 def _shown(found: Optimum, language: str) -> Plain:
-    """The designs with their values (SI) and the rows of numbers beside those of the start, as texts."""
+    """The designs with their values (SI) and the rows of metrics next to those of the start, as texts."""
     choices = found.choices[:: -(-len(found) // SHOWN)]
     tables = [comparison(found, each, language).texts() for each in choices]
     return {
@@ -66,7 +66,7 @@ def _shown(found: Optimum, language: str) -> Plain:
 
 
 def goals(text: str, language: str) -> list[Plain]:
-    """What can be made least or kept: design numbers of the machine and of their subjects, with their labels."""
+    """What can be minimized or demanded: metrics of the machine and of their subjects, with their labels."""
     mechanism = Document(text, "model", read_text).mechanism
     rows = metrics(solve_forces(solve_motion(mechanism)))
     names: dict[str, None] = {}

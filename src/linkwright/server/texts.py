@@ -13,7 +13,7 @@ TEXTS = {
     "studio.save": _("Save"),
     "studio.name": _("File name"),
     "studio.saved": _("Saved."),
-    "studio.unsaved": _("Not saved; kept as a draft."),
+    "studio.unsaved": _("Not saved; stored as a draft."),
     "studio.recovered": _("What was not saved last time is here again."),
     "studio.elsewhere": _("Another window has changed this file."),
     "studio.take_theirs": _("Take its text"),
@@ -58,10 +58,10 @@ TEXTS = {
     "studio.findings": _("Findings"),
     "studio.fine": _("No findings."),
     "studio.line": _("line {line}"),
-    "studio.gone": _("The server does not answer; changes are kept in this window until it does."),
+    "studio.gone": _("The server does not answer; changes remain in this window until it does."),
     "studio.paper": _("Drawing paper"),
     "studio.placed": _(
-        "{name} stands where its lengths put it; change them in the text, or drag it under Run.",
+        "{name} is where its lengths put it; change them in the text, or drag it under Run.",
     ),
     "studio.value": _("Value"),
     "studio.slot": _("Slot"),
@@ -91,7 +91,7 @@ TEXTS = {
     "studio.help_cam": _(
         "Click the link that turns as a cam, then a point of a link that slides or turns on "
         "the frame: a roller there is lifted by {value}. The base circle goes where the "
-        "roller stands.",
+        "roller is.",
     ),
     "studio.help_rack": _(
         "Click a link with a fixed point, then a link that slides: they mesh as pinion and "
@@ -99,8 +99,8 @@ TEXTS = {
     ),
     "studio.optimize": _("Optimise"),
     "studio.vary": _("What varies"),
-    "studio.goals": _("What is made least or greatest"),
-    "studio.demands": _("What is kept"),
+    "studio.goals": _("What is minimized or maximized"),
+    "studio.demands": _("Demands"),
     "studio.least": _("least"),
     "studio.most": _("greatest"),
     "studio.add_dimension": _("Add a dimension …"),
@@ -117,7 +117,7 @@ TEXTS = {
     "studio.take_design": _("Take these dimensions"),
     "studio.help_optimize": _(
         "Choose dimensions with their ranges and a number; the file keeps the settings. "
-        "Every design passes the whole cycle in the assembly of the present one. The pointer "
+        "Every design passes the full cycle in the assembly of the present one. The pointer "
         "over a design shows its paths; taking one writes its dimensions into the file.",
     ),
     "studio.beside": _("Compare with …"),

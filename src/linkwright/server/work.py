@@ -124,7 +124,7 @@ class Work:
         return self.background.begin("optimum", optimised(text(asked, "text")), language_of(asked))
 
     def _goals(self, asked: Plain) -> Plain:
-        """What an optimisation of a text's model can make least or keep."""
+        """What an optimisation of a text's model can minimize or limit."""
         from linkwright.server.optimising import goals
 
         return {"goals": goals(text(asked, "text"), language_of(asked))}

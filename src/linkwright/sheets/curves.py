@@ -27,7 +27,7 @@ from linkwright.units import si_unit
 
 #: Height of a diagram in widths; room for numbers at the left, below, and for the arrows of the axes, mm.
 FLATNESS, LEFT, BELOW, BEYOND = 0.45, 16.0, 9.0, 6.0
-#: Least distance of marks on an axis, and their length, mm.
+#: Minimum distance of marks on an axis, and their length, mm.
 TICK_SPACING, MARK = 13.0, 1.2
 #: Distance of curves from zero, in their own heights, from which the axis does not begin at zero.
 FAR = 1.5
@@ -96,7 +96,7 @@ class CurvePanel(Panel):
         return min(low, 0.0), max(top, 0.0)
 
     def _picture(self, x_scale: float, y_scale: float, low: float, top: float) -> Picture:
-        """Axes, curves and levels; the axis below stands at zero where that is in the picture."""
+        """Axes, curves and levels; the axis below is at zero where that is in the picture."""
         found, base = Picture(), 0.0 if low <= 0.0 <= top else low
         x = self._places(self.x, x_scale)
         right = float(np.nanmax(x))

@@ -14,9 +14,9 @@ from functools import cached_property
 from linkwright.pictures.picture import Box
 from linkwright.sheets.panel import Block
 
-#: Least space between panels, and between them and the frame, mm; most that a gap is spread to.
+#: Minimum space between panels, and between them and the frame, mm; most that a gap is spread to.
 GAP, WIDEST_GAP = 8.0, 60.0
-#: A row's first block stands in its middle where it is so many times as high as the others.
+#: A row's first block is centred where it is so many times as high as the others.
 MAIN = 1.4
 #: Rank from which a panel is left out where all others would be below this share of their size ranges.
 SPARE, COMFORT = 5.0, 0.15

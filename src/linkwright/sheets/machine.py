@@ -99,7 +99,7 @@ def _turned(way: Vec) -> Vec:
 AROUND, NUMBERED_RADIUS = 8.0, 9.0
 #: Smallest and largest size as shares of the paper's length and width together.
 SIZES = (0.22, 0.36)
-#: Points whose paths are drawn, at most, and the least extent of a path, mm.
+#: Points whose paths are drawn, at most, and the minimum extent of a path, mm.
 PATHS, MIN_PATH = 6, 3.0
 
 
@@ -236,7 +236,7 @@ class _Machine:
         return canonical(self.mechanism, link.name, far)
 
     def _numbered(self) -> list[Name]:
-        """Twelve positions of the driven point, numbered outside its circle, or beside its line."""
+        """Twelve positions of the driven point, numbered outside its circle, or next to its line."""
         driver, key = self._driver(), self._driven_point()
         motion, rows = self.positions.numbered
         if driver is None or key is None or not rows:

@@ -120,7 +120,7 @@ def scale_text(reduction: float) -> str:
     return f"{round(one, 6):g}:{round(other, 6):g}"
 
 
-#: Height of a row in heights of its letters, and space beside a text, mm.
+#: Height of a row in heights of its letters, and space around a text, mm.
 ROW, CELL_PADDING = 1.9, 1.6
 #: Rows of a table that is not parted.
 LONG = 10

@@ -57,7 +57,7 @@ class Positions:
 
     def _times(self) -> list[float]:
         """Times of the positions that are asked for; else the report's, and half a cycle on, or half a turn where
-        half a cycle is whole turns of the driver."""
+        half a cycle is full turns of the driver."""
         asked = self.subject.settings.positions[:MOST]
         if asked:
             return [self._time(place) for place in places(self.mechanism, asked)]

@@ -79,7 +79,7 @@ class Sheet:
         )
 
     def save(self, path: str | Path, *, force: bool = False, fonts: Sequence[str | Path] = ()) -> Path:
-        """Write it, whole or not at all; the ending of ``path`` says which form.
+        """Write it atomically; the ending of ``path`` says which form.
 
         Raises LinkwrightError for another ending, where the file cannot be written, and for one that is there already
         unless ``force``.
@@ -234,7 +234,7 @@ def _block(subject: Subject, kind: str, scale: str) -> TitleBlock:
 
 
 def _bar_place(inner: Box, block: Box) -> Box:
-    """The control bar at the lower left, above the title block where there is no room beside it."""
+    """The control bar at the lower left, above the title block where there is no room next to it."""
     left, bottom = inner.left + GAP, inner.bottom + 3.0
     if left + BAR + GAP > block.left:
         bottom = block.top + 3.0
@@ -264,7 +264,7 @@ def _refuse_meeting(fixed: Mapping[str, Box]) -> None:
         if fixed[one].meets(fixed[other]):
             raise RequestError(
                 _(
-                    "sheet.panels.{name}: the panel stands over {other}; change `at` of one of them",
+                    "sheet.panels.{name}: the panel overlaps {other}; change `at` of one of them",
                     code="sheet.meets",
                     name=other,
                     other=one,

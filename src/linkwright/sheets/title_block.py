@@ -9,7 +9,7 @@ from linkwright.pictures.picture import MIN_TEXT, TEXT, Box, Picture, as_runs, r
 from linkwright.pictures.svg.fonts import needs_chinese
 from linkwright.words import Say, _, pgettext
 
-#: Least width of letters as a share of their own.
+#: Minimum width of letters as a share of their own.
 NARROWEST = 0.62
 
 

@@ -69,7 +69,7 @@ def _dash(pen: str, paper: Paper) -> str:
 _TYPES = {"frame": "CONTINUOUS", "thick": "CONTINUOUS", "thin": "CONTINUOUS", "dashed": "SHEET_DASHED",
           "chain": "SHEET_CHAIN", "double_chain": "SHEET_DOUBLE_CHAIN"}  # fmt: skip
 _COLOURS = {"frame": 7, "thick": 7, "thin": 3, "dashed": 2, "chain": 1, "double_chain": 6, "text": 7}
-#: Patterns: their whole length, then dashes and gaps (negative), mm.
+#: Patterns: their full length, then dashes and gaps (negative), mm.
 _PATTERNS = {
     "SHEET_DASHED": [4.5, 3.5, -1.0],
     "SHEET_CHAIN": [9.0, 7.0, -0.9, 0.2, -0.9],
@@ -108,7 +108,7 @@ def dxf(items: Iterable[Item], paper: Paper) -> bytes:
 
 
 def _limits(document: Any, paper: Paper) -> None:
-    """The limits of the drawing, and the view with which it opens: the whole paper."""
+    """The limits of the drawing, and the view with which it opens: the full paper."""
     document.header["$LIMMIN"], document.header["$LIMMAX"] = (0, 0), (paper.width, paper.height)
     document.set_modelspace_vport(height=1.05 * paper.height, center=(paper.width / 2, paper.height / 2))
 

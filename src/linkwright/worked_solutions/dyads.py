@@ -21,12 +21,12 @@ from linkwright.worked_solutions.symbols import Book, Spot
 
 #: On which side a joint lies: with the root +, and with the root -.
 MODE_RPR = (
-    _("The block lies ahead of the foot of the perpendicular from {p}, seen along the guide: +ρ."),
-    _("The block lies behind the foot of the perpendicular from {p}, seen along the guide: -ρ."),
+    _("The block lies ahead of the foot of the perpendicular from {p}, looking along the guide: +ρ."),
+    _("The block lies behind the foot of the perpendicular from {p}, looking along the guide: -ρ."),
 )
 MODE_RRP = (
-    _("{b} lies ahead of the foot of the perpendicular from {p}, seen along the guide: +ρ."),
-    _("{b} lies behind the foot of the perpendicular from {p}, seen along the guide: -ρ."),
+    _("{b} lies ahead of the foot of the perpendicular from {p}, looking along the guide: +ρ."),
+    _("{b} lies behind the foot of the perpendicular from {p}, looking along the guide: -ρ."),
 )
 MODE_RRR = (
     _("{b} lies on the left of the ray {p}→{q}: the root with +d⊥ = (-d_y, d_x)."),
@@ -168,7 +168,7 @@ def _rrp(dyad: RRP, write: DyadWriter) -> bool:
     rho = write.root(r.squared - h.squared, "m")
     write.note_mode(MODE_RRP, p, p, tip)
     slide = write.book.slide(guide.joint)
-    ahead = (mode > 0) == (guide.child == guide.connection.b)  # words are seen along the guide of the file
+    ahead = (mode > 0) == (guide.child == guide.connection.b)  # words are meant along the guide of the file
     write.placing.displacement(step, slide, along + rho if ahead else along - rho)
     write.placing.point(step, tip, zero + n.times(slide.s))
     arm = tip.place - p.place

@@ -94,7 +94,7 @@ class Reactions:
                 book.say(
                     _(
                         "T: tangential force of a pair. S acts along the line of centres (its direction: γ), "
-                        "does no work and follows from T: it presses teeth apart, |T| tan α with the "
+                        "does no work and follows from T: it separates the teeth, |T| tan α with the "
                         "pressure angle α, or is the pull of a belt's strands, which lie at the angle ψ to "
                         "it."
                     )
@@ -167,7 +167,7 @@ class Reactions:
             self.found.append(Found(cut, on, Known(force, closure.tip.place, NOWHERE)))
 
     def _pressed(self, group: Group, system: System, values: Floats) -> bool:
-        """Whether pairs act on joints that are cut: what their rows leave there is not the whole force."""
+        """Whether pairs act on joints that are cut: what their rows leave there is not the complete force."""
         if not any(cut.higher for cut in group.cuts):
             return False
         aside, known = Step("", ""), len(self.found)
@@ -195,7 +195,7 @@ class Reactions:
                 book.say(
                     _(
                         "Moments about the wheels' centres give T, the tangential force of each of {joints}. "
-                        "S acts along the line of centres (direction: γ): it presses teeth apart, |T| tan α "
+                        "S acts along the line of centres (direction: γ): it separates the teeth, |T| tan α "
                         "with the pressure angle α, or is the pull of a belt's strands, which lie at the "
                         "angle ψ to it.",
                         joints=", ".join(cut.joint for cut in group.cuts),

@@ -1,1 +1,1 @@
-"""Optimisation: the dimensions of a machine that make a number least, within what must be kept."""
+"""Optimisation: the dimensions of a machine that minimize a quantity, within demands."""

@@ -1,6 +1,6 @@
 """The local search: sequential quadratic programming with exact gradients, many designs side by side.
 
-Each design makes the largest of its weighted objectives least, within its demands. A step solves a quadratic program
+Each design minimizes the largest of its weighted objectives, within its demands. A step solves a quadratic program
 of the linear models here and at the places tried last nearby, within a region of trust: the models of other places
 are what extremes over the cycle need, whose place in the cycle changes from design to design (bundle of cutting
 planes). Curvature is that of the Lagrangian: what is known of it (Gauss and Newton's, of mean squares), and the rest
@@ -29,7 +29,7 @@ STEPS, FIRST, LARGEST, AGAIN, SMALLEST = 30, 0.1, 0.5, 1e-3, 1e-6
 PRICE, DEARER, DEAREST, MET, GAIN = 0.02, 5.0, 1e4, 1e-8, 1e-9
 #: So many steps that gain less than this end a search.
 PATIENCE, LITTLE = 5, 2e-6
-#: Earlier places whose models are kept, and how far away they may lie, in half widths of the region.
+#: Earlier points whose models are reused, and how far away they may lie, in half widths of the region.
 MODELS, REACH = 2, 10.0
 _FAR, _STEADY, _DEAR, _SLIGHT = 1e3, 1e-8, 10.0, 1e-12
 
@@ -150,7 +150,7 @@ class _Searches:
         return width[:, None] * u[:, :n], (shared[:, :goals], shared[:, goals:]), hoped
 
     def _lines(self) -> tuple[Floats, Floats]:
-        """Rows (K, m, n + 1) and least values (K, m) of the models here and at the places tried, in widths; without
+        """Rows (K, m, n + 1) and lower bounds (K, m) of the models here and at the places tried, in widths; without
         weight where these lie too far away, or promise less here than there is: there the function bends."""
         here, tried = self.here, self.tried
         off = here.x[:, None] - tried.x
@@ -172,7 +172,7 @@ class _Searches:
 
     def _learn(self, before: Model, after: Model, forces: tuple[Floats, Floats]) -> None:
         """The curvature of the Lagrangian, but for what is known of it, from the slopes at two places (damped BFGS,
-        Powell 1978; beside a known part no larger before than the step shows, Dennis, Gay and Welsch 1981)."""
+        Powell 1978; with a known part no larger before than the step shows, Dennis, Gay and Welsch 1981)."""
         objective_forces, demand_forces = forces
 
         def slope(model: Model) -> Floats:

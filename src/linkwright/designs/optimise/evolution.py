@@ -53,7 +53,7 @@ def begin(task: Task, count: int) -> State:
 
 
 def resumed(task: Task, data: dict[str, Any]) -> State:
-    """A state from its data; the population is judged anew. Raises ValueError for what no search has kept."""
+    """A state from its data; the population is judged anew. Raises ValueError for data of no search."""
     draw = np.random.default_rng()
     draw.bit_generator.state = data["draw"]
     x = np.array(data["x"], dtype=float)
@@ -187,7 +187,7 @@ def ranked(judged: Judged) -> Indices:
 
 
 def best_value(judged: Judged) -> float:
-    """The least first objective of feasible designs; infinite where there is none."""
+    """The smallest first objective of feasible designs; infinite where there is none."""
     good = judged.total == 0
     return float(judged.goals[good, 0].min()) if good.any() else float("inf")
 

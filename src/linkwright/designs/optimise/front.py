@@ -19,7 +19,7 @@ _BEHIND = 1e6
 
 @dataclass(frozen=True, eq=False)
 class Scale:
-    """The least values of the objectives and the way from them to the worst of the designs that are best in one,
+    """The minimum values of the objectives and the way from them to the worst of the designs that are best in one,
     (goals,) each."""
 
     minimum: Floats
@@ -27,7 +27,7 @@ class Scale:
 
     @classmethod
     def of(cls, judged: Judged) -> Scale:
-        """Of the designs that meet the demands, or, where none does, of those that miss least."""
+        """Of the designs that meet the demands, or, where none does, of those with the smallest violation."""
         moving = np.flatnonzero(np.isfinite(judged.goals).all(axis=1))
         if not len(moving):
             goals = np.zeros((1, judged.goals.shape[1]))
@@ -72,7 +72,7 @@ def nearest(judged: Judged, scale: Scale, points: Floats) -> Floats:
 
 
 def picked(judged: Judged, distance: Floats, count: int, separation: float) -> list[int]:
-    """Rows of at most ``count`` designs, of which no two lie nearer than ``apart`` in the cube: by turns the nearest
+    """Rows of at most ``count`` designs, no two nearer than ``separation`` in the cube: by turns the nearest
     to each point."""
     left, rows = distance.copy(), list[int]()
     for turn in range(count):

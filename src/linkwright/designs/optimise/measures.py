@@ -133,7 +133,7 @@ class Measures:
         return found if {name for each in found for name in each.kinds} == set(self.numbers) else []
 
     def _full_cycle(self) -> list[MetricsOfDesigns]:
-        """What tells which designs pass the whole cycle where no number of the problem does."""
+        """Metrics that show which designs pass the full cycle where none of the problem does."""
         moves = mechanism_outputs(self.mechanism)
         return self._side_by_side([f"{self._asked.output.name} max"]) if moves else []
 
@@ -142,7 +142,7 @@ class Measures:
         return side_by_side(self.mechanism, problem.addresses, numbers, self._asked, steps=problem.steps)
 
     def _where_they_pass(self, values: dict[str, Floats], columns: Mapping[str, Floats]) -> dict[str, Floats]:
-        """Values of every text, NaN where a design does not pass the whole cycle."""
+        """Values of every text, NaN where a design does not pass the full cycle."""
         for each in self.passing:
             with np.errstate(all="ignore"):
                 values_found, certain = each.evaluate(columns, backend=self.backend)

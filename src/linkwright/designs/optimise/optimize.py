@@ -41,15 +41,15 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, _
 
-#: Evaluations where designs go one after the other and nobody says how many; the name of a population that is kept.
+#: Evaluations where designs go one after the other, by default; the key of a stored population.
 SLOW, POPULATION = 400, "population"
 #: Share of the evaluations that the first designs take, and the most that one sweep has; how many of them the local
-#: search starts from, its steps, and how far apart they lie in the cube.
+#: search starts from, its steps, and their minimum distance in the cube.
 SAMPLED, AT_ONCE, STARTS, FEW, SEPARATION = 0.5, 20_000, 16, 10, 0.1
 #: Designs that are polished in the end for each objective; places along a front.
 POLISHED, FRONT = 3, 48
 #: What a step along a front must gain, as share of its width, and how often places without a design of their own are
-#: tried again from the designs beside them.
+#: tried again from the neighbouring designs.
 EVEN, ROUNDS = 2e-5, 3
 #: Steps of the last local search, and how near in the cube two of its designs may begin.
 LAST, NEAR = 90, 0.03
@@ -60,7 +60,7 @@ AGAIN, FINER = 6, 2048
 #: Most designs of catalogues that are all judged; the same where they are judged by expressions alone.
 ALL, ALL_WRITTEN = 1024, 1_000_000
 _NO_ROWS = np.array([], dtype=np.intp)
-#: Designs of a front are alike whose objectives differ by less than this share.
+#: Designs of a front count as equal whose objectives differ by less than this share.
 SAME_OBJECTIVES = 1e-5
 #: Objectives below this share of the start's are none; so many times its size an objective lies below its aim that
 #: does not count but where nothing else does.
@@ -75,7 +75,7 @@ def optimize(
     leading: Callable[[Optimum], None] | None = None,
     **settings: Any,
 ) -> Optimum:
-    """The dimensions of a machine that make one number or several least, within what must be kept.
+    """The dimensions of a machine that minimize one quantity or several, within demands.
 
     Args:
         source: a mechanism, or a document or model file whose section ``optimize`` has the settings.
@@ -94,11 +94,11 @@ def optimize(
             demands); ``fluctuation`` δ of flywheels; ``evaluations``, ``population``, ``seed``, ``steps``.
 
     Returns:
-        The optimum, or the front of several objectives. All designs move over the whole cycle with the assembly modes
+        The optimum, or the front of several objectives. All designs move over the full cycle with the assembly modes
         of the start, so none has a branch defect or another order of positions.
 
     Raises:
-        OptimizeError: the demands cannot be met together; ``nearest`` is the design that misses them least. A search
+        OptimizeError: the demands cannot be met together; ``nearest`` has the smallest violation. A search
             that was stopped before any met them gives that design with what it misses.
         ModelError: settings that cannot be read, with all findings.
         Interrupted: a KeyboardInterrupt before the first designs were known, or one that moves: the search goes on
@@ -157,7 +157,7 @@ def _at_their_lines(document: Document | None, settings: Mapping[str, Any]) -> I
 
 
 def _distinct(judged: Judged) -> Judged:
-    """Without designs whose objectives differ less than ``ALIKE`` from those of the one before."""
+    """Without designs whose objectives differ less than ``SAME_OBJECTIVES`` from those of the one before."""
     rows = [0]
     for k in range(1, len(judged.x)):
         if (
@@ -247,7 +247,7 @@ class _Run:
         self._tell(state)
 
     def _left(self) -> State | None:
-        """The population that was kept last; None: none was."""
+        """The stored population; None: none is stored."""
 
         def made(data: dict[str, Any]) -> State:
             state = resumed(self.task, data)
@@ -290,7 +290,7 @@ class _Run:
         return self.polish.polished(before, np.tile(1.0 / scale.span, (len(rows), 1)), aims, steps, EVEN)
 
     def _sizes(self, judged: Judged, goal: int) -> Floats:
-        """What counts as much of an objective, (K,): its value, but for values next to nothing beside the start's."""
+        """What counts as much of an objective, (K,): its value, but for values negligible against the start's."""
         start = abs(self.task.at_start[self.task.problem.goals[goal].text])
         floor = NOTHING * start if np.isfinite(start) and start > 0.0 else NOTHING
         found = np.abs(judged.goals[:, goal])
@@ -349,13 +349,13 @@ class _Run:
         return taken(judged, np.array(rows, dtype=np.intp))
 
     def _nearest(self, judged: Judged) -> Judged:
-        """Designs that miss the demands least, whatever the objectives."""
+        """Designs with the smallest violation of demands, whatever the objectives."""
         before = taken(judged, np.array(picked(judged, judged.total[None], self.best, NEAR), dtype=np.intp))
         none = np.zeros_like(before.goals)
         return self.polish.polished(before, none, none, self.last)
 
     def _end(self, judged: Judged, goal: int) -> Judged:
-        """Designs with one objective least."""
+        """Designs with the minimum of one objective."""
         alone = np.where(judged.total == 0, judged.goals[:, goal], np.inf)
         rows = np.array(picked(judged, alone[None], self.best, NEAR), dtype=np.intp)
         before = taken(judged, rows)
@@ -443,7 +443,7 @@ class _Run:
                     )
         if not nearest:
             return _(
-                "no design of {name} within the bounds passes the whole cycle; widen the bounds, or "
+                "no design of {name} within the bounds passes the full cycle; widen the bounds, or "
                 "start from a machine that moves",
                 name=name,
             )
@@ -451,7 +451,7 @@ class _Run:
         reason = stuck.sentence if stuck.outcome is None else stuck.outcome.sentence
         counts = {"failed": failed, "steps": asked.steps}
         return _(
-            "no design of {name} within the bounds passes the whole cycle; the nearest that was "
+            "no design of {name} within the bounds passes the full cycle; the nearest that was "
             "tried ({design}) fails in {failed} of {steps} positions: {reason}; widen the bounds",
             code="optimize.none_whole",
         ).format(name=name, design=dimensions, reason=reason, **counts)

@@ -1,4 +1,4 @@
-"""What an optimisation gives: designs, their numbers beside those of the start, and the model files."""
+"""What an optimisation gives: designs, their metrics next to those of the start, and the model files."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Optimum(Plotted, Tabular, Frozen):
         limits: demands as (low, high), SI.
         kinds: dimension of every number.
         evaluations, generations: of the search.
-        history: least first objective after each generation (infinite: none was feasible yet).
+        history: smallest first objective after each generation (infinite: none was feasible yet).
         hypervolume: share of the box between the front's best values and its worst (or the start's) that the front
             beats; None for one objective.
         exact: gradients were exact.
@@ -98,7 +98,7 @@ class Optimum(Plotted, Tabular, Frozen):
         return changed_text(self.document, self.choices[index].values)
 
     def write(self, path: str | Path, index: int = 0, *, force: bool = False) -> Path:
-        """Writes the model file of one design, whole or not at all.
+        """Writes the model file of one design, atomically.
 
         Raises LinkwrightError where it cannot be written, and for a file that is there already unless ``force``.
         """
@@ -108,7 +108,7 @@ class Optimum(Plotted, Tabular, Frozen):
 
     @attached
     def tables(self, language: str = "en") -> tuple[Table, ...]:
-        """Variables and numbers beside the start, the front of several objectives, and what to know about them."""
+        """Variables and metrics next to those of the start, the front of several objectives, and notes."""
         raise NotImplementedError
 
     def data(self) -> dict[str, Any]:
@@ -151,7 +151,7 @@ class OptimizeError(LinkwrightError):
 
 
 def hypervolume(goals: Floats, worst: Floats) -> float:
-    """Volume that points (N, m) beat below a point (m,), as a share of the box from their least values to it."""
+    """Volume that points (N, m) beat below a point (m,), as a share of the box from their minimum values to it."""
     low = np.minimum(goals.min(axis=0), worst)
     size = worst - low
     if not (size > 0).all():

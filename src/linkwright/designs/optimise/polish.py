@@ -12,11 +12,11 @@ from linkwright.designs.optimise.evolution import joined
 from linkwright.designs.optimise.front import SHARED
 from linkwright.designs.optimise.task import Judged, Side, Task
 
-#: What is kept from the edge of a demand, in its scales, and the step of differences where no exact slope is had.
+#: Margin to the limit of a demand, in its scales, and the step of differences where no exact slope is had.
 ROOM, STEP = 2e-7, 1e-5
 #: A place in the cube nearer to a bound lies on it.
 AT_BOUND = 1e-8
-#: The least size of a demand beside the start's value.
+#: Minimum size of a demand relative to the start's value.
 FINE = 1e-3
 #: What demands leave to a machine that does not move, and the share of the machines on either side of a quantile
 #: whose slopes count for it, one in so many.
@@ -100,7 +100,7 @@ class Polish:
 
         A share of the machines made meets the demands where a quantile of what these leave to the machines is not
         negative; its slope is that of the machine there (Hong 2009, *Operations Research* 57, 118), here the mean
-        of some beside it.
+        of some neighbours.
         """
         made, count = self.task.made(columns, self.task.samples), len(next(iter(columns.values())))
         values, slopes = self.task.measures.with_slopes(made, self.names)
@@ -167,7 +167,7 @@ class Polish:
 
 
 def _weighed(goals: Floats, weights: Floats, aims: Floats) -> Floats:
-    """What is made least, the largest of it, (K, goals)."""
+    """What is minimized, (K, goals): the largest counts."""
     with np.errstate(invalid="ignore"):
         found = np.where(weights > 0.0, weights * (goals - aims), 0.0)
         return np.asarray(found + SHARED * found.sum(axis=1, keepdims=True))

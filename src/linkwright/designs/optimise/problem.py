@@ -1,4 +1,4 @@
-"""What is optimised: variables within bounds, objectives, and what must be kept."""
+"""What is optimised: variables within bounds, objectives and demands."""
 
 from __future__ import annotations
 
@@ -180,9 +180,9 @@ SECTION = Keys({
         doc=_("bounds of dimensions and parameters, such as 80..120 mm"),
     ),
     "minimize": Listed(Text(), _NUMBERS, alone=True, doc=_(
-        "numbers to make least: design numbers, flywheel, summaries such as 'jaw.angle range'"
+        "quantities to minimize: metrics, flywheel, summaries such as 'jaw.angle range'"
     )),
-    "maximize": Listed(Text(), _NUMBERS, alone=True, doc=_("numbers to make greatest")),
+    "maximize": Listed(Text(), _NUMBERS, alone=True, doc=_("quantities to maximize")),
     "keep": ByAddress(
         DemandText(Value(), Table({key: Value() for key in ("at_least", "at_most", "same")})),
         doc=_("demands on numbers: at least 40 deg, at most 60 kN, 1..2 m, same within 1 % of the start"),
@@ -234,8 +234,7 @@ class _Reading(SectionReading):
             self.note(
                 "minimize",
                 _(
-                    "nothing is made least or greatest; give minimize: or maximize: with a number such "
-                    "as peak_input_torque",
+                    "no objective given; add minimize: or maximize: with a metric such as peak_input_torque",
                 ),
                 "no-goal",
             )
@@ -315,7 +314,7 @@ class _Reading(SectionReading):
             except (TypeError, ValueError):
                 raise RequestError(
                     _(
-                        "{address}: {given} says no bounds; give two values such as [80 mm, 120 mm], or "
+                        "{address}: invalid bounds {given}; give two values such as [80 mm, 120 mm], or "
                         "values: [80 mm, 90 mm]",
                         code="optimize.no_bounds",
                         address=address,
@@ -338,7 +337,7 @@ class _Reading(SectionReading):
             low, high = math.ceil(found.low), math.floor(found.high)
             raise RequestError(
                 _(
-                    "{address} gives numbers of teeth, which are whole; write {address}: {{whole: "
+                    "{address} gives numbers of teeth, which are integers; write {address}: {{whole:  "
                     "{low}..{high}}}",
                     code="optimize.whole_teeth",
                     address=address,
@@ -349,7 +348,7 @@ class _Reading(SectionReading):
         return Variable(address, found.low, found.high, None, found.unit)
 
     def _chosen(self, address: str, key: str, value: Any) -> Variable:
-        """One of some values, or of the whole numbers of a range."""
+        """One of some values, or of the integers of a range."""
         text = ", ".join(map(str, value)) if isinstance(value, tuple) else str(value)
         found = parse_range(self.mechanism, address, text)
         choices = np.unique(found.values)
@@ -359,8 +358,8 @@ class _Reading(SectionReading):
         if len(choices) < 1:
             raise RequestError(
                 _(
-                    "{address} has no value to choose from; give values: or a whole: range that holds a "
-                    "whole number",
+                    "{address} has no value to choose from; give values: or a whole: range that holds an "
+                    "integer",
                     code="optimize.no_choice",
                     address=address,
                 )

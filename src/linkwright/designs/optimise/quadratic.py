@@ -18,10 +18,10 @@ STEADY = 1e-13
 def quadratic(
     curved: Floats, slope: Floats, rows: Floats, bounds: Floats, low: Floats, high: Floats, price: Floats
 ) -> tuple[Floats, Floats]:
-    """The u (K, n) between ``low`` and ``high`` that make ½ u·C·u + s·u + Σ p max(l − R·u, 0) least, and the
+    """The u (K, n) between ``low`` and ``high`` that make ½ u·C·u + s·u + Σ p max(l − R·u, 0) minimal, and the
     multipliers (K, m) of the rows, 0 to p.
 
-    ``curved`` C (K, n, n), positive definite; ``slope`` s (K, n); ``rows`` R (K, m, n); ``least`` l (K, m);
+    ``curved`` C (K, n, n), positive definite; ``slope`` s (K, n); ``rows`` R (K, m, n); ``bounds`` l (K, m);
     ``low`` < ``high``; ``price`` p (K, m), exact where it is above the multipliers.
     Source: Nocedal and Wright, *Numerical Optimization*, 2006, ch. 16.6.
     """

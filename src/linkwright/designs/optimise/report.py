@@ -20,7 +20,7 @@ LISTED = 24
 
 
 def tables(found: Optimum, language: str = "en") -> tuple[Table, ...]:
-    """The best design beside the start, the front, and notes."""
+    """The best design next to the start, the front, and notes."""
     name = found.problem.mechanism.name
     best = comparison(found, found.best, language)
     title = _("{name}: {goals}", name=name, goals=_goals(found, language))
@@ -32,16 +32,16 @@ def _notes(found: Optimum) -> Iterator[str]:
     """What to know about the search."""
     yield _(
         "{evaluations} designs judged in {generations} generations; every design passes the "
-        "whole cycle with the start's assembly",
+        "full cycle with the start's assembly",
         evaluations=found.evaluations,
         generations=found.generations,
     )
     moved = any(each.choices is None for each in found.problem.variables)
     if moved and found.exact:
-        yield _("The last steps followed exact gradients.")
+        yield _("The last steps used exact gradients.")
     elif moved and not found.problem.robust:
         yield _(
-            "This machine's designs go one after the other, and the last steps followed "
+            "This machine's designs go one after the other, and the last steps used "
             "differences: slower, and less exact.",
         )
     if found.best.worst:
@@ -62,7 +62,7 @@ def _notes(found: Optimum) -> Iterator[str]:
 
 
 def _goals(found: Optimum, language: str) -> str:
-    words = {1.0: _("least {number}"), -1.0: _("greatest {number}")}
+    words = {1.0: _("minimum {number}"), -1.0: _("maximum {number}")}
     texts = (
         words[goal.sign].format(number=label(found, goal.text, language)).translate(language)
         for goal in found.problem.goals
@@ -98,7 +98,7 @@ def comparison(found: Optimum, choice: Choice, language: str) -> Table:
 
 def _limits(found: Optimum, choice: Choice, text: str, tell: Say) -> str:
     goals = {goal.text: goal.sign for goal in found.problem.goals}
-    texts = [tell(_("made least") if goals[text] > 0 else _("made greatest"))] if text in goals else []
+    texts = [tell(_("minimized") if goals[text] > 0 else _("maximized"))] if text in goals else []
     if text in found.limits:
         texts.append(_between(found, text)[0])
     if text in choice.missed:

@@ -18,7 +18,7 @@ BINS, REACH = 2048, 8.0
 
 @dataclass(frozen=True)
 class CurveSpread:
-    """A curve among machines, (n,) each, SI: mean, standard deviation, least and largest value, and the values that
+    """A curve among machines, (n,) each, SI: mean, standard deviation, minimum and maximum, and the values that
     0.135 % and 99.865 % of the machines stay below (±3σ of a normal distribution), within 1/128 of the linear σ."""
 
     mean: Floats

@@ -1,4 +1,4 @@
-"""Pins that follow their own reactions through the whole cycle: rates and forces with clearances.
+"""Pins that follow their own reactions through the full cycle: rates and forces with clearances.
 
 Every pressed pin becomes a link without mass, as long as the clearance, from the hole's centre to the pin's; a driver
 of its own turns it against the link with the hole. A link without mass that only two pins touch carries its force
@@ -85,12 +85,12 @@ def hole_name(mechanism: Mechanism, pin: str) -> str:
 
 
 def gap_name(hole: str) -> str:
-    """Name of the link that stands for the clearance of a hole."""
+    """Name of the link that models the clearance of a hole."""
     return f"{hole}_gap"
 
 
 def follow(study: Tolerances, nominal: Forces) -> FollowedPins:
-    """The pins led by their reactions over the whole cycle.
+    """The pins led by their reactions over the full cycle.
 
     Raises LinkwrightError where the cycle does not repeat, or the mechanism with its gaps cannot be solved.
     """

@@ -58,7 +58,7 @@ class Tolerance:
 class Clearance:
     """Radial ``clearance`` (m) of a pin in its hole in link ``on``.
 
-    ``kind``: ``free`` — the pin touches the hole anywhere, each machine somewhere else, all directions alike;
+    ``kind``: ``free`` — the pin touches the hole anywhere, each machine somewhere else, in any direction;
     ``pressed`` — at every position the joint's own reaction presses the pin against the hole.
     """
 
@@ -125,10 +125,10 @@ class Tolerances(OfMechanism):
         ByAddress(Table(LIMIT, _limit), doc="limits by summary: {lower: 59 deg, upper: 61 deg}"), dict
     )
     samples: int = file_key(
-        Integer(MIN_SAMPLES, doc="machines of the Monte Carlo study, 8192 unless given"), 8192
+        Integer(MIN_SAMPLES, doc="machines of the Monte Carlo study; default: 8192"), 8192
     )
     seed: int = file_key(Integer(0, 2**32 - 1, doc="seed of the random numbers"), 1)
-    steps: int = file_key(Integer(4, doc="positions of the curves over the cycle, 360 unless given"), STEPS)
+    steps: int = file_key(Integer(4, doc="positions of the curves over the cycle; default: 360"), STEPS)
     name: str = ""
     source: str = ""
 

@@ -70,7 +70,7 @@ class Spread(Result):
     """Spread of every summary and curve of a tolerance study, SI.
 
     Linear: σ² = Σ (∂y/∂p · σ_p)², exact derivatives at the nominal mechanism; a free clearance c counts its two
-    components with c/√2 each. Monte Carlo: machines drawn by a scrambled Sobol sequence and solved whole. Pressed
+    components with c/√2 each. Monte Carlo: machines drawn by a scrambled Sobol sequence and solved fully. Pressed
     clearances shift the numbers (see ``linkwright.designs.tolerance.pressed_pins``) and do not spread them.
     """
 
@@ -333,7 +333,7 @@ class Spread(Result):
     # why they differ ------------------------------------------------------------------------------
     @cached_property
     def closeness(self) -> tuple[float, float] | None:
-        """Least closeness over the nominal cycle (0 at a dead point), and the input there; None if not known."""
+        """Minimum closeness over the nominal cycle (0 at a dead point), and the input there; None if not known."""
         address = self.addresses[0]
         one = {address: np.array([self.study.prepared.dimension(address)])}
         asked = [("closeness", "min"), ("closeness", "argmin")]
@@ -425,7 +425,7 @@ class Spread(Result):
 
         return bool(next(iter(over_cycle(self.study.mechanism, 1).rotary.values()), True))
 
-    # what is said ---------------------------------------------------------------------------------
+    # sentences ------------------------------------------------------------------------------------
     def columns(self) -> dict[str, Floats]:
         """Input, every curve and its standard deviation; without curves the summaries of all machines."""
         if self.study.curves:
@@ -457,7 +457,7 @@ class Spread(Result):
         if self.study.holes("pressed"):
             gaps = int((~self.followed.followed).sum()) if math.isnan(shift) else 0
             unknown = (
-                _("not followed (the pins cannot follow at {count} positions)", count=gaps) if gaps else ""
+                _("not tracked (the pins cannot follow at {count} positions)", count=gaps) if gaps else ""
             )
             rows.append(Row("shift", shift, kind, text=unknown))
         if self.swept is not None:

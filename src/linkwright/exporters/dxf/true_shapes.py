@@ -19,7 +19,7 @@ from linkwright.plotting.true_shapes import contact_line
 from linkwright.words import _
 
 ENDINGS = (".dxf", ".csv", ".txt")
-#: Layers with their colours (numbers of the AutoCAD colour index), seen on white and on dark sheets.
+#: Layers with their colours (numbers of the AutoCAD colour index), visible on white and on dark sheets.
 LAYERS = {"profile": 7, "pitch": 8, "cutter": 3, "base": 150}
 _MM = 1e3
 
@@ -84,7 +84,7 @@ def _table(design: CamDesign, points: int) -> str:
 
 
 def _mill(design: CamDesign, points: int) -> str:
-    """The cutter's centre where its radius is known, else the profile: x y z in mm, walls apart by an empty line."""
+    """The cutter's centre where its radius is known, else the profile: x y z in mm, an empty line between walls."""
     parts = []
     for wall in range(len(design.cam.walls)):
         known = design.cam.cutter_radius is not None

@@ -18,7 +18,7 @@ from linkwright.words.characters import printable
 
 
 def numbers(values: Iterable[float]) -> str:
-    """Numbers with all their digits, apart by spaces."""
+    """Numbers with all their digits, separated by spaces."""
     return " ".join(f"{float(value) + 0.0:.17g}" for value in values)
 
 

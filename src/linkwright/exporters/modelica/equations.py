@@ -196,7 +196,7 @@ class Equations:
 
 
 def turns(angle: float) -> str:
-    """Whole turns that an equation of angles has to add, as text; nothing where there is none."""
+    """Full turns that an equation of angles has to add, as text; nothing where there is none."""
     count = round(angle / (2 * math.pi))
     return f" + {number(2 * math.pi * count)}" if count else ""
 

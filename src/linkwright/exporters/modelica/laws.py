@@ -105,7 +105,7 @@ def _table_law(law: TableLaw, begin: float, end: float) -> str:
 
 
 def formula(node: Node, names: dict[str, str]) -> str:
-    """An expression; ``names``: what stands for its free names."""
+    """An expression; ``names``: replacements of its free names."""
     match node:
         case Number(value):
             return f"({number(value)})"

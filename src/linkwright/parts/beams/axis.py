@@ -26,7 +26,7 @@ class LinkAxis:
 
     @classmethod
     def of(cls, link: Link, names: Sequence[str] = ()) -> LinkAxis:
-        """Through named points, in their order; else straight through the two points that are farthest apart."""
+        """Through named points, in their order; else straight through the two most distant points."""
         if names:
             return cls(np.array([link.points[name] for name in names], dtype=float))
         places = np.array(list(link.points.values()), dtype=float)
@@ -70,7 +70,7 @@ class LinkAxis:
 
     def crossed(self, force: Floats, moment: Floats) -> tuple[Floats, Floats]:
         """Where forces (n, 2) with ``moment`` (n,) about the origin meet the axis: s (n,), and the couple that is
-        left (n,) where they pass it by, at the corner where it is least."""
+        left (n,) where they pass it by, at the corner where it is smallest."""
         left = moment[:, None] - cross(self.corners[None], force[:, None])
         rows = np.arange(len(force))
         best = np.abs(left).argmin(axis=1)

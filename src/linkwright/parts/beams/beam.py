@@ -49,7 +49,7 @@ EXTREMES = {"least": _("least"), "largest": _("largest")}
 
 @dataclass(frozen=True)
 class BeamSupport:
-    """``kind``: fixed, pinned or roller (alike in bending), guided (slope held), spring; ``at`` m.
+    """``kind``: fixed, pinned or roller (equal in bending), guided (slope held), spring; ``at`` m.
 
     ``settlement``: given deflection, m; ``stiffness`` N/m and ``torsional_stiffness`` N·m/rad of a spring.
     """
@@ -107,10 +107,10 @@ class BeamLoad:
     ), None)  # fmt: skip
     at: float | None = file_key(Quantity("length", minimum=0.0, doc="where the force or couple acts"), None)
     start: float = file_key(
-        Quantity("length", minimum=0.0, key="from", doc="where the line load begins, 0 unless given"), 0.0
+        Quantity("length", minimum=0.0, key="from", doc="where the line load begins; default: 0"), 0.0
     )
     end: float | None = file_key(
-        Quantity("length", minimum=0.0, key="to", doc="where it ends, the beam's end unless given"), None
+        Quantity("length", minimum=0.0, key="to", doc="where it ends; default: the beam's end"), None
     )
 
 
@@ -327,7 +327,7 @@ class BeamLine(Result):
         return self.line.value("deflection", x)
 
     def extremes(self, quantity: str) -> tuple[tuple[float, float], tuple[float, float]]:
-        """(place, value) of the least and of the largest shear, moment, slope or deflection."""
+        """(place, value) of the minimum and of the maximum shear, moment, slope or deflection."""
         return self.line.extremes(quantity)
 
     def largest(self, quantity: str) -> tuple[float, float]:
@@ -516,7 +516,7 @@ class BeamLine(Result):
         return step
 
     def _largest_coefficient(self, quantity: str) -> float:
-        """The largest term of a quantity's polynomials over the beam, beside which the others are rounding or not."""
+        """The largest term of a quantity's polynomials over the beam, the scale of rounding."""
         return max(
             float(np.abs(p.coef * (each.end - each.start) ** np.arange(len(p.coef))).max())
             for each in self.line.segments

@@ -69,7 +69,7 @@ class Segment:
 
 @dataclass(frozen=True)
 class ElasticLine:
-    """Segments from left to right, and the reaction (N, N·m) of every hold in the order given."""
+    """Segments from left to right, and the reaction (N, N·m) of every support in their order."""
 
     segments: tuple[Segment, ...]
     reactions: tuple[tuple[float, float], ...]
@@ -88,7 +88,7 @@ class ElasticLine:
         return np.where(np.abs(found) <= ROUNDING * largest, 0.0, found)
 
     def extremes(self, quantity: str) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Place and value of the least and of the largest value of a quantity, exact."""
+        """Place and value of the minimum and of the maximum of a quantity, exact."""
         places, values = [], []
         for segment in self.segments:
             polynomial: Polynomial = getattr(segment, quantity)

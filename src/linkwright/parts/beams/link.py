@@ -71,11 +71,9 @@ class LinkBending(OfMechanism):
     safety: float = file_key(
         Quantity("dimensionless", above=0.0, doc="safety against the strength, for the needed section"), 1.0
     )
-    steps: int = file_key(Integer(1, doc="positions over the cycle, 360 unless given"), STEPS)
+    steps: int = file_key(Integer(1, doc="positions over the cycle; default: 360"), STEPS)
     axis: tuple[str, ...] = file_key(
-        Listed(
-            Text(), "[A, B, C]", doc="points through which a bent link's axis runs, straight unless given"
-        ),
+        Listed(Text(), "[A, B, C]", doc="points through which a bent link's axis runs; default: straight"),
         (),
     )
     name: str = ""
@@ -335,7 +333,7 @@ class LinkStress(Result):
             raise SelfCheckError(
                 _(
                     "the forces on {link!r} do not pass their own check: beyond its last point {gap} are "
-                    "left, beside forces of up to {size}. This is an error of the program, and no result "
+                    "left, with forces of up to {size}. This is an error of the program, and no result "
                     "may be used: please report it with the model file",
                     code="beam.not_closed",
                     link=self.problem.link,

@@ -100,8 +100,8 @@ COUNTS = {"rectangle": 2, "circle": 1, "tube": 2, "box": 3, "i_beam": 4}
 FIELDS: Mapping[str, Field] = {
     **{name: Quantities("length", count=COUNTS[name], doc=form) for name, (_unused, form) in SHAPES.items()},
     "second_moment": Quantity("second_moment_of_area", above=0.0, doc="I, where no shape is given"),
-    "area": Quantity("area", above=0.0, doc="area, beside second_moment"),
-    "modulus": Quantity("volume", above=0.0, doc="section modulus W = I/c, beside second_moment"),
+    "area": Quantity("area", above=0.0, doc="area, in addition to second_moment"),
+    "modulus": Quantity("volume", above=0.0, doc="section modulus W = I/c, in addition to second_moment"),
 }
 
 
@@ -154,7 +154,7 @@ def _shaped(reader: Reader, node: Node, place: Place, found: dict[str, Any]) -> 
 
 
 def require_modulus(section: Section) -> list[Finding]:
-    """A finding where stresses cannot be told from the section."""
+    """A finding where stresses cannot be computed from the section."""
     return (
         []
         if section.area and section.modulus
@@ -163,7 +163,7 @@ def require_modulus(section: Section) -> list[Finding]:
                 "no_modulus",
                 "section",
                 _("stresses need the section's area and modulus"),
-                _("give a shape, or area and modulus beside second_moment"),
+                _("give a shape, or area and modulus in addition to second_moment"),
             )
         ]
     )

@@ -73,9 +73,9 @@ def _variable(**values: Any) -> Variable:
 
 
 VARIABLE = {
-    "low": AnyQuantity(key="from", doc="lower bound, none unless given"),
-    "high": AnyQuantity(key="to", doc="upper bound, none unless given"),
-    "integer": Flag(doc="true: whole numbers only"),
+    "low": AnyQuantity(key="from", doc="lower bound; default: none"),
+    "high": AnyQuantity(key="to", doc="upper bound; default: none"),
+    "integer": Flag(doc="true: integers only"),
     "choices": Listed(AnyQuantity(), "[1 mm, 1.25 mm]", doc="the values that it may take"),
     "start": AnyQuantity(doc="where a search begins"),
 }
@@ -255,7 +255,7 @@ class Program(Problem):
             value = self.shown(name, getattr(self.variables[name], side))
             texts += (f"{name} {'>=' if side == 'low' else '<='} {value}",)
         if not texts:
-            texts = (_("the whole numbers or choices of the variables"),)
+            texts = (_("the integers or choices of the variables"),)
         key = f"subject_to.{names[0]}" if names else "variables"
         if from_starts:
             finding = fault(
@@ -290,7 +290,7 @@ def _aimless(model: Model) -> Model:
 
 @dataclass(frozen=True, repr=False)
 class Optimum(Result):
-    """The optimum: ``x`` (SI) by variable, ``value``, and for every constraint how it stands.
+    """The optimum: ``x`` (SI) by variable, ``value``, and the state of every constraint.
 
     ``way``: linear, integer, nonlinear, enumerated, branched. ``prices``: change of the objective per unit of each
     constraint's right side (SI), where it is known. ``agreed``: starts that came to this optimum, of how many;

@@ -57,7 +57,7 @@ class ForceSystem(Problem):
     forces: Mapping[str, Force] = file_key(FORCES, dict)
     couples: Mapping[str, tuple[float, ...]] = file_key(COUPLES, dict)
     about: tuple[float, ...] = file_key(
-        Components("length", doc="point about which moments are taken, the origin unless given"),
+        Components("length", doc="point about which moments are taken; default: the origin"),
         (0.0, 0.0, 0.0),
     )
     components: Mapping[str, Along] = file_key(LINES, dict)

@@ -142,12 +142,12 @@ class Force(Line):
 
     force: tuple[float, ...] = file_key(Components("force", doc="components"), ())
     size: float | None = file_key(
-        Quantity("force", key="magnitude", old="size", doc="magnitude, with direction; unknown unless given"),
+        Quantity("force", key="magnitude", old="size", doc="magnitude, with direction; default: unknown"),
         None,
     )
     along: tuple[float, ...] = file_key(DIRECTION, ())
     at: tuple[float, ...] = file_key(
-        Components("length", doc="point of application, the origin unless given"), (0.0, 0.0)
+        Components("length", doc="point of application; default: the origin"), (0.0, 0.0)
     )
     start: tuple[float, ...] = file_key(START, ())
     end: tuple[float, ...] = file_key(END, ())
@@ -233,7 +233,7 @@ class Along(Line):
     along: tuple[float, ...] = file_key(DIRECTION, ())
     start: tuple[float, ...] = file_key(START, ())
     end: tuple[float, ...] = file_key(END, ())
-    of: str = file_key(Text(doc="name of the force, the resultant unless given"), "")
+    of: str = file_key(Text(doc="name of the force; default: the resultant"), "")
 
 
 LINES = Named(

@@ -172,7 +172,7 @@ class RotorBalance(Result):
             blocks.append(
                 Block(
                     "left",
-                    _("Left: the couple of masses beside the plane"),
+                    _("Remaining: the couple of masses outside the plane"),
                     rows,
                     [_("One plane balances statically; two planes take the couple too.")],
                 )

@@ -40,10 +40,10 @@ class Wedge(Problem):
         Quantity("dimensionless", minimum=0.0, doc="coefficient of friction on the slope")
     )
     floor: float | None = file_key(
-        Quantity("dimensionless", minimum=0.0, doc="on the floor, as on the slope unless given"), None
+        Quantity("dimensionless", minimum=0.0, doc="on the floor; default: as on the slope"), None
     )
     wall: float | None = file_key(
-        Quantity("dimensionless", minimum=0.0, doc="on the guiding wall, as on the slope unless given"), None
+        Quantity("dimensionless", minimum=0.0, doc="on the guiding wall; default: as on the slope"), None
     )
     name: str = ""
     source: str = ""

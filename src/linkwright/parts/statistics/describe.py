@@ -113,7 +113,7 @@ def fitted(values: Floats, name: str) -> Fit:
 
 
 def _weibull(values: Floats) -> tuple[float, float, float]:
-    """Shape k, place 0 and scale of greatest likelihood: 1/k = Σ xᵏ ln x/Σ xᵏ − mean of ln x."""
+    """Shape k, place 0 and scale of maximum likelihood: 1/k = Σ xᵏ ln x/Σ xᵏ − mean of ln x."""
     from scipy.optimize import brentq
 
     largest = float(values.max())

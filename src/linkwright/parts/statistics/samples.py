@@ -40,7 +40,7 @@ from linkwright.parts.statistics.hypotheses import AGAINST, TESTS, TOGETHER, Out
 from linkwright.words import Message, Say, _, language_of, pgettext
 from linkwright.words.sentence import in_language
 
-#: A probability below this one is not told apart from nothing.
+#: A probability below this one counts as zero.
 TINY = 1e-12
 #: Values that a fitted distribution needs at least.
 FIT_MINIMUM = 8
@@ -107,7 +107,7 @@ class Fitting:
 
     y: str = file_key(Text(doc="the sample that is explained"))
     on: tuple[str, ...] = file_key(Listed(Text(), "[x]", doc="the samples that explain it"))
-    degree: int = file_key(Integer(1, doc="degree of the polynomial of one sample, 1 unless given"), 1)
+    degree: int = file_key(Integer(1, doc="degree of the polynomial of one sample; default: 1"), 1)
 
 
 @dataclass(frozen=True)
@@ -149,7 +149,7 @@ class Samples(Problem):
         Sample(), _("sample"), doc="samples by name: {unit: mm, values: [20.1, 19.9]}, or [20.1 mm, 19.9 mm]",
     ))  # fmt: skip
     confidence: float = file_key(
-        Quantity("dimensionless", above=0.0, doc="level of intervals and tests, 0.95 unless given"), 0.95
+        Quantity("dimensionless", above=0.0, doc="level of intervals and tests; default: 0.95"), 0.95
     )
     fit: tuple[str, ...] = file_key(
         Listed(Word(tuple(DISTRIBUTIONS)), "[normal, weibull]", doc=f"any of {', '.join(DISTRIBUTIONS)}"), ()
@@ -222,11 +222,11 @@ class Samples(Problem):
                         "too_small",
                         key,
                         _TOO_FEW,
-                        _("give at least {least}"),
+                        _("give at least {minimum}"),
                         sample=name,
                         count=len(values),
                         what=what,
-                        least=minimum,
+                        minimum=minimum,
                     )
                 )
             elif np.ptp(values) == 0.0:
@@ -356,11 +356,11 @@ class Samples(Problem):
                     "too_small",
                     key,
                     _TOO_FEW,
-                    _("give at least {least}"),
+                    _("give at least {minimum}"),
                     sample=fitting.y,
                     count=min(counts),
                     what="regression",
-                    least=minimum,
+                    minimum=minimum,
                 )
             ]
         return (

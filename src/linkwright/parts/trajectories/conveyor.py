@@ -32,7 +32,7 @@ from linkwright.words import Message, Say, _
 LABELS: Mapping[str, Message] = {
     "displacement": _("displacement per cycle"),
     "throw_number": _("throw number max(−a_n)/|g_n|"),
-    "needed_friction": _("least friction that keeps the load at rest"),
+    "needed_friction": _("minimum friction that keeps the load at rest"),
 }
 #: What the load does, in words.
 MODE_NAMES = {
@@ -55,12 +55,10 @@ class Conveyor(OfMechanism):
     link: str = file_key(Text(doc="the link that is the trough"))
     friction: float = file_key(Quantity("dimensionless", minimum=0.0, doc="coefficient of friction at rest"))
     sliding_friction: float | None = file_key(
-        Quantity("dimensionless", minimum=0.0, doc="in motion, as at rest unless given"), None
+        Quantity("dimensionless", minimum=0.0, doc="in motion; default: as at rest"), None
     )
-    incline: float = file_key(
-        Quantity("angle", doc="how much the surface rises along +x, 0 unless given"), 0.0
-    )
-    steps: int = file_key(Integer(36, doc="positions over the cycle, 720 unless given"), CURVE_STEPS)
+    incline: float = file_key(Quantity("angle", doc="how much the surface rises along +x; default: 0"), 0.0)
+    steps: int = file_key(Integer(36, doc="positions over the cycle; default: 720"), CURVE_STEPS)
     name: str = ""
     source: str = ""
 
@@ -101,7 +99,7 @@ class Conveyor(OfMechanism):
                     "uneven",
                     "mechanism",
                     _("the cycle is not closed or not even in time"),
-                    _("drive the mechanism at constant speed over whole turns"),
+                    _("drive the mechanism at constant speed over full turns"),
                 )
             )
         turning = np.abs(motion.link(self.link).angular_velocity).max()
@@ -196,7 +194,7 @@ class Transport(Result):
 
     @cached_property
     def needed_friction(self) -> float:
-        """Least coefficient with which the load would stay at rest; infinite where it is thrown."""
+        """Minimum coefficient with which the load would stay at rest; infinite where it is thrown."""
         along, across = self.conveyor.gravity
         if self.throw_number >= 1.0:
             return math.inf

@@ -33,7 +33,7 @@ LABELS: Mapping[str, Message] = {
     "angle": _("direction at the start"),
     "duration": _("time of flight"),
     "distance": pgettext("trajectory", "distance"),
-    "top": _("greatest height"),
+    "top": _("maximum height"),
     "impact_speed": _("speed at the ground"),
     "impact_angle": _("direction at the ground"),
 }
@@ -51,16 +51,16 @@ class Particle(Problem):
     fields = FileKeys({
         "drag_coefficient": Quantity("dimensionless", minimum=0.0, doc="c_w, for k = ½ ρ c_w A"),
         "area": Quantity("area", above=0.0, doc="cross section A"),
-        "density": Quantity("density", above=0.0, doc="density of the medium, air unless given"),
+        "density": Quantity("density", above=0.0, doc="density of the medium; default: air"),
         "mechanism": Text(doc="model file of a mechanism that throws, in place of speed, angle and height"),
         "point": Text(doc="the point of the mechanism that lets go, such as bucket.P"),
         "at": Quantity("angle", doc="angle of the input at which it lets go"),
-        "ground": Quantity("length", doc="height of the ground in the mechanism's axes, 0 unless given"),
+        "ground": Quantity("length", doc="height of the ground in the mechanism's axes; default: 0"),
     })  # fmt: skip
     speed: float | None = file_key(Quantity("velocity", minimum=0.0, doc="speed at the start"), None)
     angle: float | None = file_key(Quantity("angle", doc="direction of the throw above the horizontal"), None)
     height: float = file_key(
-        Quantity("length", minimum=0.0, doc="height of the start above the ground, 0 unless given"), 0.0
+        Quantity("length", minimum=0.0, doc="height of the start above the ground; default: 0"), 0.0
     )
     mass: float = file_key(Quantity("mass", above=0.0, doc="mass, needed with drag"), 1.0)
     linear: float = file_key(Quantity("damping", minimum=0.0, doc="linear drag b"), 0.0)
@@ -288,7 +288,7 @@ class Flight(Result):
 
     @property
     def top(self) -> float:
-        """Greatest height above the ground, m."""
+        """Maximum height above the ground, m."""
         return float(self.state(np.array([self.top_time]))[1, 0])
 
     @property

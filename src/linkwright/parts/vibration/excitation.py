@@ -79,9 +79,9 @@ EXCITATION = {
 
 
 def sampled_force(excitation: Excitation | None, end: float, step: float) -> tuple[Floats, Floats]:
-    """Times (t,) to the end, no further apart than a step, those of a measured force among them, and that force.
+    """Times (t,) to the end, at most a step between them, those of a measured force among them, and that force.
 
-    The force is zero before and after its table; a time at which it jumps stands twice.
+    The force is zero before and after its table; a time at which it jumps is listed twice.
     """
     times, forces = (
         np.array(each)

@@ -82,7 +82,7 @@ class FollowerSpring(Problem):
     rise_time: float = file_key(Quantity("time", above=0.0, doc="time of the rise"))
     law: MotionLaw | str = file_key(LawOrExpression(doc="a motion law, or an expression of u from 0 to 1"))
     damping_ratio: float = file_key(
-        Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ, 0 unless given"), 0.0
+        Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ; default: 0"), 0.0
     )
     name: str = ""
     source: str = ""

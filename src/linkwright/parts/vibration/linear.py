@@ -100,7 +100,7 @@ class Linear:
     ) -> tuple[Floats, Floats]:
         """Displacements and rates (t, n) at times (t,) under forces (t, n) that are linear between them: exact.
 
-        A time that stands twice is a jump of the force; ``blows``: impulses (n,) by the index of their time.
+        A time listed twice is a jump of the force; ``blows``: impulses (n,) by the index of their time.
         """
         n = len(self.mass)
         inverse = np.linalg.inv(self.mass)

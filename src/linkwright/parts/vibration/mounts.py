@@ -76,7 +76,7 @@ class Mounts(OfMechanism):
 
     kind: ClassVar[str] = "mounts"
     mechanism: Mechanism = file_key(MECHANISM)
-    mass: float = file_key(Quantity("mass", above=0.0, doc="mass of the whole machine"))
+    mass: float = file_key(Quantity("mass", above=0.0, doc="mass of the complete machine"))
     stiffness_x: float | None = file_key(
         Quantity("stiffness", above=0.0, doc="of all mounts along x, where the machine does not rock"), None
     )
@@ -84,18 +84,18 @@ class Mounts(OfMechanism):
         Quantity("stiffness", above=0.0, doc="of all mounts along y, where the machine does not rock"), None
     )
     damping_ratio: float = file_key(
-        Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ, 0 unless given"), 0.0
+        Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ; default: 0"), 0.0
     )
-    steps: int = file_key(Integer(8, doc="positions over the cycle, 360 unless given"), STEPS)
+    steps: int = file_key(Integer(8, doc="positions over the cycle; default: 360"), STEPS)
     mounts: Mapping[str, Mount] = file_key(Named(
         Table.of(Mount), _("mount"),
         doc="every mount by name: {at: [0 m, 0 m], stiffness_x: 1 MN/m, stiffness_y: 2 MN/m}",
     ), dict)  # fmt: skip
     inertia: float | None = file_key(
-        Quantity("inertia", above=0.0, doc="of the whole machine about its mass centre"), None
+        Quantity("inertia", above=0.0, doc="of the complete machine about its mass centre"), None
     )
     mass_centre: tuple[float, float] | None = file_key(Quantities(
-        "length", ("x", "y"), doc="of the whole machine, in the axes of the frame", form="[0.4 m, 0.3 m]",
+        "length", ("x", "y"), doc="of the complete machine, in the axes of the frame", form="[0.4 m, 0.3 m]",
     ), None)  # fmt: skip
     name: str = ""
     source: str = ""
@@ -128,7 +128,7 @@ class Mounts(OfMechanism):
                     "uneven",
                     "mechanism",
                     _("the cycle is not closed or not even in time"),
-                    _("drive the mechanism at constant speed over whole turns"),
+                    _("drive the mechanism at constant speed over full turns"),
                 )
             ]
         )
@@ -148,7 +148,7 @@ class Mounts(OfMechanism):
                     "too_light",
                     "mass",
                     _("the machine is lighter than its moving links ({moving} kg)"),
-                    _("give the mass of the whole machine"),
+                    _("give the mass of the complete machine"),
                     moving=moving,
                 )
             )

@@ -489,7 +489,7 @@ class Vibration(Result):
 
     @cached_property
     def _response(self) -> tuple[Floats, Floats, Floats]:
-        """Times (t,), displacements and velocities (t, n); a time at which the force jumps stands twice."""
+        """Times (t,), displacements and velocities (t, n); a time at which the force jumps is listed twice."""
         system = self.system
         excitation = system.excitation
         last = excitation.times[-1] if excitation is not None and excitation.times else 0.0
@@ -544,7 +544,7 @@ class Vibration(Result):
             (
                 say(
                     _(
-                        "{count} of the modes are free motions of the whole: nothing ties it to the ground.",
+                        "{count} of the modes are free motions: nothing ties the system to the ground.",
                         count=loose,
                     )
                 ),

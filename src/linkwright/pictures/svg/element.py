@@ -80,7 +80,7 @@ def path_data(points: Floats, *, closed: bool = False) -> str:
 
 NARROW = frozenset("iljfI.,:;'|![]() ")
 WIDE = frozenset("mwMW@%")
-#: Stands for a space at which no line breaks.
+#: A space at which no line breaks.
 _HELD = "\u2060"
 _INDEX = re.compile(r"^(?P<stem>[^\W\d_]{1,2}'*)_?(?P<index>\d+'*)$")
 

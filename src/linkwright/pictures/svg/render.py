@@ -30,7 +30,7 @@ MOST_PIXELS, MIN_WIDTH = 100_000_000, 8
 def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths = ()) -> bytes:
     """The picture in pixels: ``width`` of them across, or ``zoom`` for each unit of the SVG.
 
-    ``fonts`` are files, or folders of them, used beside the system's. Raises LinkwrightError where resvg-py is not
+    ``fonts`` are files, or folders of them, used before the system's. Raises LinkwrightError where resvg-py is not
     installed, for a width below 8 or with more than a hundred million pixels, or where the text has Chinese
     characters and no font for them is found.
     """
@@ -83,11 +83,11 @@ def check_width(width: int | None, wide: float, tall: float, zoom: float = 1.0) 
     if not MIN_WIDTH <= across <= most:
         raise RequestError(
             _(
-                "a picture cannot be {across:.12g} pixels wide; give a width from {least} to {most}",
+                "a picture cannot be {across:.12g} pixels wide; give a width from {minimum} to {maximum}",
                 code="picture.bad_width",
                 across=across,
-                least=MIN_WIDTH,
-                most=most,
+                minimum=MIN_WIDTH,
+                maximum=most,
             )
         )
 

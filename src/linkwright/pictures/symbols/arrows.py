@@ -126,7 +126,7 @@ def dimension_line(
     offset: float = 26.0,
     rises: tuple[float, float] = (0.0, 0.0),
 ) -> Shape:
-    """A line with two heads beside the distance from ``start`` to ``end``, with extension lines.
+    """A line with two heads next to the distance from ``start`` to ``end``, with extension lines.
 
     ``offset``: to the right of the way from start to end on the paper, negative: to the left. ``rises``: how far
     to the right of start and end the places lie from which the extension lines come.

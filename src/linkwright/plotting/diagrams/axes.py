@@ -103,7 +103,7 @@ def label_input(axes: Axes, axis: InputAxis, say: Say) -> None:
 
 
 def _angle_ticks(axes: Axes, span: float) -> None:
-    """Ticks below at whole shares of a turn, for an axis that shows ``span`` degrees."""
+    """Ticks below at integer fractions of a turn, for an axis that shows ``span`` degrees."""
     from matplotlib.ticker import MultipleLocator
 
     step = next((each for each in ANGLE_STEPS if span / each <= 12.5), None)

@@ -65,7 +65,7 @@ class Request:
         )
 
     def heading(self, title: str) -> str:
-        """What stands above a diagram: the title that is asked for, else its own."""
+        """The line above a diagram: the title that is asked for, else its own."""
         return title if self.title is None else self.title
 
 
@@ -90,7 +90,7 @@ class Kind(ABC):
 
     @abstractmethod
     def draw(self, sources: Sequence[Source], request: Request) -> Figure | Drawing:
-        """The figure, or a drawing; several sources lie over each other, told apart by colour.
+        """The figure, or a drawing; several sources are overlaid in different colours.
 
         Raises LinkwrightError for unknown names, and where the diagram makes no sense for a mechanism.
         """
@@ -103,7 +103,7 @@ class ResultDiagram:
     ``title``: what it is called in titles; ``takes``: the type of the results; ``options``: those of OPTIONS that it
     has a use for; ``usual``: whether it may be drawn where no kind is named; ``draw(result, request)`` raises
     LinkwrightError for unknown names, and where there is nothing to draw; ``when``: which results of the type have
-    something to draw; ``to_scale``: whether a millimetre of paper stands for what the picture says it does.
+    something to draw; ``to_scale``: whether it is printed to the scale that it states.
     """
 
     title: Message

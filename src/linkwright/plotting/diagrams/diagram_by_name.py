@@ -203,7 +203,7 @@ def _sources(result: object, *, static: bool) -> list[Source]:
     if len(found) > 1 and len({source.label for source in found}) < len(found):
         raise RequestError(
             _(
-                "results of equal names cannot be told apart; give labels: plot({{'a': …, 'b': …}})",
+                "results have equal names; give labels: plot({{'a': …, 'b': …}})",
                 code="picture.equal_names",
             )
         )

@@ -1,4 +1,4 @@
-"""Force polygons of links to scale for one position, beside the mechanism, group by group as statics takes them."""
+"""Force polygons of links to scale for one position, next to the mechanism, group by group as statics takes them."""
 
 from __future__ import annotations
 

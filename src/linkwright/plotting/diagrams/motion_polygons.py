@@ -1,4 +1,4 @@
-"""Velocity and acceleration polygons to scale, beside the position they belong to."""
+"""Velocity and acceleration polygons to scale, next to the position they belong to."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from linkwright.words import _
 
 #: Longest extent of the polygon on the paper, mm.
 POLYGON = 110.0
-#: Least width of a column of sizes, units.
+#: Minimum width of a column of sizes, units.
 COLUMN = 168.0
 #: Letters of the pole, the first one that no point has.
 POLES = ("p", "π", "o", "p*")

@@ -40,7 +40,7 @@ DASHES = ("-", "--", ":", "-.")
 
 @dataclass(frozen=True)
 class Level:
-    """A value that holds over the whole cycle, such as a mean."""
+    """A value that holds over the full cycle, such as a mean."""
 
     label: str
     value: float
@@ -84,7 +84,7 @@ def with_mean(
 
 
 def _readable(unit: Unit, dimension: str, value: float, values: Floats) -> str:
-    """A value with the unit of its axis, or one of its own where it is small beside the values, but no rounding."""
+    """A value with the unit of its axis, or one of its own where it is small against the values, but no rounding."""
     if ROUNDING * largest(values) < abs(value) < SMALL / unit.factor:
         unit = unit_of(dimension, [np.array([value])])
     return unit.text(value)
@@ -103,7 +103,7 @@ class OverInput(Kind):
         """The panels of one source, from the top down; the same number for every source."""
 
     def subject(self, sources: Sequence[Source], request: Request) -> str:
-        """What the title names beside the mechanism."""
+        """What the title names besides the mechanism."""
         return request.say(self.title)
 
     def output(self, source: Source, request: Request) -> Output | None:

@@ -24,12 +24,12 @@ from linkwright.words import Say, _
 
 #: Printed width of a unit of the paper, mm.
 MILLIMETRE = 0.25
-#: Least width of a page and of a cell, space between cells, length of the line that shows a scale: units.
+#: Minimum width of a page and of a cell, space between cells, length of the line that shows a scale: units.
 MIN_WIDTH, NARROWEST, SPACING, BAR = 600.0, 168.0, 36.0, 80.0
-#: Sizes of letters and heights of lines: of the heading, of titles, of what stands below.
+#: Sizes of letters and heights of lines: of the heading, of titles, of texts below.
 HEADING, TITLE, SIZE, LINE = 15.0, 12.0, 11.0, 17.6
 #: A picture flatter than FLAT mm is drawn up to WIDE mm long, one that stands upright up to HIGH mm, so that its page
-#: has room beneath it; one that stays below THIN mm has its arrows side by side, SIDE mm apart.
+#: has room beneath it; one that stays below THIN mm has its arrows side by side at SIDE mm.
 FLAT, WIDE, HIGH, THIN, SIDE = 12.0, 190.0, 110.0, 3.0, 3.0
 #: Longest extent of a polygon, mm; vectors that are shorter on the paper have no name of their own, mm; where along
 #: one its name may stand.
@@ -43,7 +43,7 @@ Below = Sequence[Sequence[tuple[Written, float]]]
 
 
 class Placed(Protocol):
-    """What stands in a cell of a page, below the lines of its title."""
+    """The content of a cell of a page, below the lines of its title."""
 
     @property
     def title(self) -> tuple[Words, ...]:
@@ -51,7 +51,7 @@ class Placed(Protocol):
 
     @property
     def width(self) -> float:
-        """Its width with the space beside it, units."""
+        """Its width with the space next to it, units."""
 
     def put(self, page: Sketch, left: float, top: float, head: int) -> float:
         """Puts it on the page below ``head`` lines of titles; where it ends below."""
@@ -59,7 +59,7 @@ class Placed(Protocol):
 
 @dataclass(frozen=True)
 class Cell:
-    """A sketch of the page with its title, texts below it, and what a line of BAR stands for, drawn with it."""
+    """A sketch of the page with its title, texts below it, and the length that a line of BAR represents."""
 
     sketch: Sketch
     title: tuple[Words, ...]

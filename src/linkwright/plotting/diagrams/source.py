@@ -146,7 +146,7 @@ class Source:
         return found
 
     def angle_extremes(self, signal: Callable[[Motion], Floats], shown: Floats) -> Extremes | None:
-        """The same of an angle, in the turn in which it is ``shown`` (n,); None of one that gains whole turns."""
+        """The same of an angle, in the turn in which it is ``shown`` (n,); None of one that gains full turns."""
         if not abs(shown[-1] - shown[0]) < TURN / 2:
             return None
         between = self.extremes(signal)
@@ -227,7 +227,7 @@ class Source:
     def closed(self, values: Floats, *, turns: bool = False) -> Floats:
         """Values at all positions (n, …), the first one repeated where the cycle ends.
 
-        ``turns``: an angle, which may have gained whole turns by then.
+        ``turns``: an angle, which may have gained full turns by then.
         """
         if self._end is None:
             return values

@@ -208,14 +208,14 @@ def _of_link(motion: Motion, name: str, quantity: str) -> Floats:
 
 
 def _flat(angles: list[Floats]) -> bool:
-    """Whether the angles lie so far apart that their changes would not be seen in one panel."""
+    """Whether the angles differ so much that their changes would be invisible in one panel."""
     placed = [_near_zero(each)[np.isfinite(each)] for each in angles]
     every = np.concatenate(placed)
     return len(angles) > 1 and max(float(np.ptp(each)) for each in placed) < 0.25 * float(np.ptp(every))
 
 
 def _near_zero(angle: Floats) -> Floats:
-    """An angle moved by whole turns so that its middle lies within half a turn of zero."""
+    """An angle moved by full turns so that its middle lies within half a turn of zero."""
     good = angle[np.isfinite(angle)]
     if not len(good):
         return angle

@@ -1,4 +1,4 @@
-"""Dimensions of links and between points: lengths beside the machine, angles as arcs."""
+"""Dimensions of links and between points: lengths next to the machine, angles as arcs."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 Names = Sequence[str] | bool
 MOST_FADED = 60
-#: What is said where there is nothing to draw.
+#: Message where there is nothing to draw.
 NO_FORCES = _("no forces: the links have no mass and there are no loads (mass: 5 kg, loads: …)")
 ZERO = {
     "force": _("all forces are zero at this position"),
@@ -214,7 +214,7 @@ def laid_out_with_ghosts(
     centres: bool,
     diagonal: float = DIAGONAL,
 ) -> tuple[Scene, int, list[int]]:
-    """The scene of a motion with positions beside it; their indices in the scene."""
+    """The scene of a motion with ghost positions; their indices in the scene."""
     others = [each for each in (shown, *ghosts) if each.motion is not motion]
     places = {(id(each.motion), each.index): motion.steps + k for k, each in enumerate(others)}
 

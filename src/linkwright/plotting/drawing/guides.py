@@ -106,7 +106,7 @@ def _block_on_guide(machine: Machine, name: str, joint: SlidingJoint) -> Iterato
 
 
 def _rod(machine: Machine, joint: SlidingJoint, low: float, high: float) -> Iterator[Part]:
-    """The line of a guide on a moving link, long enough for the whole travel, and its tie to the link."""
+    """The line of a guide on a moving link, long enough for the full travel, and its tie to the link."""
     start, way = line_start(machine, joint), direction(machine, joint)
     through = machine.local(joint.guide, joint.through)
     named = (machine.local(joint.guide, point) for point in joint.direction_points or ())

@@ -1,4 +1,4 @@
-"""What drawings show of a joint beside its links: wheels, racks, strands, cams and what touches them."""
+"""What drawings show of a joint besides its links: wheels, racks, strands, cams and what touches them."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def _meshing(joint: GearPair, mechanism: Mechanism, tooth: Teeth) -> tuple[float
     """Where a tooth of each wheel is, rad in its axes, so that teeth of one lie in gaps of the other.
 
     With the numbers of pitches u, v from a tooth to the pitch point, counter-clockwise: u + v (external) or v - u
-    (internal) is a whole number and a half, in all positions if it is in one.
+    (internal) is an integer and a half, in all positions if it is in one.
     """
     assert joint.teeth is not None
     points = mechanism.link(joint.carrier).points

@@ -113,7 +113,7 @@ class Part:
 class Machine:
     """A motion with the placements of its links and the view it is drawn in.
 
-    ``beside``: motions and positions in them that follow those of the motion in the placements.
+    ``others``: motions and positions in them that follow those of the motion in the placements.
     """
 
     motion: Motion

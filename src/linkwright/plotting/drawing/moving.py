@@ -27,7 +27,7 @@ def animate_element(attribute: str, values: Sequence[str], seconds: float) -> El
 
 
 def shifted(shifts: Floats, seconds: float, content: Sequence[SvgNode]) -> Element:
-    """A group whose shift (n, 2) is animated; without animation it stands at the first."""
+    """A group whose shift (n, 2) is animated; without animation it is at the first."""
     if np.ptp(shifts, axis=0).max() < 0.005:
         return group(content, transform=shift_text(shifts[0]))
     return group([_shifting(shifts, seconds), *content], transform=shift_text(shifts[0]))
@@ -131,7 +131,7 @@ class Panel:
     bottom: float
 
     def cursor_x(self, share: float) -> float:
-        """Where the cursor stands after a share of the motion."""
+        """The cursor's place after a share of the motion."""
         return self.left + share * self.width
 
     def cursor(self, x: float = 0.0) -> Element:

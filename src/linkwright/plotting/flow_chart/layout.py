@@ -75,7 +75,7 @@ class Word:
 
 @dataclass
 class Page:
-    """What stands on a page: symbols, lines, words, connectors with their letters."""
+    """The content of a page: symbols, lines, words, connectors with their letters."""
 
     boxes: list[Box] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)

@@ -1,4 +1,4 @@
-"""Pages of free-body diagrams: pictures in rows, the numbers of each below it, scales and symbols said."""
+"""Pages of free-body diagrams: pictures in rows, the numbers of each below it, with scales and symbols."""
 
 from __future__ import annotations
 
@@ -231,8 +231,8 @@ def _key(cells: Sequence[Cell], say: Say) -> Iterator[str]:
     if any(cell.shortened for cell in cells):
         yield say(
             _(
-                "dashed arrows are shorter than {least} mm to scale and drawn {drawn} mm long",
-                least=f"{SHORT:g}",
+                "dashed arrows are shorter than {minimum} mm to scale and drawn {drawn} mm long",
+                minimum=f"{SHORT:g}",
                 drawn=f"{STUB:g}",
             )
         )

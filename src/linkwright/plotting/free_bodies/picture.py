@@ -51,7 +51,7 @@ class Arrow:
 
     @property
     def elements(self) -> tuple[SvgNode, ...]:
-        """The arrow with its line of action up to its place, where it stands apart from that."""
+        """The arrow with its line of action up to its place, where it is drawn away from that."""
         style = STYLES[self.action.role]
         shown = SYMBOLS["arrow"](start=vec(self.foot), end=vec(self.point), style=style).elements
         arrow = group(shown, None if self.to_scale else "lw-short", **{"data-action": self.action.symbol})
@@ -150,7 +150,7 @@ def arcs(couples: Sequence[Action], view: View) -> tuple[list[SvgNode], list[Flo
 SIZES = (
     (46.0, 28.0), (38.0, 25.0), (31.0, 22.0), (25.0, 18.0), (20.0, 14.0), (16.0, 11.0), (12.0, 8.0), (7.0, 6.0),
 )  # fmt: skip
-#: Millimetres of the whole machine where sizes are read off a drawing of it.
+#: Millimetres of the complete machine where sizes are read off a drawing of it.
 FINE = 400.0
 
 
@@ -182,7 +182,7 @@ class LinkShapes:
         return Scene(machine, tuple(own))
 
     def reach(self, link: str) -> float:
-        """The longer side of a link as it stands, with its wheels and racks, m; zero of one that is a point."""
+        """The longer side of a link in its position, with its wheels and racks, m; zero of one that is a point."""
         body = self.motion.mechanism.links[link]
         places = [self._placed[link].world(at)[self.index] for at in (*body.points.values(), body.centre)]
         scene = self.scene(self._extent / FINE)
@@ -194,7 +194,7 @@ class LinkShapes:
 
     @cached_property
     def _extent(self) -> float:
-        """The longer side of all points as they stand, m."""
+        """The longer side of all points in their position, m."""
         links = self.motion.mechanism.links.values()
         places = [
             self._placed[link.name].world(at)[self.index] for link in links for at in link.points.values()

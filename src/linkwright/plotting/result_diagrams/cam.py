@@ -125,7 +125,7 @@ def _coloured(result: CamDesign, request: Request) -> tuple[np.ndarray, str]:
 
 @result_diagram("cam_vibration", _("vibration over the speed"), CamDesign, usual=False)
 def draw_cam_vibration(result: CamDesign, request: Request) -> Figure:
-    """What the follower does beside the cam's motion, over the speed."""
+    """The follower's deviation from the cam's motion, over the speed."""
     if result.cam.elasticity is None:
         raise RequestError(NO_FOLLOWER)
     top = 2.0 * (result.loading.speed or 0.25 * result.own_frequency)

@@ -160,7 +160,7 @@ Group = tuple[str, tuple[MetricValue, ...]]
 def draw_metrics(result: MetricsTable, request: Request) -> Figure:
     """A row of dots for every subject of a metric, an axis for every metric and unit, with its recommended limit.
 
-    The side on which the limit is not kept is shaded. Without ``of``: the metrics that have a limit.
+    The side beyond the limit is shaded. Without ``of``: the metrics that have a limit.
     """
     groups = _groups(result, request)
     heights = [AXIS + ROW * len(rows) for _unused, rows in groups]

@@ -85,7 +85,7 @@ def _ground(axes: Axes, values: Floats, label: str, between: str) -> None:
 
 
 def _failed(axes: Axes, x: Floats, legend: Legend, request: Request) -> None:
-    """Crosses on the axis below for designs that cannot move; those too close to be told apart once."""
+    """Crosses on the axis below for designs that cannot move; those too close to distinguish once."""
     if not len(x):
         return
     many = len(x) > RUG

@@ -25,7 +25,7 @@ from linkwright.plotting.result_diagrams.design_space import chosen
 from linkwright.words import _
 from linkwright.words.sentence import in_language
 
-#: A front of less than this share of the way to the start would be a dot beside it; the start stays outside then.
+#: A front of less than this share of the way to the start would be a dot next to it; the start stays outside then.
 NEAR = 0.1
 
 

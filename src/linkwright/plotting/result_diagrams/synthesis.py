@@ -36,7 +36,7 @@ AXES = {
 def draw_synthesis(result: Synthesis, request: Request) -> Figure:
     """The best candidates in their first pose with the curves they draw, the target, and Burmester's curves.
 
-    Functions are drawn beside them over the input.
+    Functions are drawn next to them over the input.
     """
     function = any(each.curve is not None and each.curve.ndim == 2 for each in result.candidates)
     figure = new_figure(request.size or ((11, 5.2) if function else (7.5, 6)))

@@ -94,7 +94,7 @@ def _line_load(paper: Sketch, name: str, load: BeamLoad, beam: Beam, scale: floa
 
 
 def _dimensions(paper: Sketch, beam: Beam, scale: float) -> None:
-    """Distances between everything that is at a place, and the whole length below them."""
+    """Distances between everything that is at a place, and the full length below them."""
     places = {0.0, beam.length, *beam.hinges, *(each.at for each in beam.supports.values())}
     places |= {each.start for each in beam.steps}
     for load in beam.loads.values():

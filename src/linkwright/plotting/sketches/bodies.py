@@ -111,7 +111,7 @@ def _held(paper: Sketch, word: str, at: Floats, view: Floats) -> None:
 
 
 def _dimensions(paper: Sketch, places: Floats, scale: float) -> None:
-    """Distances between the points across below the body, and up beside it."""
+    """Distances between the points across below the body, and up next to it."""
     low = float(max(np.concatenate([line[:, 1] for line in paper.ink]))) + 30.0
     left = float(min(np.concatenate([line[:, 0] for line in paper.ink]))) - 30.0
     for axis in (0, 1):

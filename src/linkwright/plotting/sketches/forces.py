@@ -24,7 +24,7 @@ FLAT = np.array([(1.0, 0.0), (0.0, -1.0), (0.0, 0.0)])
 
 
 def projection(*vectors: Floats) -> Floats:
-    """Rows (3, 2) that put a vector on the paper: seen along z where all vectors (3,) lie in the plane."""
+    """Rows (3, 2) that put a vector on the paper: along z where all vectors (3,) lie in the plane."""
     return FLAT if not any(each[2] for each in vectors) else ISOMETRIC
 
 

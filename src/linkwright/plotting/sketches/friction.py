@@ -21,7 +21,7 @@ RADIUS, FREE, WEDGE, LOAD = 84.0, 96.0, 300.0, 90.0
 
 @sketched("belt")
 def draw_belt(belt: Belt, language: str) -> Drawing:
-    """The drum with its belt over the angle of contact, tensions, torque and friction; whole turns left out."""
+    """The drum with its belt over the angle of contact, tensions, torque and friction; full turns left out."""
     paper, wrap = Sketch(), belt.wrap if belt.wrap <= 2 * math.pi else belt.wrap % (2 * math.pi)
     paper.put("disc", at=(0.0, 0.0), radius=RADIUS)
     paper.put("fixed_pivot", at=(0.0, 0.0), toward=(0.0, 1.0))

@@ -23,7 +23,7 @@ WIDTH, HEIGHT, GAP, ROW = 78.0, 62.0, 104.0, 28.0
 
 @sketched("vibration")
 def draw_system(system: VibratingSystem, language: str) -> Drawing:
-    """Masses in a row; ties between neighbours beside each other, longer ones above, those of inner masses to the
+    """Masses in a row; connectors between neighbours side by side, longer ones above, those of inner masses to the
     ground below."""
     paper, names = Sketch(), list(system.masses)
     kinds = TURNING if system.turning else STRAIGHT
@@ -67,7 +67,7 @@ def _bundle(
     paper: Sketch, first: int, last: int, bundle: Sequence[tuple[str, Tie, str]], left: Mapping[str, float],
     names: Sequence[str], tall: float, kinds: Mapping[str, str],
 ) -> None:  # fmt: skip
-    """Springs and dampers that join the same two, beside each other."""
+    """Springs and dampers that join the same two, side by side."""
     count = len(bundle)
     if first == last:
         x = left[names[first]] + WIDTH / 2

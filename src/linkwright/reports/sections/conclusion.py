@@ -354,7 +354,7 @@ class _Conclusion:
 
 
 def _lowest(rows: Sequence[MetricValue]) -> MetricValue | None:
-    """The value that is lowest beside its limit."""
+    """The value that is lowest relative to its limit."""
     known = [row for row in rows if math.isfinite(row.value)]
     return min(known, key=lambda row: row.value / (row.limit or 1.0), default=None)
 

@@ -15,7 +15,7 @@ from linkwright.reports.section import section
 from linkwright.reports.sections.curves import pictures
 from linkwright.words import _
 
-#: Why machines have neither motor nor flywheel: another drive, no work over whole turns.
+#: Why machines have neither motor nor flywheel: another drive, no work over full turns.
 WITHOUT = ("running.one_driver", "running.not_constant", "running.not_whole_turns", "running.no_work")
 
 

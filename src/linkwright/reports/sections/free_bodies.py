@@ -28,7 +28,7 @@ def blocks(case: Case) -> Iterator[Block]:
     place = literal(case.worked_text)
     message = (
         _(
-            "{figure} shows every link by itself, as it stands at {place}, with all that acts on "
+            "{figure} shows every link by itself, in its position at {place}, with all that acts on "
             "it; the links come in the order of the force analysis. A joint force F with the "
             "index 12 is what link 1 exerts on link 2.",
         )

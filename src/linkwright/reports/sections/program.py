@@ -31,7 +31,7 @@ def blocks(case: Case) -> Iterator[Block]:
                 "The program solves the machine at the {count} positions of the tables, group by "
                 "group in solving order, with the functions of linkwright.dyads, and prints every "
                 "column as comma-separated values in SI units. `linkwright export FILE --to "
-                "solution.py` writes it as a file, over the whole cycle.",
+                "solution.py` writes it as a file, over the full cycle.",
                 count=len(listing.rows),
             )
         )

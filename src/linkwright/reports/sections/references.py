@@ -44,7 +44,7 @@ def own_sources(own: Settings) -> Iterator[Block]:
 
 
 def _groups(case: Case) -> Sequence[Group]:
-    """The groups, none where the machine cannot be taken apart."""
+    """The groups, none where the machine cannot be decomposed."""
     try:
         return case.structure.groups
     except LinkwrightError:

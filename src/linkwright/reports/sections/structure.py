@@ -1,4 +1,4 @@
-"""Structure analysis: mobility with the formula and its numbers, groups drawn apart, class."""
+"""Structure analysis: mobility with the formula and its numbers, groups drawn separately, class."""
 
 from __future__ import annotations
 
@@ -48,14 +48,14 @@ def blocks(case: Case) -> Iterator[Block]:
 
 
 def _pictures(case: Case) -> Block:
-    """The groups drawn apart, or why they cannot be."""
+    """The groups drawn separately, or why they cannot be."""
     try:
         pictures = to_one_scale([group_picture(case, group) for group in case.structure.groups])
     except LinkwrightError as error:
         return Paragraph(literal(case.message(error)), "missing")
     names = ", ".join(f"{n} {group.signature}" for n, group in enumerate(case.structure.groups, 1))
     caption = case.say(
-        _("The groups apart from the machine, in solving order: {names}", names=literal(names))
+        _("The groups, separated from the machine, in solving order: {names}", names=literal(names))
     )
     return Figure(caption, pictures, "group-pictures")
 

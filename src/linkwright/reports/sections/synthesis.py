@@ -17,7 +17,7 @@ from linkwright.synthesis.task_file import TaskFile
 from linkwright.words import Say, _
 from linkwright.words.sentence import in_language
 
-#: Share of the page's width that a diagram takes, and one with a function beside the linkages.
+#: Share of the page's width that a diagram takes, and one with a function next to the linkages.
 WIDTH, WIDE = 0.75, 1.0
 #: Captions of diagrams.
 CAPTIONS = {

@@ -21,7 +21,7 @@ from linkwright.reports.machine_results import Case
 from linkwright.reports.section import section
 from linkwright.words import Message, Say, _, pgettext
 
-#: Entries of a list that is printed whole.
+#: Entries of a list that is printed in full.
 LONGEST = 12
 #: Keys of a driver that name its law.
 LAWS = ("speed", "table", "program", "position")
@@ -63,7 +63,7 @@ def blocks(case: Case) -> Iterator[Block]:
         yield printed(Table((_("name"), _("value")), rows, "<>", _("Parameters")), case.language)
     drivers = {"driver": data["driver"]} if "driver" in data else data.get("drivers", {})
     for title, part in (
-        (_("Joints beside the pins"), data.get("joints", {})),
+        (_("Joints other than pins"), data.get("joints", {})),
         (_("Drivers"), drivers),
         (_("Loads"), data.get("loads", {})),
     ):

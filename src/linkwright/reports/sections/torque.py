@@ -20,7 +20,7 @@ from linkwright.words import _
 
 @section("torque", _("Driving effort by two methods"), 9.0, optional=True)
 def blocks(case: Case) -> Iterator[Block]:
-    """Effort from the joint forces beside effort from the powers of all forces."""
+    """Effort from the joint forces next to effort from the powers of all forces."""
     if not case.mechanism.drivers:
         raise Missing(_("the machine has no driver, so nothing moves", code="report.no_motion"))
     say, forces, numbered = case.say, case.forces, case.numbered

@@ -30,8 +30,8 @@ TEXT, TALLEST = 170.0, 225.0
 ON_PAGE, SMALL = 5, 0.6
 #: Captions of polygons.
 CAPTIONS = {
-    "velocity_polygon": _("Velocity polygon, beside the position"),
-    "acceleration_polygon": _("Acceleration polygon, beside the position"),
+    "velocity_polygon": _("Velocity polygon, next to the position"),
+    "acceleration_polygon": _("Acceleration polygon, next to the position"),
     "force_polygon": _("Force polygons of the links, group by group"),
 }
 

@@ -17,7 +17,7 @@ from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.words import Say, _
 
 _DENSE = 1440
-#: Room beside the developed cylinder for numbers and names, and how far its edges lie beyond the groove, mm.
+#: Room around the developed cylinder for numbers and names, and how far its edges lie beyond the groove, mm.
 _MARGIN, _EDGE = 10.0, 6.0
 #: How far and whither leaders of names go, mm.
 _LEADER = np.array([-9.0, 11.0])

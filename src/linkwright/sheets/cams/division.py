@@ -1,4 +1,4 @@
-"""The divided angles of a cam's sheet, and where the follower stands against the cam at them, as the cam sees it.
+"""The divided angles of a cam's sheet, and the follower's position relative to the cam at them.
 
 Places are complex, m, in the cam's axes: the frame is turned back by the cam's angle, the inversion that profiles are
 drawn by.

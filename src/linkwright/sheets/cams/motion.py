@@ -37,7 +37,7 @@ class Strip:
 
     @property
     def label(self) -> Runs:
-        """What stands at its ordinate: ``v/(m/s)``."""
+        """The label of its ordinate: ``v/(m/s)``."""
         unit = f"/({self.unit})" if "/" in self.unit else f"/{self.unit}"
         return joined(indexed(self.symbol, self.index), unit if self.unit else "")
 
