@@ -23,7 +23,7 @@ from linkwright.words import _
 NOTHING_STORED = _("Nothing new had been computed; run the same command again.")
 SETTINGS = {
     "vary": "ADDRESS=RANGE", "minimize": "NUMBER", "maximize": "NUMBER", "keep": "NUMBER=DEMAND",
-    "define": "NAME=NUMBER", "tolerance": "ADDRESS=VALUE", "robust": "worst|yield", "least_yield": "SHARE",
+    "define": "NAME=NUMBER", "tolerance": "ADDRESS=VALUE", "robust": "worst|yield", "min_yield": "SHARE",
     "evaluations": "N", "seed": "N",
 }  # fmt: skip
 
@@ -61,7 +61,7 @@ def run(options: Options, session: Session) -> int:
     from linkwright.designs.optimise.optimize import optimize
     from linkwright.designs.optimise.optimum import OptimizeError
 
-    settings = {"yield" if key == "least_yield" else key: getattr(options, key) for key in SETTINGS}
+    settings = {"yield" if key == "min_yield" else key: getattr(options, key) for key in SETTINGS}
     try:
         with on_cluster(options.cluster), progress(session, _("searching")) as report:
             found = optimize(options.file, state=options.state, progress=report, **settings)
