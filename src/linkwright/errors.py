@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
-from linkwright.words import LANGUAGES, Message, Say, _, say
+from linkwright.words import LANGUAGES, Message, Translate, _, say
 from linkwright.words.sentence import code_of, in_language, values_of
 
 Severity = Literal["error", "warning", "note"]
@@ -175,7 +175,7 @@ def require_language(language: str) -> None:
         )
 
 
-def speaker(language: str) -> Say:
+def speaker(language: str) -> Translate:
     """``say`` for one language: ``speaker("zh")("cli.error")``; raises UnknownName for one without words."""
     require_language(language)
     return partial(say, language=language)

@@ -15,7 +15,7 @@ from tests.refusals import agrees, values_of
 from linkwright.cli import main
 from linkwright.errors import LinkwrightError, ModelError
 
-Say = Callable[..., str]
+Translate = Callable[..., str]
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ def errors_said() -> Iterator[list[LinkwrightError]]:
     said: list[LinkwrightError] = []
     depth = 0
 
-    def noted(say: Say) -> Say:
+    def noted(say: Translate) -> Translate:
         def noting(error: LinkwrightError, language: str = "en") -> str:
             nonlocal depth
             depth += 1

@@ -14,7 +14,7 @@ from linkwright.core.search import first_largest
 from linkwright.equations.steps import Step
 from linkwright.laws.program import MotionProgram
 from linkwright.laws.smoothest import FoundProgram
-from linkwright.words import Message, Say, _, language_of
+from linkwright.words import Message, Translate, _, language_of
 from linkwright.words.sentence import in_language
 
 #: Places that a remark lists at most.
@@ -26,9 +26,15 @@ RATES = {
 }
 
 
-def blocks(design: CamDesign, say: Say) -> list[Block]:
+def blocks(design: CamDesign, say: Translate) -> list[Block]:
     """Sizes, motion, shape, forces and vibration, as far as they apply."""
-    makers: list[Callable[[CamDesign, Say], Block | None]] = [_sizes, _motion, _shape, _forces, _vibration]
+    makers: list[Callable[[CamDesign, Translate], Block | None]] = [
+        _sizes,
+        _motion,
+        _shape,
+        _forces,
+        _vibration,
+    ]
     return [block for make in makers if (block := make(design, say)) is not None]
 
 
@@ -37,7 +43,7 @@ def at(place: float) -> Message:
     return _("at {place}°", place=f"{math.degrees(place) % 360:.6g}")
 
 
-def _sizes(design: CamDesign, say: Say) -> Block:
+def _sizes(design: CamDesign, say: Translate) -> Block:
     cam, follower = design.cam, design.cam.follower
     rows: list[Row] = []
     if cam.barrel_radius is not None:
@@ -69,7 +75,7 @@ def _sizes(design: CamDesign, say: Say) -> Block:
     return Block("sizes", _("Sizes"), rows)
 
 
-def _motion(design: CamDesign, say: Say) -> Block:
+def _motion(design: CamDesign, say: Translate) -> Block:
     program, speed = design.cam.program, design.loading.speed
     kinds = RATES[design.cam.follower.lift_dimension]
     rows = [Row("lift", program.lifts[1] - program.lifts[0], kinds[0])]
@@ -92,7 +98,7 @@ def _motion(design: CamDesign, say: Say) -> Block:
     return Block("motion", _("Motion"), rows, _remarks(design, say))
 
 
-def _remarks(design: CamDesign, say: Say) -> list[Message]:
+def _remarks(design: CamDesign, say: Translate) -> list[Message]:
     """Junctions where something jumps; what binds a program that was found."""
     program = design.cam.program
     if isinstance(program, FoundProgram):
@@ -111,7 +117,7 @@ def _remarks(design: CamDesign, say: Say) -> list[Message]:
     return found
 
 
-def _shape(design: CamDesign, say: Say) -> Block:
+def _shape(design: CamDesign, say: Translate) -> Block:
     rows = []
     flat = design.cam.follower.kind == "flat" and not design.cam.follower.oscillating
     if not flat:
@@ -169,7 +175,7 @@ def _broken_limits(design: CamDesign) -> list[Message]:
     return found
 
 
-def _forces(design: CamDesign, say: Say) -> Block | None:
+def _forces(design: CamDesign, say: Translate) -> Block | None:
     if not design.loaded or design.cam.barrel_radius is not None:
         return None
     turning = design.cam.follower.oscillating
@@ -216,7 +222,7 @@ def _weak_spring(design: CamDesign) -> list[Message]:
     ]
 
 
-def _vibration(design: CamDesign, say: Say) -> Block | None:
+def _vibration(design: CamDesign, say: Translate) -> Block | None:
     cam, speed = design.cam, design.loading.speed
     if cam.elasticity is None or not design.loading.mass or not speed:
         return None
@@ -230,7 +236,7 @@ def _vibration(design: CamDesign, say: Say) -> Block | None:
     return Block("vibration", _("Vibration"), rows)
 
 
-def steps(design: CamDesign, say: Say) -> list[Step]:
+def steps(design: CamDesign, say: Translate) -> list[Step]:
     """Start position, pressure angle and curvature with their formulas and numbers."""
     cam, follower = design.cam, design.cam.follower
     first = Step("1", say(_("Start position")))

@@ -25,7 +25,7 @@ from linkwright.equations.steps import Step
 from linkwright.errors import RequestError
 from linkwright.laws.program import MotionProgram
 from linkwright.parts.base import Result
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Message, Translate, _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.cams.curves import CamCurve, Contact
@@ -356,11 +356,11 @@ class CamDesign(Result):
         return found
 
     @attached
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         raise NotImplementedError
 
     @attached
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         raise NotImplementedError
 
     # vibration ----------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from rich.text import Text
 
 from linkwright.cli.errors import OutputError
 from linkwright.errors import Finding
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 from linkwright.words.characters import terminal_text
 from linkwright.words.sentence import in_language, reason_of
 
@@ -31,7 +31,9 @@ _SIDES: dict[str, Literal["left", "right", "center"]] = {"<": "left", ">": "righ
 class Session:
     """``say`` gives words in the chosen language, ``json`` asks for data, ``debug`` for tracebacks."""
 
-    def __init__(self, say: Say, language: str = "en", *, json: bool = False, debug: bool = False) -> None:
+    def __init__(
+        self, say: Translate, language: str = "en", *, json: bool = False, debug: bool = False
+    ) -> None:
         self.say, self.language, self.json, self.debug = say, language, json, debug
 
     @cached_property

@@ -20,7 +20,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
-from linkwright.words import Say, _, language_of, pgettext
+from linkwright.words import Translate, _, language_of, pgettext
 
 Wanted = tuple[Callable[[Forces], Floats], Kind]
 
@@ -36,7 +36,7 @@ class Place:
     row: int
 
 
-def extremes(solved: Solved, say: Say, *, degrees: bool) -> list[str]:
+def extremes(solved: Solved, say: Translate, *, degrees: bool) -> list[str]:
     """The largest force in every joint and the range of every driver's effort.
 
     Over the whole cycle these are found between the positions, as the design numbers are; of chosen positions, or of
@@ -103,7 +103,7 @@ def _places(solved: Solved, wanted: Sequence[Wanted], degrees: bool) -> list[Pla
     ]
 
 
-def checks(solved: Solved, say: Say) -> list[str]:
+def checks(solved: Solved, say: Translate) -> list[str]:
     """The residuals that belong to the forces."""
     forces = solved.forces
     if forces is None or not solved.motion.ok.any():
@@ -151,7 +151,7 @@ def closeness(motion: Motion, language: str) -> list[str]:
     return [f"! {remark.text(language)}" for value in values for remark in value.warnings]
 
 
-def failures(solved: Solved, say: Say, language: str, *, degrees: bool) -> list[str]:
+def failures(solved: Solved, say: Translate, language: str, *, degrees: bool) -> list[str]:
     """Stretches of positions that are not reached, each with the sentence of its first position."""
     ok = solved.motion.ok
     failed = np.flatnonzero(~ok)
@@ -183,7 +183,7 @@ def _short(value: float) -> str:
     return f"{round(float(value), 4) + 0.0:g}"
 
 
-def _efforts(solved: Solved, forces: Forces, say: Say, *, degrees: bool) -> list[str]:
+def _efforts(solved: Solved, forces: Forces, say: Translate, *, degrees: bool) -> list[str]:
     """Largest, smallest and mean effort of every driver; the mean over a closed cycle counts its end once."""
     rows = []
     for key, driver in forces.mechanism.drivers.items():

@@ -16,7 +16,7 @@ from linkwright.core.table import Column
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.topology import Structure
 from linkwright.topology.analysis import turned_against
-from linkwright.words import Say, _, language_of, pgettext
+from linkwright.words import Translate, _, language_of, pgettext
 from linkwright.words.characters import GAP, cells, padded
 from linkwright.words.sentence import in_language
 
@@ -65,7 +65,7 @@ def _table(solved: Solved, options: Options, session: Session) -> tuple[list[Tex
     return styled_lines(lines, heads=len(lines) - len(solved.rows)), [left_out] if left_out else []
 
 
-def _structure_line(solved: Solved, say: Say) -> str:
+def _structure_line(solved: Solved, say: Translate) -> str:
     structure = solved.motion.structure
     return say(_("mobility {mobility}: {chain}", mobility=structure.mobility, chain=structure.chain))
 
@@ -113,7 +113,7 @@ def _fitted(
     return [*first, *shown, *efforts_shown], sentence
 
 
-def _headed(columns: Sequence[Column], solved: Solved, say: Say) -> list[Column]:
+def _headed(columns: Sequence[Column], solved: Solved, say: Translate) -> list[Column]:
     """Columns with the words that the reader sees for drivers and time."""
     inputs = solved.motion.inputs
     found = []
@@ -174,7 +174,7 @@ def _ranked_links(mechanism: Mechanism, structure: Structure) -> list[str]:
 
 
 def fitting(
-    fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, say: Say, *, minimum: int
+    fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, say: Translate, *, minimum: int
 ) -> list[list[Column]]:
     """The first blocks (columns that belong together) that fit next to the fixed ones; at least ``minimum``."""
     used = total_width(fixed, say)
@@ -188,7 +188,7 @@ def fitting(
     return chosen
 
 
-def total_width(columns: Sequence[Column], say: Say) -> int:
+def total_width(columns: Sequence[Column], say: Translate) -> int:
     """Cells that columns take side by side, under their owners and words."""
     widths = _widths(columns, say)
     _owner_line(columns, widths)
@@ -222,18 +222,18 @@ QUANTITIES: dict[str, str] = {
 }
 
 
-def _widths(columns: Sequence[Column], say: Say) -> list[int]:
+def _widths(columns: Sequence[Column], say: Translate) -> list[int]:
     return [
         max(cells(text) for text in [*column.cells(), label(column, say), column.unit]) for column in columns
     ]
 
 
-def label(column: Column, say: Say) -> str:
+def label(column: Column, say: Translate) -> str:
     """What a column is called under its owner's name."""
     return in_language(QUANTITIES.get(column.quantity, column.quantity), language_of(say))
 
 
-def table(columns: Sequence[Column], say: Say) -> list[str]:
+def table(columns: Sequence[Column], say: Translate) -> list[str]:
     """Lines of the table: owners, quantities, units, values."""
     labels = [label(column, say) for column in columns]
     cells = [column.cells() for column in columns]

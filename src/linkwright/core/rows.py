@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 from linkwright.core.table import ROUNDING, Amount, Cell, Scale, Table, Tabular, unused
 from linkwright.errors import speaker
-from linkwright.words import Message, Say
+from linkwright.words import Message, Translate
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class Numbers(Tabular):
         """What the result is of."""
 
     @abstractmethod
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         """The numbers, with titles and remarks in a language."""
 
     def notes(self, language: str = "en") -> list[str]:

@@ -22,7 +22,7 @@ from linkwright.errors import RequestError, speaker
 from linkwright.files.write import to_data
 from linkwright.plotting.drawing.draw import draw
 from linkwright.plotting.drawing.machine import DIAGONAL
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 #: Width of the pictures of questions, pixels.
 PICTURE = 640
@@ -67,7 +67,7 @@ def drawing(found: Variants, each: Variant, language: str, diagonal: float = DIA
     return found.drawings[key]
 
 
-def data_rows(found: Variants, each: Variant, say: Say) -> list[tuple[str, str]]:
+def data_rows(found: Variants, each: Variant, say: Translate) -> list[tuple[str, str]]:
     """What a variant gives: every dimension of links and frame, loads, input and its rate."""
     from linkwright.reports.sections.task import element_data, kind_of
 
@@ -105,7 +105,7 @@ def _quantity(key: str, value: float) -> str:
     return shown(value, "angle") if last == "angle" else shown(value, "length")
 
 
-def position_text(found: Variants, say: Say) -> str:
+def position_text(found: Variants, say: Translate) -> str:
     """The position asked for, in words."""
     driver = next(iter(found.task.mechanism.drivers.values()))
     turning = found.task.mechanism.joints[driver.joint].coordinate == "turn"

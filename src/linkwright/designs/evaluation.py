@@ -10,7 +10,7 @@ from linkwright.designs.alternatives import EFFORTS, Alternative
 from linkwright.designs.compare import Comparison, Rank, Row
 from linkwright.designs.criteria import criterion
 from linkwright.errors import speaker
-from linkwright.words import Say, _, language_of
+from linkwright.words import Translate, _, language_of
 
 #: Distance from a change point, as a share of the cycle, at which the direction of an infinite reaction is reported.
 NEIGHBOUR_SHARE = 1e-3
@@ -47,7 +47,7 @@ def tables(comparison: Comparison, language: str = "en") -> tuple[Table, ...]:
     )
 
 
-def ranking(comparison: Comparison, say: Say) -> list[str]:
+def ranking(comparison: Comparison, say: Translate) -> list[str]:
     """A line with the score of every alternative, best first, and what decided."""
     if not comparison.judged:
         return [say(_("None of the metrics has a better direction, so there is no ranking."))]
@@ -67,7 +67,7 @@ def ranking(comparison: Comparison, say: Say) -> list[str]:
     return lines
 
 
-def _reasons(comparison: Comparison, rank: Rank, say: Say) -> list[str]:
+def _reasons(comparison: Comparison, rank: Rank, say: Translate) -> list[str]:
     """What an alternative is best in, and what costs it most against the best."""
     best = _best_in(comparison, rank, say)
     found = [say(_("best in: {names}", names=best))] if best else []
@@ -78,7 +78,7 @@ def _reasons(comparison: Comparison, rank: Rank, say: Say) -> list[str]:
     return found + [_against(comparison, row, rank.index, say) for row in costly[:REASONS]]
 
 
-def _against(comparison: Comparison, row: Row, index: int, say: Say) -> str:
+def _against(comparison: Comparison, row: Row, index: int, say: Translate) -> str:
     """How an alternative compares with the best one in a metric."""
     winner = row.best[0]
     mine, theirs = row.values[index], row.values[winner]
@@ -121,7 +121,7 @@ def sentences(comparison: Comparison, language: str) -> list[str]:
     return [*found, *_verdict(comparison, say)]
 
 
-def _motion(each: Alternative, say: Say) -> str:
+def _motion(each: Alternative, say: Translate) -> str:
     return say(
         _(
             "in {label} the output {output} travels {travel}, at most {rate} fast, with "
@@ -141,7 +141,7 @@ def _measured(each: Alternative, name: str) -> str:
     return "" if found is None else value_text(found.value, found.dimension)
 
 
-def _pivot(each: Alternative, say: Say) -> str:
+def _pivot(each: Alternative, say: Translate) -> str:
     joint, link = each.pivot
     highest, lowest = map(each.analysis.part, each.reactions)
     force = each.forces_at(highest.time).reaction(joint, on=link)[0]
@@ -162,7 +162,7 @@ def _pivot(each: Alternative, say: Say) -> str:
     )
 
 
-def _torque(each: Alternative, say: Say) -> str:
+def _torque(each: Alternative, say: Translate) -> str:
     high, low, root = (each.analysis.part(effort).value for effort in EFFORTS)
     dimension = "torque" if each.analysis.input_dimension == "angle" else "force"
     speed = np.abs(next(iter(each.motion.positions.coordinates.values()))[1]).max()
@@ -180,7 +180,7 @@ def _torque(each: Alternative, say: Say) -> str:
     )
 
 
-def _flywheel(each: Alternative, say: Say) -> str:
+def _flywheel(each: Alternative, say: Translate) -> str:
     names = {"inertia": "flywheel", "energy": "energy_fluctuation", "power": "mean_power"}
     numbers = {word: _measured(each, name) for word, name in names.items()}
     if not numbers["inertia"]:
@@ -194,7 +194,7 @@ def _flywheel(each: Alternative, say: Say) -> str:
     )
 
 
-def _verdict(comparison: Comparison, say: Say) -> list[str]:
+def _verdict(comparison: Comparison, say: Translate) -> list[str]:
     """Who comes first, by what, and what speaks for the others."""
     if not comparison.judged:
         return []
@@ -221,7 +221,7 @@ def _verdict(comparison: Comparison, say: Say) -> list[str]:
     return lines
 
 
-def _best_in(comparison: Comparison, rank: Rank, say: Say) -> str:
+def _best_in(comparison: Comparison, rank: Rank, say: Translate) -> str:
     """The criteria in which an alternative is best."""
     best = [row.criterion.label(language_of(say)) for row in comparison.judged if rank.index in row.best]
     return say(_(", ")).join(best)

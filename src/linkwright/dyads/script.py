@@ -11,7 +11,7 @@ from linkwright.dyads.plan import Axes, Guide, Pin, Plan, plan
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.kinetostatics.forces import Forces
-from linkwright.words import Say
+from linkwright.words import Translate
 
 #: Names that the program uses itself.
 TAKEN = (
@@ -50,7 +50,7 @@ class Script:
     """The lines of a program that solves ``rows`` of a motion, and what its parts share."""
 
     def __init__(
-        self, motion: Motion, forces: Forces | None, say: Say, *, rows: Sequence[int] | None = None,
+        self, motion: Motion, forces: Forces | None, say: Translate, *, rows: Sequence[int] | None = None,
         source: str = "", language: str = "en",
     ) -> None:  # fmt: skip
         chosen = range(motion.steps) if rows is None else rows

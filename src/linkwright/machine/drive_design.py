@@ -21,7 +21,7 @@ from linkwright.machine.running import placed, share, speeds
 from linkwright.machine.speed import true_speed
 from linkwright.machine.torque_curve import TorqueCurve
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Message, Translate, _, pgettext
 
 #: A mean torque below this share of the largest one is zero.
 NOTHING = 1e-9
@@ -49,14 +49,14 @@ class DriveDesign(Numbers):
     labels: ClassVar[Mapping[str, Message]] = LABELS
     digits: ClassVar[int] = 7
     name: str
-    found: Callable[[Say], list[Block]]
+    found: Callable[[Translate], list[Block]]
     machine: running.SteadyRunning | None = None
 
     @property
     def title(self) -> str:
         return self.name
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         return [each for each in self.found(say) if each.rows]
 
     def columns(self) -> dict[str, Floats]:
@@ -66,7 +66,7 @@ class DriveDesign(Numbers):
         return [] if self.machine is None else self.machine.notes(language)
 
 
-def of_areas(energy: EnergyFluctuation, options: DriveOptions, say: Say) -> list[Block]:
+def of_areas(energy: EnergyFluctuation, options: DriveOptions, say: Translate) -> list[Block]:
     """Rows of areas between torque curve and mean line."""
     first = [
         Row("energy_fluctuation", energy.value, "energy"),
@@ -80,7 +80,9 @@ def of_areas(energy: EnergyFluctuation, options: DriveOptions, say: Say) -> list
     return _blocks(first, rows, dimensions(flywheel, options.speed or 0.0, options))
 
 
-def of_curves(driver: TorqueCurve, load: TorqueCurve | None, options: DriveOptions, say: Say) -> list[Block]:
+def of_curves(
+    driver: TorqueCurve, load: TorqueCurve | None, options: DriveOptions, say: Translate
+) -> list[Block]:
     """Rows of a driving torque against a load; raises LinkwrightError for a mean torque of zero."""
     mean = driver.mean
     (_unused, lowest), (_unused2, highest) = driver.extremes()
@@ -126,7 +128,7 @@ def _blocks(*parts: list[Row]) -> list[Block]:
     return [Block("", "", rows) for rows in parts]
 
 
-def _after(key: str, energy: float, area: int, say: Say) -> Row:
+def _after(key: str, energy: float, area: int, say: Translate) -> Row:
     """An energy with the number of the area behind which it is."""
     place = say(_("after area {number}", number=area)) if area else say(_("at the beginning"))
     return Row(key, energy, "energy", note=place, more={"after_area": area})
@@ -181,7 +183,7 @@ def of_mechanism(mechanism: Mechanism, options: DriveOptions, steps: int) -> Dri
     return DriveDesign(mechanism.name, lambda say: [*found.blocks(say), sized], found)
 
 
-def of_diagram(options: DriveOptions, say: Say) -> DriveDesign:
+def of_diagram(options: DriveOptions, say: Translate) -> DriveDesign:
     """Motor and flywheel of a torque diagram, by its areas or by expressions."""
     if options.areas is not None:
         areas, scales = options.areas

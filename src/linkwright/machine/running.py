@@ -25,7 +25,7 @@ from linkwright.machine.equivalent import Equivalent, steady_rate
 from linkwright.machine.flywheel import ZERO_TOLERANCE, flywheel_inertia, on_faster_shaft, speed_fluctuation
 from linkwright.machine.motor import Motor, motor
 from linkwright.machine.speed import SpeedCurve
-from linkwright.words import Message, Say, _
+from linkwright.words import Message, Translate, _
 
 #: What the numbers are, by the keys of their rows.
 LABELS = {
@@ -58,7 +58,7 @@ def share(key: str, value: float, label: str = "") -> Row:
     return Row(key, value, label=label, scale=PERCENT, digits=5)
 
 
-def speeds(curve: SpeedCurve, at: Callable[[float], float], say: Say, before: str = "") -> list[Row]:
+def speeds(curve: SpeedCurve, at: Callable[[float], float], say: Translate, before: str = "") -> list[Row]:
     """How even a speed is, and its extremes; ``before`` their keys."""
     slow, fast = curve.slowest, curve.fastest
     reached = share(
@@ -112,7 +112,7 @@ class SteadyRunning(Plotted, Numbers):
         """Name of the machine."""
         return self.equivalent.forces.mechanism.name
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         """The numbers: motor, energy and inertia, flywheel by the formula, exact flywheel; without a motor where the
         loads drive the machine."""
         reduced, energy, at = self.equivalent, self.energy, self.equivalent.input_at

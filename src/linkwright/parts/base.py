@@ -19,7 +19,7 @@ from linkwright.core.table import ROUNDING, unused
 from linkwright.equations.steps import Equation, Step
 from linkwright.errors import Finding, ModelError, speaker
 from linkwright.fields.base import Field, FileKeys, file_keys
-from linkwright.words import Say
+from linkwright.words import Translate
 from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
@@ -127,10 +127,10 @@ class Result(Plotted, Numbers):
         return name
 
     @abstractmethod
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         """The worked solution in a language."""
 
-    def tidy_steps(self, say: Say) -> list[Step]:
+    def tidy_steps(self, say: Translate) -> list[Step]:
         """The worked solution, its results rounded to zero likewise, unit by unit."""
         steps = self.steps(say)
         largest: dict[str, float] = {}

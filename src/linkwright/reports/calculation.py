@@ -16,7 +16,7 @@ from linkwright.reports.sections import method
 from linkwright.reports.sections.errata import errata_blocks
 from linkwright.reports.sections.worked_position import to_scale
 from linkwright.reports.settings import Settings
-from linkwright.words import Message, Say, _
+from linkwright.words import Message, Translate, _
 from linkwright.words.sentence import in_language
 
 #: Sections of machines' reports whose own text follows a heading of a calculation, by the heading.
@@ -34,7 +34,7 @@ class OwnText:
     text: str
 
 
-def calculation(problem: Problem, own: Settings, say: Say, language: str) -> Iterator[Block | OwnText]:
+def calculation(problem: Problem, own: Settings, say: Translate, language: str) -> Iterator[Block | OwnText]:
     """The blocks of one calculation with the settings of its file, under a heading with its name; raises
     LinkwrightError where it has no result."""
     found = problem.solve()
@@ -53,7 +53,9 @@ def calculation(problem: Problem, own: Settings, say: Say, language: str) -> Ite
         yield from errata_blocks(own.errata, in_language(own.source or problem.source, language), say)
 
 
-def _chapters(problem: Problem, found: Result, own: Settings, say: Say, language: str) -> Iterator[Block]:
+def _chapters(
+    problem: Problem, found: Result, own: Settings, say: Translate, language: str
+) -> Iterator[Block]:
     """Heading, purpose, given data, sketch, solution and results."""
     yield Heading(literal(in_language(found.title, language)), 1)
     purpose, source = (
@@ -73,7 +75,7 @@ def _chapters(problem: Problem, found: Result, own: Settings, say: Say, language
     yield from numbers_and_way(found, say, language, 2)
 
 
-def numbers_and_way(found: Result, say: Say, language: str, level: int) -> Iterator[Block]:
+def numbers_and_way(found: Result, say: Translate, language: str, level: int) -> Iterator[Block]:
     """The worked way, the numbers, and diagrams of them, under headings of a level."""
     yield Heading(say(_("Solution")), level)
     for step in found.tidy_steps(say):
@@ -84,7 +86,7 @@ def numbers_and_way(found: Result, say: Say, language: str, level: int) -> Itera
     yield from _pictures(found, say, language)
 
 
-def _results(found: Result, say: Say, language: str) -> Iterator[Block]:
+def _results(found: Result, say: Translate, language: str) -> Iterator[Block]:
     head = (_("name"), _("value"), _("unit"), _("remark"))
     for table in found.tables(language)[1:]:
         width = 4 if any(row[3] for row in table.rows) else 3
@@ -114,7 +116,7 @@ def _label(text: str) -> str:
     return symbols(text)
 
 
-def _sketch(problem: Problem, say: Say, language: str) -> Iterator[Block]:
+def _sketch(problem: Problem, say: Translate, language: str) -> Iterator[Block]:
     """The sketch of what is calculated, where its kind has one."""
     from linkwright.plotting.sketches.base import sketch
 
@@ -134,7 +136,7 @@ def _sketch(problem: Problem, say: Say, language: str) -> Iterator[Block]:
         )
 
 
-def _pictures(found: Result, say: Say, language: str) -> Iterator[Block]:
+def _pictures(found: Result, say: Translate, language: str) -> Iterator[Block]:
     """Its own drawing, where it has one, and its diagrams."""
     draw = getattr(found, "draw", None)
     if draw is not None:

@@ -16,7 +16,7 @@ from linkwright.equations.notation import Row
 from linkwright.equations.reading import read_name
 from linkwright.reports.formula import formula
 from linkwright.reports.formula_lines import width
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 from linkwright.words.characters import cells
 from linkwright.words.sentence import in_language
 
@@ -236,7 +236,7 @@ class Document:
     """
 
     title: str
-    say: Say
+    say: Translate
     language: str = "en"
     lines: tuple[str, ...] = ()
     blocks: list[Block] = field(default_factory=list)

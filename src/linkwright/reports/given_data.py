@@ -11,7 +11,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.parts.base import Problem
 from linkwright.reports.document import Block, Table, literal, noted
 from linkwright.reports.key_names import CALCULATION_KEYS
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 #: Symbols of single values, by key, or by kind and key where a kind has another one.
 SYMBOLS: Mapping[str, str] = {
@@ -42,7 +42,7 @@ NAMED = (
 )  # fmt: skip
 
 
-def given_data(problem: Problem, say: Say) -> Iterator[Block]:
+def given_data(problem: Problem, say: Translate) -> Iterator[Block]:
     """A table of single values; of every mapping of names and every list of mappings a table of its own."""
     data, single, tables = problem.given(), [], []
     for key, value in data.items():
@@ -61,7 +61,7 @@ def given_data(problem: Problem, say: Say) -> Iterator[Block]:
     yield from tables
 
 
-def _rows(kind: str, path: tuple[str, ...], value: Any, say: Say) -> Iterator[tuple[str, ...]]:
+def _rows(kind: str, path: tuple[str, ...], value: Any, say: Translate) -> Iterator[tuple[str, ...]]:
     """Rows of a single value; of a mapping one for each of its values, named with what they belong to."""
     if isinstance(value, Mapping):
         for key, each in value.items():
@@ -72,7 +72,7 @@ def _rows(kind: str, path: tuple[str, ...], value: Any, say: Say) -> Iterator[tu
     yield literal(name), _math(symbol), shown, literal(unit)
 
 
-def _by_name(kind: str, key: str, things: Mapping[str, Any], say: Say) -> Table:
+def _by_name(kind: str, key: str, things: Mapping[str, Any], say: Translate) -> Table:
     """Things by name, a column for every key that one of them has."""
     bare = ("force",) if key in ("forces", "loads") else ("value",)
     flat = {name: dict(_flat(each, bare=bare)) for name, each in things.items()}
@@ -101,7 +101,7 @@ def _flat(
         yield path or bare, value
 
 
-def _word(kind: str, key: str, say: Say) -> str:
+def _word(kind: str, key: str, say: Translate) -> str:
     """What a key is called; a name that the user chose is itself."""
     named = CALCULATION_KEYS.get(f"{kind}_{key}") or CALCULATION_KEYS.get(key)
     return say(named) if named else key
@@ -124,12 +124,12 @@ def _math(symbol: str) -> str:
     return noted(symbol) if symbol else ""
 
 
-def _cell(value: Any, say: Say) -> str:
+def _cell(value: Any, say: Translate) -> str:
     shown, unit = _split(value, say)
     return shown if not unit else f"{shown}{'' if unit == '°' else ' '}{literal(unit)}"
 
 
-def _split(value: Any, say: Say) -> tuple[str, str]:
+def _split(value: Any, say: Translate) -> tuple[str, str]:
     """A value as it is printed, and its unit."""
     if isinstance(value, bool):
         return say(_("yes") if value else _("no")), ""

@@ -24,7 +24,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.reports.numbers import Heads, without_rounding
 from linkwright.reports.settings import Settings, worked_place
 from linkwright.topology.analysis import Structure
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 from linkwright.words.sentence import in_language, numbered_links
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class Case:
 
     def __init__(self, mechanism: Mechanism, settings: Settings, language: str, source: str = "") -> None:
         self.mechanism, self.settings, self.language, self.source = mechanism, settings, language, source
-        self.say: Say = speaker(language)
+        self.say: Translate = speaker(language)
         #: Why the numbered positions do not begin at the limit position that the file names.
         self.unnumbered = ""
         #: Design numbers that the report shows.

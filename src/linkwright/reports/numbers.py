@@ -14,7 +14,7 @@ from linkwright.core.quantity import MISSING, SHOWN, fixed
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.reports.document import literal, noted
-from linkwright.words import Say
+from linkwright.words import Translate
 
 #: Significant digits of the largest number of a column.
 DIGITS = 6
@@ -31,7 +31,7 @@ _NEGATIVE = re.compile(r"-(?=\d)")
 class Heads:
     """Heads of columns with the symbols of the worked solution; links are numbered in the order of the file."""
 
-    def __init__(self, mechanism: Mechanism, say: Say) -> None:
+    def __init__(self, mechanism: Mechanism, say: Translate) -> None:
         self.mechanism, self.say = mechanism, say
         self.numbers = link_numbers(mechanism)
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from linkwright.pictures.picture import MIN_TEXT, TEXT, Box, Picture
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 Standard = Literal["gb", "iso"]
 #: Short and long side of the basic sizes.
@@ -121,7 +121,7 @@ def zone_count(length: float) -> int:
     return max(2, 2 * round(length / ZONE / 2))
 
 
-def control_bar(say: Say) -> Picture:
+def control_bar(say: Translate) -> Picture:
     """A line of 100 mm with ticks each 10 mm: the sheet is true to scale where it measures 100 mm in print."""
     picture = Picture()
     picture.line([(0.0, 6.5), (BAR, 6.5)])

@@ -22,7 +22,7 @@ from linkwright.reports.settings import worked_place
 from linkwright.sheets.panel import Panel
 from linkwright.sheets.paper import Paper, Standard
 from linkwright.sheets.title_block import Fields
-from linkwright.words import Message, Say, _
+from linkwright.words import Message, Translate, _
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Subject:
     drawn: Mechanism | Problem
     settings: Settings
     language: str
-    say: Say
+    say: Translate
     of: str = ""
     notes: list[str] = field(default_factory=list)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from linkwright.pictures.picture import MIN_TEXT, TEXT, Box, Picture, as_runs, runs_width
 from linkwright.pictures.svg.fonts import needs_chinese
-from linkwright.words import Say, _, pgettext
+from linkwright.words import Translate, _, pgettext
 
 #: Minimum width of letters as a share of their own.
 NARROWEST = 0.62
@@ -121,12 +121,12 @@ def _halves(text: str, width: float, height: float) -> list[str]:
     return []
 
 
-def gb_block(fields: Fields, say: Say) -> TitleBlock:
+def gb_block(fields: Fields, say: Translate) -> TitleBlock:
     """180 × 56 mm: changes, signatures, others, name and code, after the example of GB/T 10609.1-2008."""
     return TitleBlock(180.0, 56.0, (*_gb_changes(say), *_gb_signatures(fields, say), *_gb_rest(fields, say)))
 
 
-def _gb_changes(say: Say) -> Iterator[Cell]:
+def _gb_changes(say: Translate) -> Iterator[Cell]:
     heads = (_("Mark"), pgettext("sheet", "No."), _("Zone"), _("Change"), _("Signed"), _("Date"))
     x = 0.0
     for width, head in zip((10, 10, 16, 16, 12, 16), heads, strict=True):
@@ -137,7 +137,7 @@ def _gb_changes(say: Say) -> Iterator[Cell]:
     yield Cell(0, 0, 80, 28, thick=True)
 
 
-def _gb_signatures(fields: Fields, say: Say) -> Iterator[Cell]:
+def _gb_signatures(fields: Fields, say: Translate) -> Iterator[Cell]:
     people = (
         (_("Drawn"), fields.student, fields.date if fields.student else ""),
         (pgettext("sheet", "Adviser"), fields.adviser, ""),
@@ -156,7 +156,7 @@ def _gb_signatures(fields: Fields, say: Say) -> Iterator[Cell]:
     yield Cell(0, 28, 80, 28, thick=True)
 
 
-def _gb_rest(fields: Fields, say: Say) -> Iterator[Cell]:
+def _gb_rest(fields: Fields, say: Translate) -> Iterator[Cell]:
     yield Cell(80, 0, 50, 28, fields.title, 5.0, thick=True)
     yield Cell(80, 28, 26, 7, say(_("Stage")), 3.5)
     yield Cell(106, 28, 12, 7, say(_("Mass")), 3.5)
@@ -177,7 +177,7 @@ def _gb_rest(fields: Fields, say: Say) -> Iterator[Cell]:
     )
 
 
-def school_block(fields: Fields, say: Say) -> TitleBlock:
+def school_block(fields: Fields, say: Translate) -> TitleBlock:
     """140 × 40 mm: drawing, scale, number, class, persons, title of the task, school, sheet of sheets."""
     cells = [Cell(0, 0, 60, 16, fields.drawing, 7.0)]
     right = (
@@ -208,7 +208,7 @@ def school_block(fields: Fields, say: Say) -> TitleBlock:
     return TitleBlock(140.0, 40.0, tuple(cells))
 
 
-def iso_block(fields: Fields, say: Say) -> TitleBlock:
+def iso_block(fields: Fields, say: Translate) -> TitleBlock:
     """180 × 40 mm with the fields of ISO 7200, and the scale."""
 
     top = (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Message, Translate, _, pgettext
 
 #: Tasks, for help that must not import what solves them.
 TASK_NAMES = (
@@ -72,7 +72,7 @@ NAMES: Mapping[str, Message] = {
 }  # fmt: skip
 
 
-def display_name(name: str, tell: Say) -> str:
+def display_name(name: str, tell: Translate) -> str:
     """The word for a task, a link, a value with its unit or a count; other names as they are."""
     stem, _unused, unit = name.partition(" ")
     numbered = stem.removeprefix("link")

@@ -24,7 +24,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.synthesis.linkage import Linkage
 from linkwright.synthesis.merit import merit
 from linkwright.synthesis.names import DEFECTS, ERRORS, TYPE_NAMES, display_name
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Message, Translate, _, pgettext
 
 #: Share of the longest length, or of a radian, below which a deviation is rounding.
 ROUNDING = 1e-12
@@ -230,7 +230,7 @@ class Synthesis(Plotted, Tabular):
         return each.linkage.text(name or f"{self.task} {index + 1}", purpose=purpose, speed=speed)
 
 
-def title_text(found: Synthesis, tell: Say) -> str:
+def title_text(found: Synthesis, tell: Translate) -> str:
     """The task and how many candidates there are."""
     title = (
         _("Synthesis: {task}, {count} candidate")
@@ -240,7 +240,7 @@ def title_text(found: Synthesis, tell: Say) -> str:
     return tell(title.format(task=display_name(found.task, tell), count=len(found)))
 
 
-def _dimensions(found: Synthesis, tell: Say) -> list[str]:
+def _dimensions(found: Synthesis, tell: Translate) -> list[str]:
     """A line with the lengths of every candidate, and one with its further numbers."""
     between, lines = tell(_(", ")), []
     for number, each in enumerate(found.candidates, 1):
@@ -257,7 +257,7 @@ def _dimensions(found: Synthesis, tell: Say) -> list[str]:
     return lines
 
 
-def counts_text(found: Synthesis, tell: Say) -> str:
+def counts_text(found: Synthesis, tell: Translate) -> str:
     """How many solutions of which sort were found."""
     counts = (f"{display_name(name, tell)} {value}" for name, value in found.counts.items())
     return tell(_("Found: {counts}", counts=tell(_(", ")).join(counts)))
@@ -282,13 +282,13 @@ def _purpose(found: Synthesis, each: Candidate, language: str) -> str:
     )
 
 
-def defects_text(each: Candidate, tell: Say) -> str:
+def defects_text(each: Candidate, tell: Translate) -> str:
     """The defects of a candidate, or that there are none."""
     words = [tell(DEFECTS[name]) for name in each.defects]
     return tell(_(", ")).join(words) or tell(_("none"))
 
 
-def _row(number: int, each: Candidate, extent: float, tell: Say) -> list[str]:
+def _row(number: int, each: Candidate, extent: float, tell: Translate) -> list[str]:
     return [
         str(number),
         tell(TYPE_NAMES[each.grashof_type]),

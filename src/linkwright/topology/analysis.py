@@ -11,7 +11,7 @@ from linkwright.errors import speaker
 from linkwright.joints.base import JOINTS, PAIRS
 from linkwright.topology.mobility import lower_pair_counts
 from linkwright.topology.trains import GearTrain, written
-from linkwright.words import Say, _, language_of, ngettext
+from linkwright.words import Translate, _, language_of, ngettext
 from linkwright.words.sentence import link_label
 
 
@@ -98,7 +98,7 @@ class Structure(Tabular):
         return f"Structure(mobility {self.mobility}; {self.chain}; class {self.mechanism_class})"
 
 
-def _class(structure: Structure, say: Say) -> Sequence[str]:
+def _class(structure: Structure, say: Translate) -> Sequence[str]:
     """The groups in one line, the mechanism's class, and what else is to be known of it."""
     level = numeral(structure.mechanism_class, say)
     lines = [
@@ -119,7 +119,7 @@ def _class(structure: Structure, say: Say) -> Sequence[str]:
     return lines
 
 
-def turned_against(structure: Structure, say: Say) -> list[str]:
+def turned_against(structure: Structure, say: Translate) -> list[str]:
     """The drivers that turn a link against another one than the frame, a sentence each."""
     return [
         _(
@@ -134,7 +134,7 @@ def turned_against(structure: Structure, say: Say) -> list[str]:
     ]
 
 
-def numeral(number: int, say: Say) -> str:
+def numeral(number: int, say: Translate) -> str:
     """A class as it is written in the books."""
     numerals = say(_("I II III IV V VI VII VIII IX X")).split()
     return numerals[number - 1] if number <= len(numerals) else str(number)
@@ -150,7 +150,7 @@ _MOBILITIES = {
 }
 
 
-def _mobility(structure: Structure, say: Say) -> list[str]:
+def _mobility(structure: Structure, say: Translate) -> list[str]:
     n, (r, p, w) = structure.counts["links"], lower_pair_counts(structure.counts)
     higher = {
         kind: count for kind, count in structure.counts.items() if kind in JOINTS and JOINTS[kind].higher
@@ -205,12 +205,12 @@ def _mobility(structure: Structure, say: Say) -> list[str]:
     return lines
 
 
-def _kind(kind: str, say: Say) -> str:
+def _kind(kind: str, say: Translate) -> str:
     """A kind of joint as it is read; a kind of another package by its own word."""
     return say(PAIRS[kind]) if kind in PAIRS else kind
 
 
-def _train(train: GearTrain, say: Say) -> Table:
+def _train(train: GearTrain, say: Translate) -> Table:
     """The ratios of a train by the method of the stopped carrier."""
     wheels = list(train.ratios)
     carrier, frame = (link_label(name, language_of(say)) for name in (train.carrier, "frame"))
@@ -241,7 +241,7 @@ def _train(train: GearTrain, say: Say) -> Table:
     return Table((), rows, "<" * len(rows[0]), title, notes)
 
 
-def _row(number: int, group: Group, say: Say) -> tuple[str, str, str, str, str]:
+def _row(number: int, group: Group, say: Translate) -> tuple[str, str, str, str, str]:
     drivers = ", ".join(group.drivers)
     unnamed = group.drivers == ("driver",)
     if group.assur_class == 1 and group.drivers:

@@ -7,9 +7,19 @@ from collections.abc import Callable
 from linkwright.words.message import LANGUAGES, Message, _, ngettext, pgettext
 from linkwright.words.sentence import in_language
 
-__all__ = ["LANGUAGES", "Message", "Say", "_", "in_language", "language_of", "ngettext", "pgettext", "say"]
+__all__ = [
+    "LANGUAGES",
+    "Message",
+    "Translate",
+    "_",
+    "in_language",
+    "language_of",
+    "ngettext",
+    "pgettext",
+    "say",
+]
 
-Say = Callable[[Message], str]
+Translate = Callable[[Message], str]
 
 
 def say(message: Message, /, language: str = "en") -> str:
@@ -17,6 +27,6 @@ def say(message: Message, /, language: str = "en") -> str:
     return message.translate(language)
 
 
-def language_of(speaks: Say) -> str:
+def language_of(speaks: Translate) -> str:
     """The language of a speaker."""
     return str(getattr(speaks, "keywords", {}).get("language", LANGUAGES[0]))

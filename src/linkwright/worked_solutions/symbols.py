@@ -14,7 +14,7 @@ from linkwright.joints.base import Joint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.link import Link
-from linkwright.words import Say
+from linkwright.words import Translate
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Slide:
 class Book:
     """Symbols of one position of a motion; links are numbered in the order of the file, the frame is 0."""
 
-    def __init__(self, motion: Motion, index: int, say: Say) -> None:
+    def __init__(self, motion: Motion, index: int, say: Translate) -> None:
         self.motion = motion
         self.mechanism = motion.mechanism
         self.index = index

@@ -13,7 +13,7 @@ from linkwright.designs.checkpoints import RESUME
 from linkwright.designs.criteria import Criterion
 from linkwright.designs.optimise.optimum import Choice, Optimum
 from linkwright.errors import speaker
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 #: Designs of a front that are listed.
 LISTED = 24
@@ -96,7 +96,7 @@ def comparison(found: Optimum, choice: Choice, language: str) -> Table:
     return Table(head, rows, "<>>><")
 
 
-def _limits(found: Optimum, choice: Choice, text: str, tell: Say) -> str:
+def _limits(found: Optimum, choice: Choice, text: str, tell: Translate) -> str:
     goals = {goal.text: goal.sign for goal in found.problem.goals}
     texts = [tell(_("minimized") if goals[text] > 0 else _("maximized"))] if text in goals else []
     if text in found.limits:

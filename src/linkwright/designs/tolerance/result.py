@@ -28,7 +28,7 @@ from linkwright.equations.steps import Step
 from linkwright.errors import LinkwrightError, ModelError, fault
 from linkwright.kinetostatics.forces import Forces
 from linkwright.parts.base import Result
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Message, Translate, _, pgettext
 
 #: Linear and Monte Carlo spread agree within this share.
 AGREE = 0.005
@@ -359,7 +359,7 @@ class Spread(Result):
         change = abs(high - low)
         return self.study.written(address), abs(high + low - 2 * middle) / change if change else math.inf
 
-    def reason(self, text: str, say: Say) -> str:
+    def reason(self, text: str, say: Translate) -> str:
         """Whether linear and Monte Carlo agree, and if not, why."""
         if self.swept is None or (self.failed == 0 and abs(self.ratio(text) - 1.0) <= AGREE):
             return (
@@ -396,7 +396,7 @@ class Spread(Result):
             )
         return " ".join(lines)
 
-    def _difference(self, text: str, say: Say) -> str:
+    def _difference(self, text: str, say: Translate) -> str:
         """Why the two spreads differ: the bend b of y over ±2σ makes its spread 1 + b²/4 times as large; where that
         is far less than the difference, it is too few machines."""
         name, bend = self.bend(text)
@@ -444,13 +444,13 @@ class Spread(Result):
             return found
         return {text: self.values(text) for text in self.study.of}
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         found = [block for text in self.study.of for block in self._summary_blocks(text, say)]
         for output in self.study.curves:
             found.append(self._curve_block(output, say))
         return found
 
-    def _summary_blocks(self, text: str, say: Say) -> list[Block]:
+    def _summary_blocks(self, text: str, say: Translate) -> list[Block]:
         kind = self.dimension(text)
         rows = [Row("nominal", self.nominal(text), kind)]
         shift = self.shift(text)
@@ -498,7 +498,7 @@ class Spread(Result):
             else found
         )
 
-    def _pins_remark(self, output: str, say: Say) -> tuple[str, ...]:
+    def _pins_remark(self, output: str, say: Translate) -> tuple[str, ...]:
         """How near the pins lie to where their reactions press them, and where they cannot."""
         if not self.study.holes("pressed") or is_position(self.study, output):
             return ()
@@ -529,7 +529,7 @@ class Spread(Result):
             )
         return (" ".join(sentences),)
 
-    def _curve_block(self, output: str, say: Say) -> Block:
+    def _curve_block(self, output: str, say: Translate) -> Block:
         kind = self.dimension(output)
         place, _unused, deviation = self.curve(output)
         found = {"largest_deviation": deviation}
@@ -552,7 +552,7 @@ class Spread(Result):
             rows.append(Row(key, float(values[i]), kind, "", note))
         return Block(f"curve {output}", _("Curve {name}", name=output), rows, self._pins_remark(output, say))
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         found: list[Step] = []
         for text in self.study.of:
             kind, step = self.dimension(text), Step(str(len(found) + 1), text)

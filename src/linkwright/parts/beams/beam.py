@@ -26,7 +26,7 @@ from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, section_field
 from linkwright.parts.motions import plain_motions
 from linkwright.units import GRAVITY
-from linkwright.words import Message, Say, _
+from linkwright.words import Message, Translate, _
 
 SUPPORTS = ("fixed", "pinned", "roller", "guided", "spring")
 QUANTITIES = ("shear", "moment", "slope", "deflection")
@@ -391,7 +391,7 @@ class BeamLine(Result):
             found[name] = np.where(side, self.line.value(quantity, x, "left"), self.line.value(quantity, x))
         return found
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         rows = []
         for name, (force, couple) in self.reactions.items():
             kind = self.beam.supports[name].kind
@@ -411,7 +411,7 @@ class BeamLine(Result):
         strength = self._strength(say)
         return [*found, Block("strength", _("Strength"), strength)] if strength else found
 
-    def _places(self, say: Say) -> list[Row]:
+    def _places(self, say: Translate) -> list[Row]:
         """Moment and deflection where segments meet."""
         rows = []
         for x in [*(segment.start for segment in self.line.segments), self.beam.length]:
@@ -427,7 +427,7 @@ class BeamLine(Result):
             rows.append(Row(f"deflection_{x:g}", float(self.deflection(x)[0]), "length", f"w({at})"))
         return rows
 
-    def _strength(self, say: Say) -> list[Row]:
+    def _strength(self, say: Translate) -> list[Row]:
         rows = []
         if self.stress is not None:
             rows.append(
@@ -445,10 +445,10 @@ class BeamLine(Result):
             rows.append(Row("needed_modulus", self.needed_modulus, "section_modulus"))
         return rows
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         return [self._balance_step(say), self._segment_step(say), self._extreme_step(say)]
 
-    def _balance_step(self, say: Say) -> Step:
+    def _balance_step(self, say: Translate) -> Step:
         """Reactions, and both equations of equilibrium with them."""
         step = Step("1", say(_("Reactions and equilibrium")))
         holds = {name: each.hold for name, each in self.beam.supports.items()}
@@ -485,7 +485,7 @@ class BeamLine(Result):
         step.put("ΣM(0)", "", rounded(moments), "torque", numbers=signed(moments, "torque"))
         return step
 
-    def _segment_step(self, say: Say) -> Step:
+    def _segment_step(self, say: Translate) -> Step:
         """The polynomials of every segment."""
         step = Step(
             "2",
@@ -523,7 +523,7 @@ class BeamLine(Result):
             for p in [getattr(each, quantity)]
         )
 
-    def _extreme_step(self, say: Say) -> Step:
+    def _extreme_step(self, say: Translate) -> Step:
         step = Step("3", say(_("Extremes")))
         for symbol, quantity, zero in (("V", "shear", "q"), ("M", "moment", "V"), ("w", "deflection", "θ")):
             x, value = self.largest(quantity)

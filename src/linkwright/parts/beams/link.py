@@ -33,7 +33,7 @@ from linkwright.parts.beams.balance import polynomial_text
 from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, require_modulus, section_field
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
-from linkwright.words import Message, Say, _
+from linkwright.words import Message, Translate, _
 
 #: Points of a link lie on a line within this share of its length.
 STRAIGHT = 1e-6
@@ -466,7 +466,7 @@ class LinkStress(Result):
             "deflection [m]": np.hypot(self.deflection[:, :, 0], self.deflection[:, :, 1]).max(axis=1),
         }
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         rows = [self._row(key, say) for key in LARGEST if key != "largest_deflection"]
         if self.safety is not None and self.needed_modulus is not None:
             rows += [
@@ -477,7 +477,7 @@ class LinkStress(Result):
         rows.append(Row("closure", self.closure, "force", remainder=True))
         return [Block("cycle", _("Largest values over the cycle"), rows, self._remarks(say))]
 
-    def _row(self, key: str, say: Say) -> Row:
+    def _row(self, key: str, say: Translate) -> Row:
         found, i, k = self.peaks[key]
         note = _("at {at}, x = {x}", at=found._input(i), x=shown(self.stations[k], "length"))
         return Row(key, self.largest(key), LARGEST[key], "", note)
@@ -486,7 +486,7 @@ class LinkStress(Result):
         turning = next(iter(self.forces.motion.positions.rotary.values()), True)
         return shown(float(self.forces.motion.input[index]), "angle" if turning else "length")
 
-    def _remarks(self, say: Say) -> list[str]:
+    def _remarks(self, say: Translate) -> list[str]:
         found = []
         a, b = self.mass.span
         if (a, b) != (0.0, self.axis.length):
@@ -523,7 +523,7 @@ class LinkStress(Result):
             )
         return found
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         there, i, k = self.peaks["largest_stress"]
         step = Step("1", say(_("Position with the largest stress: {at}", at=there._input(i))))
         a, b = self.mass.span

@@ -38,7 +38,7 @@ from linkwright.parts.programs.nonlinear import (
     solve_nonlinear,
 )
 from linkwright.parts.programs.problem import Model, Variable
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 #: A constraint is active within this share of the size of its sides.
 ACTIVE = 1e-6
@@ -339,7 +339,7 @@ class Optimum(Result):
         sides = [abs(float(side.value(self.point)[0])) for side in (constraint.left, constraint.right)]
         return constraint.sense == "=" or self.slack(constraint) <= ACTIVE * max(*sides, 1e-300)
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         rows = [
             Row(name, value, label=name, note=self._at_bound(name, say), scale=in_si(self._kind(name)),
                 text=in_kind(value, self._kind(name)))
@@ -390,14 +390,14 @@ class Optimum(Result):
         """The dimension of a variable."""
         return self.program.variables[name].dimension
 
-    def _method(self, say: Say) -> str:
+    def _method(self, say: Translate) -> str:
         return say(
             WAYS[self.way].format(
                 agreed=self.agreed[0], starts=self.agreed[1], count=self.combinations, gap=f"{self.gap:.1e}"
             )
         )
 
-    def _at_bound(self, name: str, say: Say) -> str:
+    def _at_bound(self, name: str, say: Translate) -> str:
         variable, value = self.program.variables[name], self.x[name]
         for bound, word in (
             (variable.minimum, _("at its lower bound")),
@@ -407,7 +407,7 @@ class Optimum(Result):
                 return say(word)
         return ""
 
-    def _limit_row(self, c: Constraint, say: Say) -> Row:
+    def _limit_row(self, c: Constraint, say: Translate) -> Row:
         left, right = (
             in_kind(float(side.value(self.point)[0]), side.dimension, 5) for side in (c.left, c.right)
         )
@@ -419,7 +419,7 @@ class Optimum(Result):
         text = f"{left} {c.sense} {right}"
         return Row(c.name, self.slack(c), label=c.name, note=state, scale=in_si(_limit_kind(c)), text=text)
 
-    def _explained(self, say: Say) -> tuple[str, ...]:
+    def _explained(self, say: Translate) -> tuple[str, ...]:
         """What one more unit of every active constraint is worth."""
         lines = []
         for c in self.program.subject_to:
@@ -480,7 +480,7 @@ class Optimum(Result):
         first = row((*before, set_sides[0]))
         step.items.append(Written(label + shown_text, (first, *set_sides[1:])))
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         task, found, test = (
             Step(str(i), say(title))
             for i, title in enumerate(

@@ -15,7 +15,7 @@ from linkwright.equations.steps import Step
 from linkwright.errors import Finding, fault
 from linkwright.fields.base import Quantity, file_key
 from linkwright.parts.base import Problem, Result
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Message, Translate, _, pgettext
 
 #: Largest μ θ: e^(μθ) stays a number, with all of its digits.
 GRIP = 300.0
@@ -159,7 +159,7 @@ class BeltTensions(Result):
         tension = (self.slack - flung) * np.exp(self.belt.effective_friction * angle) + flung
         return {"angle [rad]": angle, "tension [N]": tension}
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         rows = [
             Row("tight", self.tight, "force"), Row("slack", self.slack, "force"), Row("pull", self.pull, "force"),
             Row("ratio", self.belt.ratio),
@@ -170,7 +170,7 @@ class BeltTensions(Result):
             rows.append(Row("power", self.pull * self.belt.speed, "power"))
         return [Block("belt", "", rows)]
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         belt, step = self.belt, Step("1", say(_("Belt friction (Euler, Eytelwein)")))
         mu = "μ" if belt.groove is None else "μ'"
         if belt.groove is not None:

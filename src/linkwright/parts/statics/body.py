@@ -24,7 +24,7 @@ from linkwright.fields.tables import Listed, Named, Table
 from linkwright.parts.base import Problem, Result
 from linkwright.parts.motions import plain_motions
 from linkwright.parts.statics.forces import COUPLES, DIRECTION, FORCES, Components, Force, ForceField, spatial
-from linkwright.words import Message, Say, _
+from linkwright.words import Message, Translate, _
 
 #: Singular values below this share of the largest count as zero.
 ZERO = 1e-10
@@ -315,11 +315,11 @@ class Reactions(Result):
         own = np.where([".M" in name for name in state.names], state.scale, 1.0)
         return state.columns * rows[:, None] / own, -state.load * rows
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         rows = [Row(name, value, _dimension(name), name) for name, value in self.values.items()]
         return [Block("reactions", _("Reactions"), rows)]
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         balance, found = Step("1", say(_("Equations of equilibrium"))), Step("2", say(_("Reactions")))
         state = _Balance(self.body)
         names = _sums(self.body)

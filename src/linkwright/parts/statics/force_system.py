@@ -31,7 +31,7 @@ from linkwright.parts.statics.forces import (
     direction_angles,
     spatial,
 )  # fmt: skip
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Message, Translate, _, pgettext
 
 #: Singular values, and sums that stay, below this share of the largest count as zero.
 SINGULAR = 1e-10
@@ -205,7 +205,7 @@ class Resultant(Result):
         """Whether forces and moments sum to zero."""
         return not self.force.any() and not self.moment.any()
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         blocks = [Block("resultant", _("Resultant R"), _vector_rows("R", self.force, self.size, self.angles))]
         moment = [Row("M", m, "torque", f"M{axis}") for axis, m in zip("xyz", self.moment, strict=True)]
         blocks.append(Block("moment", _("Moment about the chosen point"), moment))
@@ -222,7 +222,7 @@ class Resultant(Result):
         vectors = {name: each.vector for name, each in self.system.forces.items()}
         return [*blocks, *asked_blocks(self.system, vectors, self.force, say)]
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         sums, about, wrench = (
             Step(str(i), say(title))
             for i, title in enumerate((_("Resultant"), _("Moment"), _("Reduction to a wrench")), 1)
@@ -257,7 +257,7 @@ class Resultant(Result):
         vectors = {name: each.vector for name, each in self.system.forces.items()}
         return [*found, *asked_steps(self.system, vectors, self.force, say, len(found))]
 
-    def _moment_step(self, step: Step, say: Say) -> None:
+    def _moment_step(self, step: Step, say: Translate) -> None:
         about = spatial(self.system.about)
         step.say(
             say(_("moments about the point ({place})", place=", ".join(f"{number(c)} m" for c in about)))
@@ -294,7 +294,7 @@ def _asked_for(
 
 
 def asked_blocks(
-    system: ForceSystem, vectors: Mapping[str, Floats], resultant: Floats, say: Say
+    system: ForceSystem, vectors: Mapping[str, Floats], resultant: Floats, say: Translate
 ) -> list[Block]:
     """Components along lines, with what is left across them, and angles between forces."""
     lines, pairs = _asked_for(system, vectors, resultant)
@@ -323,7 +323,7 @@ def angle_between(first: Floats, second: Floats) -> float:
 
 
 def asked_steps(
-    system: ForceSystem, vectors: Mapping[str, Floats], resultant: Floats, say: Say, count: int
+    system: ForceSystem, vectors: Mapping[str, Floats], resultant: Floats, say: Translate, count: int
 ) -> list[Step]:
     """Dot products of what :func:`asked_blocks` shows."""
     lines, pairs = _asked_for(system, vectors, resultant)
@@ -457,7 +457,7 @@ class PointEquilibrium(Result):
             for name, each in self.system.forces.items()
         }
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         rows = [Row(name, value, "force", name) for name, value in self.magnitudes.items()]
         remarks = [
             _("{name} acts against its direction.", name=name)
@@ -473,7 +473,7 @@ class PointEquilibrium(Result):
         found.append(Block("components", _("Their components"), parts))
         return [*found, *asked_blocks(self.system, self.vectors, np.zeros(3), say)]
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         a, b = self.matrix
         directions, sums, solved = (
             Step(str(i), say(title))

@@ -14,7 +14,7 @@ from linkwright.errors import Finding, fault
 from linkwright.fields.base import Quantity, file_key
 from linkwright.fields.tables import Named, Table
 from linkwright.parts.base import Problem, Result, signed
-from linkwright.words import Message, Say, _
+from linkwright.words import Message, Translate, _
 
 #: What is left of the unbalances of a rotor that is balanced, as share of their sizes.
 ROUNDING = 1e-12
@@ -151,7 +151,7 @@ class RotorBalance(Result):
         moment = sum(each.product * arm for each, arm in zip(self.rotor.masses.values(), arms, strict=True))
         return self._rounded(moment, max(map(abs, arms)))
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         blocks = []
         for name, unbalance in self.unbalances.items():
             weight = self.counterweights[name]
@@ -179,7 +179,7 @@ class RotorBalance(Result):
             )
         return blocks
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         found = []
         for count, (name, unbalance) in enumerate(self.unbalances.items(), 1):
             step = Step(str(count), say(_("Plane {name}", name=name)))

@@ -21,7 +21,7 @@ from linkwright.parts.base import Result
 from linkwright.parts.statics.balance import Balance, structure_balance
 from linkwright.parts.statics.body import describe
 from linkwright.topology import StructureError, structure
-from linkwright.words import Message, Say, _, language_of
+from linkwright.words import Message, Translate, _, language_of
 
 #: Starts of the search for a position, and the gap below which the joints close.
 STARTS, CLOSED = 24, 1e-10
@@ -114,7 +114,7 @@ class StructureForces(Result):
         joints = self.forces.mechanism.joints
         return [(name, link) for name, joint in joints.items() for link in joint.joined if link != "frame"]
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         rows = []
         for joint, link in self.pairs():
             x, y = self.reaction(joint, link)
@@ -146,7 +146,7 @@ class StructureForces(Result):
         pin, guide and weld takes part."""
         return structure_balance(self.forces)
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         from linkwright.worked_solutions.solution import worked
 
         found = list(worked(self.forces, language=language_of(say)).steps)
@@ -154,7 +154,7 @@ class StructureForces(Result):
         return [*found, balance_step(self.balance, str(last + 1), say)]
 
 
-def balance_step(balance: Balance | None, number: str, say: Say) -> Step:
+def balance_step(balance: Balance | None, number: str, say: Translate) -> Step:
     """The equations of equilibrium as a step: A·X = B, and X."""
     step = Step(number, say(_("Equilibrium in matrix form")))
     if balance is None:

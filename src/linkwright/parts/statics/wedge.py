@@ -15,7 +15,7 @@ from linkwright.equations.steps import Step
 from linkwright.errors import Finding, fault
 from linkwright.fields.base import Quantity, file_key
 from linkwright.parts.base import Problem, Result
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Message, Translate, _, pgettext
 
 #: What the numbers are called.
 LABELS: Mapping[str, Message] = {
@@ -139,7 +139,7 @@ class WedgeForces(Result):
             "lowering [N]": np.array([each.push(-1) for each in wedges]),
         }
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         rows = [
             Row("raising", self.raising, "force"), Row("lowering", self.lowering, "force"),
             Row("efficiency", self.efficiency),
@@ -157,7 +157,7 @@ class WedgeForces(Result):
             )
         ]
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         step = Step("1", say(_("Force polygons of load and wedge")))
         step.known |= {"Q": (self.wedge.load, "force"), "α": (self.wedge.angle, "angle")}
         for index, angle in zip(("", "f", "w"), self.wedge.friction_angles, strict=True):

@@ -37,7 +37,7 @@ from linkwright.parts.statistics.describe import (
     regression,
 )
 from linkwright.parts.statistics.hypotheses import AGAINST, TESTS, TOGETHER, Outcome
-from linkwright.words import Message, Say, _, language_of, pgettext
+from linkwright.words import Message, Translate, _, language_of, pgettext
 from linkwright.words.sentence import in_language
 
 #: A probability below this one counts as zero.
@@ -491,7 +491,7 @@ class Statistics(Result):
     def _in_unit(self, name: str, value: float) -> str:
         return f"{value / self.scale(name).factor:.6g}"
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         found = [self._described(name, say) for name in self.problem.samples]
         found += [
             Block(
@@ -509,7 +509,7 @@ class Statistics(Result):
         found += [self._capable(name, say) for name in self.capabilities]
         return found
 
-    def _described(self, name: str, say: Say) -> Block:
+    def _described(self, name: str, say: Translate) -> Block:
         d, scale = self.descriptions[name], self.scale(name)
         rows = [Row("count", float(d.count)), Row("mean", d.mean, scale=scale)]
         if d.count > 1:
@@ -554,7 +554,7 @@ class Statistics(Result):
         unit = self.scale(name).unit
         return f"{self._in_unit(name, ends[0])} … {self._in_unit(name, ends[1])} {unit}".rstrip()
 
-    def _fit_rows(self, name: str, say: Say) -> list[Row]:
+    def _fit_rows(self, name: str, say: Translate) -> list[Row]:
         rows = []
         for fit in self.fits[name]:
             factor = self.scale(name).factor
@@ -565,7 +565,7 @@ class Statistics(Result):
             rows.append(Row(fit.name, fit.akaike, "", DISTRIBUTION_NAMES[fit.name], f"{note}; {distance}"))
         return rows
 
-    def _test_rows(self, name: str, say: Say) -> list[Row]:
+    def _test_rows(self, name: str, say: Translate) -> list[Row]:
         outcome, test = self.tests[name], self.problem.tests[name]
         freedom = f"({', '.join(number(f) for f in outcome.freedom)})" if outcome.freedom else ""
         rejected = outcome.p < 1.0 - self.problem.confidence
@@ -585,7 +585,7 @@ class Statistics(Result):
             ),
         ]
 
-    def _regressed(self, name: str, say: Say) -> Block:
+    def _regressed(self, name: str, say: Translate) -> Block:
         r, rows = self.regressions[name], []
         scales = self._scales(self.problem.regressions[name])
         for i, (term, scale) in enumerate(zip(r.terms, scales, strict=True)):
@@ -597,7 +597,7 @@ class Statistics(Result):
         y = self.problem.regressions[name].y
         return Block(f"regression.{name}", _("Regression {name} of {y}", name=name, y=y), rows)
 
-    def _capable(self, name: str, say: Say) -> Block:
+    def _capable(self, name: str, say: Translate) -> Block:
         c, rows = self.capabilities[name], []
         mark = "C" if c.within else "P"
         if c.cp is not None and c.cp_interval is not None:
@@ -612,7 +612,7 @@ class Statistics(Result):
         )
         return Block(f"capability.{name}", _("Capability of {name}", name=name), rows, (remark,))
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         found: list[Step] = []
         for name, d in self.descriptions.items():
             step = Step(str(len(found) + 1), say(_("Sample {name}", name=name)))

@@ -26,7 +26,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Result
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
-from linkwright.words import Message, Say, _
+from linkwright.words import Message, Translate, _
 
 #: What the numbers are called.
 LABELS: Mapping[str, Message] = {
@@ -223,7 +223,7 @@ class Transport(Result):
             "height [m]": m.height,
         }
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         rows = [
             Row("speed", self.speed, "velocity", _("mean speed of transport")),
             Row("displacement", self.motion.displacement, "length"),
@@ -263,7 +263,7 @@ class Transport(Result):
         last = motion.input[-1] + (motion.input[-1] - motion.input[-2])
         return float(np.interp(time, ends, np.append(motion.input, last)))
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         trough, law, found = (
             self.conveyor.trough,
             Step("1", say(_("Forces on the load, per mass"))),

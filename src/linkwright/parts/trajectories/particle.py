@@ -21,7 +21,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem, Result
 from linkwright.parts.mechanism_field import load_referenced
 from linkwright.units import GRAVITY
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Message, Translate, _, pgettext
 
 #: Accuracy of the integration with quadratic drag, and points of the curve.
 ACCURACY, POINTS = 1e-11, 401
@@ -302,7 +302,7 @@ class Flight(Result):
         x, y, u, v = self.state(time)
         return {"time [s]": time, "x [m]": x, "y [m]": y, "vx [m/s]": u, "vy [m/s]": v}
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         speed, angle = self.impact
         rows = [
             Row("speed", self.particle.speed or 0.0, "velocity"), Row("angle", self.particle.angle or 0.0, "angle"),
@@ -312,7 +312,7 @@ class Flight(Result):
         ]  # fmt: skip
         return [Block("flight", "", rows)]
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         p, step = self.particle, Step("1", say(_("Equations of motion and their solution")))
         if p.quadratic:
             step.law("m·v̇_x = −k·v·v_x; m·v̇_y = −m·g − k·v·v_y; v = √(v_x² + v_y²)")

@@ -27,7 +27,7 @@ from linkwright.laws.program_fields import LawField
 from linkwright.laws.residual import residual
 from linkwright.parts.base import Problem, Result
 from linkwright.parts.vibration.linear import Linear, largest_between
-from linkwright.words import Message, Say, _
+from linkwright.words import Message, Translate, _
 
 #: Points of curves; distance from a break at which a law has the value of its side.
 POINTS, SIDE_STEP = 801, 1e-13
@@ -229,7 +229,7 @@ class FollowerVibration(Result):
         time, cam, follower = self.curves
         return {"time [s]": time, "cam [m]": cam, "follower [m]": follower, "difference [m]": follower - cam}
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         rows = [
             Row("own_frequency", self.frequency / (2 * math.pi), "frequency"),
             Row("ratio", self.ratio),
@@ -240,7 +240,7 @@ class FollowerVibration(Result):
         ]
         return [Block("follower", "", rows)]
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         step = Step("1", say(_("A mass driven through a spring")))
         step.say(say(_("Rise s(u) = h·f(u) with u = t/T; law f: {law}.", law=self.problem.law_name)))
         step.law("z = x − s; z̈ + 2·ζ·ω·ż + ω²·z = −s̈")

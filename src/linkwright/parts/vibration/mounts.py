@@ -24,7 +24,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Result
 from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
 from linkwright.parts.vibration.linear import largest_between
-from linkwright.words import Say, _, pgettext
+from linkwright.words import Translate, _, pgettext
 
 #: Columns and dimensions of shaking force, motion and force on the ground, by axis.
 TITLES = {
@@ -337,7 +337,7 @@ class Shaken(Result):
             found |= {title: each[:, i] for (title, _unused), each in zip(TITLES[axis], curves, strict=True)}
         return found
 
-    def _own_rows(self, say: Say) -> list[Row]:
+    def _own_rows(self, say: Translate) -> list[Row]:
         """Natural frequencies; of a machine that rocks with what moves most, over the radius of gyration."""
         hertz = self.frequencies / (2 * math.pi)
         if not self.problem.mounts:
@@ -359,7 +359,7 @@ class Shaken(Result):
             for k in range(len(hertz))
         ]
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         rows = self._own_rows(say)
         curves = {"shaking": self.harmonics, "machine": self.moved, "ground": self.passed}
         for i, axis in enumerate(self.axes):
@@ -392,7 +392,7 @@ class Shaken(Result):
         size = np.abs(self.harmonics[1:, :2]).max(axis=1)
         return [k + 1 for k in range(len(size)) if size[k] > SMALL * size.max()][:12]
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         own, each = (
             Step("1", say(_("Natural frequencies and speeds to avoid"))),
             Step("2", say(_("Harmonics: shaking force → motion, force on the ground"))),

@@ -35,7 +35,7 @@ from linkwright.parts.vibration.excitation import (
 )
 from linkwright.parts.vibration.linear import Linear, largest_between, tuned
 from linkwright.units import DIMENSIONS, SMALLEST
-from linkwright.words import Message, Say, _, language_of
+from linkwright.words import Message, Translate, _, language_of
 from linkwright.words.sentence import in_language
 
 GROUND = "ground"
@@ -519,7 +519,7 @@ class Vibration(Result):
             found[f"{name} phase [rad]"] = np.angle(moved[:, i])
         return found
 
-    def blocks(self, say: Say) -> list[Block]:
+    def blocks(self, say: Translate) -> list[Block]:
         rows = []
         for i, own in enumerate(self.frequencies):
             mode = ", ".join(
@@ -564,7 +564,7 @@ class Vibration(Result):
             found.append(self._timed(say))
         return found
 
-    def _forced(self, say: Say) -> Block:
+    def _forced(self, say: Translate) -> Block:
         excitation = self.system.excitation
         assert excitation is not None and excitation.frequency is not None
         at = np.array([excitation.frequency])
@@ -585,7 +585,7 @@ class Vibration(Result):
             rows,
         )
 
-    def _timed(self, say: Say) -> Block:
+    def _timed(self, say: Translate) -> Block:
         time, moved, rate = self._response
         length = "angle" if self.system.turning else "length"
         rows = []
@@ -603,7 +603,7 @@ class Vibration(Result):
             )
         return Block("response", _("Response in time"), rows)
 
-    def steps(self, say: Say) -> list[Step]:
+    def steps(self, say: Translate) -> list[Step]:
         matrices, modes = (
             Step("1", say(_("Equations of motion M·ẍ + C·ẋ + K·x = F"))),
             Step("2", say(_("det(K − ω²M) = 0"))),

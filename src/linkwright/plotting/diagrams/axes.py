@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axis import Axis
 
-    from linkwright.words import Say
+    from linkwright.words import Translate
 
 
 _PREFIXED = {"force": "N", "torque": "N·m", "power": "W", "energy": "J"}
@@ -80,7 +80,7 @@ class InputAxis:
         """Whether the input falls as time goes on, so that the axis runs from right to left."""
         return bool(self.values[-1] < self.values[0])
 
-    def label(self, say: Say) -> str:
+    def label(self, say: Translate) -> str:
         """Its name with the unit, ``input φ (°)``."""
         if self.name:
             return self.unit.label(self.name)
@@ -88,7 +88,7 @@ class InputAxis:
         return self.unit.label(f"{word} {SYMBOLS[self.dimension]}")
 
 
-def label_input(axes: Axes, axis: InputAxis, say: Say) -> None:
+def label_input(axes: Axes, axis: InputAxis, say: Translate) -> None:
     """Label, range and ticks of the axis below: the input in the order of the motion."""
     shown = axis.values * axis.unit.factor
     good = shown[np.isfinite(shown)]

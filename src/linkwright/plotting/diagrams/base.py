@@ -17,7 +17,7 @@ from linkwright.pictures.drawing import Drawing
 from linkwright.plotting.diagrams.axes import Legend, wrapped
 from linkwright.plotting.diagrams.source import Source
 from linkwright.registry import Registry
-from linkwright.words import Message, Say, _, say
+from linkwright.words import Message, Translate, _, say
 from linkwright.words.characters import printable
 from linkwright.words.sentence import in_language
 
@@ -51,7 +51,7 @@ class Request:
     language: str = "en"
 
     @property
-    def say(self) -> Say:
+    def say(self) -> Translate:
         """Messages in the language that is asked for."""
         return partial(say, language=self.language)
 

@@ -31,7 +31,7 @@ from linkwright.plotting.diagrams.marks import (
     through_peaks,
 )
 from linkwright.plotting.diagrams.source import Source
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 #: A value below this in the unit of the axis has a unit of its own, below that share of the largest it is rounding.
 SMALL, ROUNDING = 0.1, 1e-9
@@ -247,7 +247,9 @@ def _set_range(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
     axes.set_ylim(-0.02 * high if grounded else low - room, high + room)
 
 
-def _draw_marks(axes: list[Axes], source: Source, output: Output | None, legend: Legend, say: Say) -> None:
+def _draw_marks(
+    axes: list[Axes], source: Source, output: Output | None, legend: Legend, say: Translate
+) -> None:
     factor = source.axis.unit.factor
     limits = limit_marks(source, output)
     for phase in phase_marks(source, limits):
@@ -268,7 +270,7 @@ def _shade(axes: list[Axes], phase: PhaseMark, factor: float) -> None:
         )
 
 
-def _name_limits(axes: Axes, limits: list[LimitMark], axis: InputAxis, say: Say) -> None:
+def _name_limits(axes: Axes, limits: list[LimitMark], axis: InputAxis, say: Translate) -> None:
     """Inputs of the limit positions above the panel; two that are close stand one over the other."""
     span = abs(axis.values[-1] - axis.values[0]) or 1.0
     ordered = sorted(limits, key=lambda each: each.place)

@@ -20,7 +20,7 @@ from linkwright.pictures.svg.element import element, fold
 from linkwright.pictures.symbols.base import vec
 from linkwright.plotting.drawing.machine import View
 from linkwright.plotting.drawing.scene import laid_out, point_labels
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 #: Printed width of a unit of the paper, mm.
 MILLIMETRE = 0.25
@@ -150,7 +150,7 @@ def scale_title(name: str, letter: str, scale: str) -> Runs:
     return joined(f"{name}: " if name else "", indexed("μ", letter), f" = {scale}")
 
 
-def position_cell(motion: Motion, say: Say) -> Cell:
+def position_cell(motion: Motion, say: Translate) -> Cell:
     """The machine at a motion's first position, with the names of its points."""
     clouds = [motion.point_of(key).position[:1] for key in motion.point_names()]
     clouds.append(np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2))

@@ -24,7 +24,7 @@ from linkwright.kinetostatics.table import results_of
 from linkwright.machine.running import SteadyRunning, steady_running
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plotting.diagrams.axes import SYMBOLS, InputAxis, unit_of
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 from linkwright.words.characters import one_line
 from linkwright.words.sentence import LocalizedText
 
@@ -126,7 +126,7 @@ class Source:
         static = self._static if self._forces is None else self._forces.static
         return solve_forces(self.at(place), static=static)
 
-    def place_text(self, motion: Motion, say: Say) -> str:
+    def place_text(self, motion: Motion, say: Translate) -> str:
         """Where the one position of a motion is: ``φ = 30°``."""
         dimension = self.input_dimension
         if not self.mechanism.drivers:

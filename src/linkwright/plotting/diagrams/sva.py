@@ -20,7 +20,7 @@ from linkwright.plotting.diagrams.marks import Curve
 from linkwright.plotting.diagrams.outputs import known_link, main_output, turning_links
 from linkwright.plotting.diagrams.panels import DASHES, OverInput, Panel
 from linkwright.plotting.diagrams.source import TURN, Source
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 ANGULAR = (
     (_("angle"), "θ", "angle"),
@@ -80,7 +80,7 @@ def _together(parts: list[tuple[str, list[Panel]]]) -> list[Panel]:
     return list(found.values())
 
 
-def _panels(source: Source, output: Output, say: Say) -> list[Panel]:
+def _panels(source: Source, output: Output, say: Translate) -> list[Panel]:
     if output.kind in NAMED:
         return _of_named(source, output)
     if output.kind not in PLACES:
@@ -127,7 +127,7 @@ def _of_result(source: Source, output: Output) -> Panel:
     return Panel(output.name, output.dimension, (Curve("", np.where(over, np.nan, values), "both"),))
 
 
-def _of_point(source: Source, key: str, say: Say) -> list[Panel]:
+def _of_point(source: Source, key: str, say: Translate) -> list[Panel]:
     point = source.motion.point_of(key)
     found = []
     for word, title, symbol, dimension in (

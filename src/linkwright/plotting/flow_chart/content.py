@@ -20,7 +20,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.wheel_sizes import wheel_sizes
-from linkwright.words import Say, _, say
+from linkwright.words import Translate, _, say
 from linkwright.words.sentence import link_label
 
 Shape = Literal["terminator", "data", "preparation", "process", "call", "decision"]
@@ -99,7 +99,7 @@ class _Writer:
         self.mechanism: Mechanism = motion.mechanism
         self.groups = motion.structure.groups
         self.numbers = link_numbers(self.mechanism)
-        self.say: Say = partial(say, language=language)
+        self.say: Translate = partial(say, language=language)
         self.rows = rows
         self.joint_points = set(self.mechanism.joints)
 

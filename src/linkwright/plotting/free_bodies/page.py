@@ -26,7 +26,7 @@ from linkwright.plotting.free_bodies.picture import (
     LinkShapes,
     body_sketch,
 )
-from linkwright.words import Say, _, pgettext
+from linkwright.words import Translate, _, pgettext
 from linkwright.words.sentence import link_label
 
 #: Width of a cell, space between cells, height of a page's pictures, mm.
@@ -71,7 +71,7 @@ class Cell:
 def free_body_pages(
     forces: Forces,
     index: int,
-    say: Say,
+    say: Translate,
     language: str,
     *,
     of: Sequence[str] = (),
@@ -99,7 +99,7 @@ def free_body_pages(
 
 
 # one link -------------------------------------------------------------------------------------
-def _cell(drawn: BodySketch, say: Say, language: str) -> Cell:
+def _cell(drawn: BodySketch, say: Translate, language: str) -> Cell:
     body, sketch = drawn.body, Sketch()
     named = say(_("{number} {link}", number=body.number, link=link_label(body.link, language)))
     sketch.text((0.0, TITLE), sentence_runs(named), "lw-legend lw-flow-call", TITLE)
@@ -118,7 +118,7 @@ def _scales(drawn: BodySketch) -> str:
 
 
 # numbers --------------------------------------------------------------------------------------
-def _table(found: Sketch, body: FreeBody, say: Say, y: float) -> float:
+def _table(found: Sketch, body: FreeBody, say: Translate, y: float) -> float:
     """Components, sizes and directions of forces, and couples, below a height; where the table ends."""
     if body.forces:
         unit, factor = _force_unit(body.forces)
@@ -145,7 +145,7 @@ def _table(found: Sketch, body: FreeBody, say: Say, y: float) -> float:
     return _moments(found, y, body, say)
 
 
-def _moments(found: Sketch, y: float, body: FreeBody, say: Say) -> float:
+def _moments(found: Sketch, y: float, body: FreeBody, say: Translate) -> float:
     """The sum of all moments, about the mass centre; of forces through one point there is none."""
     moments = [each.moment(body.centre) for each in body.actions]
     arms = [each.size * math.dist(each.place, body.centre) for each in body.actions]
@@ -213,7 +213,7 @@ def _sheets(cells: Sequence[Cell], columns: int, first: float, tallest: float) -
     return sheets
 
 
-def _page(rows: Sequence[Sequence[Cell]], say: Say, heading: str) -> str:
+def _page(rows: Sequence[Sequence[Cell]], say: Translate, heading: str) -> str:
     columns = max(map(len, rows))
     cells = [cell for row in rows for cell in row]
     wide = columns * Cell.width - SPACING / MILLIMETRE
@@ -222,7 +222,7 @@ def _page(rows: Sequence[Sequence[Cell]], say: Say, heading: str) -> str:
     return page(cells, columns, below, heading, say(_("Free-body diagrams of the links"))).svg
 
 
-def _key(cells: Sequence[Cell], say: Say) -> Iterator[str]:
+def _key(cells: Sequence[Cell], say: Translate) -> Iterator[str]:
     """What the symbols of a page mean, and what is not to scale."""
     roles = {each.role for cell in cells for each in cell.body.actions}
     for role in STYLES:

@@ -30,7 +30,7 @@ from linkwright.plotting.result_diagrams.design_space import (
     varied,
 )
 from linkwright.registry import offered
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 HODOGRAPH = "hodograph"
 #: What a motion is called and measured in, for an output that turns and for one that slides.
@@ -101,7 +101,7 @@ def _chosen(result: Comparison, names: Sequence[str]) -> list[Overlay]:
     return [known[name] for name in names or known]
 
 
-def _axis(sources: Mapping[str, Source], say: Say) -> InputAxis:
+def _axis(sources: Mapping[str, Source], say: Translate) -> InputAxis:
     """The input passed; raises LinkwrightError where one input turns and another slides."""
     turning = {next(iter(each.motion.positions.rotary.values())) for each in sources.values()}
     if len(turning) > 1:

@@ -30,7 +30,7 @@ from linkwright.synthesis.motion_generation.generate import MotionDerivation
 from linkwright.synthesis.requirements.crank_rocker import CrankRockerDerivation, QuickReturnDerivation
 from linkwright.synthesis.requirements.slider_crank import SliderCrankDerivation
 from linkwright.synthesis.result import Synthesis, title_text
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 #: Longest extent of a construction, mm; size of posed axes, as a share of the poses' extent.
 EXTENT, AXES = 130.0, 0.18
@@ -102,7 +102,7 @@ class Construction:
         """The angle between two rays from a point."""
         self.angles.append((name, at, first, last, radius))
 
-    def cell(self, say: Say) -> Cell:
+    def cell(self, say: Translate) -> Cell:
         """All of it to a round scale."""
         every = np.concatenate([line for line, _ in self.lines])
         scale = scale_of_picture(_flat(every[np.isfinite(every)]), EXTENT)

@@ -9,7 +9,7 @@ from linkwright.reports.document import Block, Paragraph, literal, printed
 from linkwright.reports.machine_results import Case, Missing
 from linkwright.reports.section import section
 from linkwright.reports.settings import Erratum
-from linkwright.words import Say, _, language_of
+from linkwright.words import Translate, _, language_of
 
 
 @section("errata", _("Mistakes of the source"), 13.0, optional=True)
@@ -21,7 +21,7 @@ def blocks(case: Case) -> Iterator[Block]:
     yield from errata_blocks(found, case.origin, say)
 
 
-def errata_blocks(found: Sequence[Erratum], source: str, say: Say) -> Iterator[Block]:
+def errata_blocks(found: Sequence[Erratum], source: str, say: Translate) -> Iterator[Block]:
     """The mistakes of a source as a table."""
     yield Paragraph(
         say(

@@ -14,7 +14,7 @@ from linkwright.reports.sections.worked_position import to_scale
 from linkwright.reports.settings import Settings
 from linkwright.synthesis.result import Synthesis, SynthesisError
 from linkwright.synthesis.task_file import TaskFile
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 from linkwright.words.sentence import in_language
 
 #: Share of the page's width that a diagram takes, and one with a function next to the linkages.
@@ -35,7 +35,7 @@ def blocks(case: Case) -> Iterator[Block]:
     yield from of_task(case.source, case.language)
 
 
-def task_chapter(task: TaskFile, own: Settings, say: Say, language: str) -> Iterator[Block | OwnText]:
+def task_chapter(task: TaskFile, own: Settings, say: Translate, language: str) -> Iterator[Block | OwnText]:
     """The chapter of a file that holds a task alone, under a heading with its name."""
     yield Heading(literal(task.name), 1)
     if purpose := own.purpose or task.purpose:

@@ -19,7 +19,7 @@ from linkwright.reports.document import Block, Paragraph, literal, printed
 from linkwright.reports.key_names import MODEL_KEYS, VALUES
 from linkwright.reports.machine_results import Case
 from linkwright.reports.section import section
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Message, Translate, _, pgettext
 
 #: Entries of a list that is printed in full.
 LONGEST = 12
@@ -112,7 +112,7 @@ def _or_dash(value: float) -> str:
     return f"{value:.6g}" if value else "–"
 
 
-def kind_of(value: Any, say: Say) -> str:
+def kind_of(value: Any, say: Translate) -> str:
     """The kind of a joint, a load, or a driver's law, in words; of another package by its own name."""
     kind = str(value.get("kind", "")) or next((law for law in LAWS if law in value), "")
     if kind in KINDS:
@@ -120,12 +120,12 @@ def kind_of(value: Any, say: Say) -> str:
     return say(PAIRS[kind]) if kind in PAIRS else kind or "–"
 
 
-def element_data(value: Any, say: Say) -> str:
+def element_data(value: Any, say: Translate) -> str:
     """What the model file says of a joint, a driver or a load, but its kind."""
     return written({key: each for key, each in value.items() if key != "kind"}, say)
 
 
-def written(value: Any, say: Say, key: str = "") -> str:
+def written(value: Any, say: Translate, key: str = "") -> str:
     """A value of a model file in one line, keys in words, angles in degrees, lengths in mm, six digits; long lists by
     their ends."""
     if isinstance(value, Mapping):
@@ -145,7 +145,7 @@ def written(value: Any, say: Say, key: str = "") -> str:
     return _word(str(value), key, say) or _rounded(str(value))
 
 
-def _word(text: str, key: str, say: Say) -> str:
+def _word(text: str, key: str, say: Translate) -> str:
     """A value that is a word of the model language; empty for names, numbers and expressions."""
     if key == "law" and text in LABELS:
         return say(LABELS[text])

@@ -21,7 +21,7 @@ from linkwright.reports.document import (
 from linkwright.reports.machine_results import Case
 from linkwright.reports.section import section
 from linkwright.reports.sections.method import printed
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 from linkwright.worked_solutions.solution import Worked
 
 #: A point, the width of the text and the tallest polygon, mm.
@@ -117,7 +117,7 @@ def share_of(picture: str) -> float:
     return min(1.0, TEXT / wide, TALLEST / high)
 
 
-def to_scale(say: Say, caption: str, picture: str, label: str = "") -> Figure:
+def to_scale(say: Translate, caption: str, picture: str, label: str = "") -> Figure:
     """A picture in its own size, so that a millimetre is one; where it must be smaller the caption says so."""
     wide, share = natural_size(picture)[0] / PIXELS, share_of(picture)
     if share < 0.995:

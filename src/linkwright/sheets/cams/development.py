@@ -14,7 +14,7 @@ from linkwright.pictures.picture import Picture, Runs, as_runs, indexed, joined
 from linkwright.sheets.cams.division import Paper, divided, pitch_of, sharpest
 from linkwright.sheets.cams.marks import angle_between, checks_text, graphical
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 _DENSE = 1440
 #: Room around the developed cylinder for numbers and names, and how far its edges lie beyond the groove, mm.
@@ -29,7 +29,7 @@ class DevelopmentPanel(Panel):
     name, rank = "profile", 0.5
     smallest, largest = 90.0, 420.0
 
-    def __init__(self, design: CamDesign, say: Say) -> None:
+    def __init__(self, design: CamDesign, say: Translate) -> None:
         self.design, self.say = design, say
         self.places = np.append(divided(design.cam.program), 2 * math.pi)
         self.radius = design.cam.barrel_radius or 0.0

@@ -14,7 +14,7 @@ from linkwright.core.quantity import per_mm, significant
 from linkwright.pictures.labels import Name
 from linkwright.pictures.picture import Picture, Runs, as_runs, indexed, joined
 from linkwright.sheets.cams.division import Paper, divided, inverted, pair, pitch_of, sharpest, widest_gap
-from linkwright.words import Message, Say, _
+from linkwright.words import Message, Translate, _
 
 
 def equal(symbol: Runs, value: float, unit: str, digits: int = 4) -> Runs:
@@ -40,7 +40,7 @@ _ARM, _ARC = 24.0, 17.0
 _CLEAR, _LEADER = 1.2, 9.0
 
 
-def marked(picture: Picture, paper: Paper, design: CamDesign, say: Say, outer: float) -> list[Name]:
+def marked(picture: Picture, paper: Paper, design: CamDesign, say: Translate, outer: float) -> list[Name]:
     """Draws the marks of a profile within the distance ``outer`` (m); gives their names."""
     return [
         *_steepest(picture, paper, design),
@@ -144,7 +144,7 @@ def _turning(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Name
     yield Name(indexed("ω", "1" if cam.follower.oscillating else ""), places, clear=_CLEAR)
 
 
-def _curves(picture: Picture, paper: Paper, design: CamDesign, say: Say) -> Iterator[Name]:
+def _curves(picture: Picture, paper: Paper, design: CamDesign, say: Translate) -> Iterator[Name]:
     """The names of profile and pitch curve, with leaders from near the ends of the free directions."""
     phi = np.linspace(0.0, 2 * math.pi, 721)[:-1]
     low, high = _free(design)

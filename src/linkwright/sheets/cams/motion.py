@@ -16,7 +16,7 @@ from linkwright.pictures.picture import MIN_TEXT, TEXT, Picture, Runs, as_runs, 
 from linkwright.sheets.cams.division import Phase, divided, phases
 from linkwright.sheets.cams.marks import graphical
 from linkwright.sheets.panel import Drawn, Panel, preferred
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 #: Shares of the height for lift, velocity and acceleration; space above and below each strip, mm.
 _SHARES, _ABOVE, _BELOW = (0.42, 0.29, 0.29), 11.0, 3.0
@@ -48,7 +48,7 @@ class MotionPanel(Panel):
     name, rank = "motion", 1.0
     smallest = 130.0
 
-    def __init__(self, design: CamDesign, say: Say, largest: float) -> None:
+    def __init__(self, design: CamDesign, say: Translate, largest: float) -> None:
         self.design, self.say, self.largest = design, say, largest
         program = design.cam.program
         self.places, self.phases = divided(program), phases(program)

@@ -18,7 +18,7 @@ from linkwright.sheets.cams.division import Paper, divided, inverted, pair, pitc
 from linkwright.sheets.cams.marks import checks_text, graphical, marked
 from linkwright.sheets.machine import frame_pin, guide
 from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
-from linkwright.words import Say, _
+from linkwright.words import Translate, _
 
 _DENSE = 1440
 #: Paper, mm: how far followers' lines go on beyond the outermost point, and room for numbers and names beyond them.
@@ -37,7 +37,7 @@ class ProfilePanel(Panel):
     name, rank = "profile", 0.5
     smallest, largest = 90.0, 420.0
 
-    def __init__(self, design: CamDesign, say: Say) -> None:
+    def __init__(self, design: CamDesign, say: Translate) -> None:
         self.design, self.say = design, say
         self.places = divided(design.cam.program)
         self.at = inverted(design, self.places)

@@ -15,7 +15,7 @@ from linkwright.laws.smoothest import FoundProgram
 from linkwright.pictures.picture import Runs, Words, as_runs, indexed, joined
 from linkwright.sheets.cams.division import Phase, divided, phases, pitch_of
 from linkwright.sheets.panel import Drawn, TablePanel
-from linkwright.words import Message, Say, _, pgettext
+from linkwright.words import Message, Translate, _, pgettext
 
 Row = list[Words]
 #: Most parts of the table of points side by side.
@@ -24,7 +24,7 @@ _PARTS = 3
 WAYS = {"rise": pgettext("cam_sheet", "rise"), "fall": _("return"), "dwell": pgettext("cam_sheet", "dwell")}
 
 
-def data_table(design: CamDesign, say: Say, parts: int) -> TablePanel:
+def data_table(design: CamDesign, say: Translate, parts: int) -> TablePanel:
     """Motion, sizes and checks of a cam: name, symbol, value; in so many parts side by side."""
     head = [
         say(key)
@@ -38,12 +38,12 @@ def data_table(design: CamDesign, say: Say, parts: int) -> TablePanel:
     return TablePanel("table_data", 2.0, head, rows, say(_("Data of the cam")), parts=parts)
 
 
-def _row(say: Say, name: Message, symbol: Words, value: float, unit: str) -> Row:
+def _row(say: Translate, name: Message, symbol: Words, value: float, unit: str) -> Row:
     gap = "" if unit in ("", "°") else " "
     return [say(name), symbol, f"{significant(value, 5)}{gap}{unit}"]
 
 
-def _motion(design: CamDesign, say: Say) -> Iterator[Row]:
+def _motion(design: CamDesign, say: Translate) -> Iterator[Row]:
     cam = design.cam
     low, high = cam.program.lifts
     if cam.follower.oscillating:
@@ -62,7 +62,7 @@ def _motion(design: CamDesign, say: Say) -> Iterator[Row]:
         yield [say(_("cam turns")), "", sense]
 
 
-def _phase(phase: Phase, number: int, say: Say) -> Row:
+def _phase(phase: Phase, number: int, say: Translate) -> Row:
     """The angle of a phase, and its law where it moves."""
     symbol: Words = indexed(*phase.symbol) if phase.symbol[0] else indexed("δ", str(number))
     name = say(_named(phase))
@@ -79,7 +79,7 @@ def _named(phase: Phase) -> Message:
     return WAYS[phase.way]
 
 
-def _sizes(design: CamDesign, say: Say) -> Iterator[Row]:
+def _sizes(design: CamDesign, say: Translate) -> Iterator[Row]:
     cam, follower = design.cam, design.cam.follower
     base = cam.base_radius or 0.0
     if cam.barrel_radius is not None:
@@ -116,7 +116,7 @@ def _sizes(design: CamDesign, say: Say) -> Iterator[Row]:
         yield _row(say, _("width of face in use"), "b", 1e3 * (design.face[1] - design.face[0]), "mm")
 
 
-def _checks(design: CamDesign, say: Say) -> Iterator[Row]:
+def _checks(design: CamDesign, say: Translate) -> Iterator[Row]:
     limits = design.cam.limits
     fall = limits.pressure_angle if limits.pressure_angle_fall is None else limits.pressure_angle_fall
     for name, extreme, limit in (
@@ -147,7 +147,7 @@ class PointsTable(TablePanel):
         return replace(table, caption=(*table.caption, self.note))
 
 
-def points_table(design: CamDesign, say: Say, letters: float, tall: int) -> PointsTable:
+def points_table(design: CamDesign, say: Translate, letters: float, tall: int) -> PointsTable:
     """Lift, pitch curve, profile and pressure angle at the divided angles, in parts side by side of at most
     ``tall`` rows, as far as the paper is wide enough; ``letters``: their height, mm."""
     head, rows = _points(design)

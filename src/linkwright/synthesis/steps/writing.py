@@ -14,7 +14,7 @@ from linkwright.equations.matrix import Entries, side_by_side
 from linkwright.equations.steps import Step, Tabulated
 from linkwright.equations.terms import ZERO, Term, symbol
 from linkwright.synthesis.result import Synthesis
-from linkwright.words import Message, Say
+from linkwright.words import Message, Translate
 
 #: Lengths are printed in m where the longest link has this length or more, m.
 LARGE = 10.0
@@ -29,7 +29,7 @@ class Writer:
     """The steps of one synthesis as they are written; ``pictures``: kinds of diagrams behind a step by its number."""
 
     found: Synthesis
-    say: Say
+    say: Translate
     steps: list[Step] = field(default_factory=list)
     pictures: dict[str, list[str]] = field(default_factory=dict)
 
