@@ -19,7 +19,8 @@ def checked(path: Path, options: Options, names: Sequence[str]) -> tuple[str, di
     """The format of a file and its options; raises UsageError before any work is done."""
     from linkwright.exporters.export import FORMATS, check_options, chosen_format
 
-    settings = {name: getattr(options, name) for name in names if getattr(options, name) is not None}
+    given = {name: getattr(options, name) for name in names if getattr(options, name) is not None}
+    settings = {"compared" if name == "beside" else name: value for name, value in given.items()}
     try:
         chosen = chosen_format(path, options.format)
         check_options(chosen, FORMATS[chosen], settings)
@@ -33,7 +34,7 @@ def page_inputs(file: str, others: Sequence[str]) -> dict[str, Any]:
     from linkwright.files.model_file import read_document
     from linkwright.files.source import read_source
 
-    return {"text": read_source(file)[0], "beside": [read_document(each) for each in others]}
+    return {"text": read_source(file)[0], "compared": [read_document(each) for each in others]}
 
 
 def report_failures(motion: Motion, session: Session) -> int:

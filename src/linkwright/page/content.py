@@ -210,7 +210,7 @@ def living_page(
 
     Args:
         machine: a mechanism, or a document, whose text the page gives back with the changed numbers.
-        *beside: further ones on the same page.
+        *compared: further ones on the same page.
         steps: positions over the cycle.
         language: ``en`` or ``zh``, in which it opens.
 
