@@ -29,6 +29,10 @@ def progress(session: Session, what: Message) -> Iterator[Progress | None]:
             if done < bar.tasks[0].completed:  # the next one of several pieces of work
                 bar.reset(task, total=total)
             bar.update(task, completed=done, total=total)
+            if done >= total:
+                bar.stop()  # the result may be printed now
+            elif not bar.live.is_started:
+                bar.start()
 
         with reporting(report):
             yield report
