@@ -15,8 +15,8 @@ from linkwright.formula.threads import cores
 from linkwright.synthesis.free_curve import search as searching
 from linkwright.synthesis.free_curve.atlas import LEVELS, atlas
 from linkwright.synthesis.free_curve.linkages import Placed
-from linkwright.synthesis.free_curve.nodes import node_paths, random_structure
 from linkwright.synthesis.free_curve.target import EVEN, Target, even_points, normal, symmetric_distance
+from linkwright.synthesis.free_curve.topology import node_paths, random_structure
 
 Curve = tuple[str, NDArray[np.complex128], bool]
 #: Strokes of letters drawn without lifting the pen, on a grid of 4 x 6; "o" after a place rounds that corner.

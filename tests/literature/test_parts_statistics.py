@@ -39,7 +39,7 @@ def test_several_explaining_samples() -> None:
 
 def test_students_sleep_data() -> None:
     """t = −4.0621, p = 0.002833 paired; Welch t = −1.8608, df = 17.776, p = 0.07939 (R, ?sleep)."""
-    asked = {"pair": parts.Asked("paired", ("a", "b")), "welch": parts.Asked("two_means", ("a", "b"))}
+    asked = {"pair": parts.TestSpec("paired", ("a", "b")), "welch": parts.TestSpec("two_means", ("a", "b"))}
     found = solved({"a": SLEEP_1, "b": SLEEP_2}, tests=asked).tests
     assert found["pair"].statistic == pytest.approx(-4.0621, abs=5e-5)
     assert found["pair"].p == pytest.approx(0.002833, abs=5e-7)
@@ -50,7 +50,7 @@ def test_students_sleep_data() -> None:
 
 def test_plant_growth() -> None:
     """F = 4.846, p = 0.01591 (R, ?PlantGrowth)."""
-    found = solved(PLANTS, tests={"all": parts.Asked("anova", tuple(PLANTS))}).tests["all"]
+    found = solved(PLANTS, tests={"all": parts.TestSpec("anova", tuple(PLANTS))}).tests["all"]
     assert found.statistic == pytest.approx(4.846, abs=5e-4)
     assert found.p == pytest.approx(0.01591, abs=5e-6)
     assert found.freedom == (2.0, 27.0)
@@ -71,7 +71,7 @@ def test_a_coefficient_whose_probability_is_below_rounding_is_not_said_to_be_imp
 
 def test_variance_tests_by_hand() -> None:
     """(n − 1)s²/σ0² = 2.5 with 5 degrees: p = 2 P(χ² < 2.5)."""
-    asked = {"v": parts.Asked("variance", ("x",), 2.0)}
+    asked = {"v": parts.TestSpec("variance", ("x",), 2.0)}
     found = solved({"x": [9.0, 11.0, 10.0, 12.0, 8.0, 10.0]}, tests=asked).tests["v"]
     assert found.statistic == pytest.approx(2.5)
     tail = math.erf(math.sqrt(1.25)) - math.sqrt(5 / math.pi) * math.exp(-1.25) * (1 + 2.5 / 3)

@@ -10,11 +10,11 @@ from linkwright import parts
 
 M, K = 25.0, 1e4
 W = math.sqrt(K / M)
-SPRING = {"k": parts.Tie(("ground", "body"), K)}
+SPRING = {"k": parts.Connector(("ground", "body"), K)}
 
 
 def one(damping: float = 0.0, **given: object) -> parts.VibratingSystem:
-    dampers = {"c": parts.Tie(("ground", "body"), damping)} if damping else {}
+    dampers = {"c": parts.Connector(("ground", "body"), damping)} if damping else {}
     return parts.VibratingSystem({"body": M}, SPRING, dampers, **given)  # type: ignore[arg-type]
 
 
@@ -32,7 +32,7 @@ def test_two_equal_masses() -> None:
 
 def test_two_unequal_masses_against_the_characteristic_equation() -> None:
     m1, m2, k1, k2 = 12.0, 3.0, 5e3, 2e3
-    ties = {"a": parts.Tie(("ground", "x"), k1), "b": parts.Tie(("x", "y"), k2)}
+    ties = {"a": parts.Connector(("ground", "x"), k1), "b": parts.Connector(("x", "y"), k2)}
     found = parts.VibratingSystem({"x": m1, "y": m2}, ties).solve()
     half = (k1 + k2) / (2 * m1) + k2 / (2 * m2)
     root = math.sqrt(half**2 - k1 * k2 / (m1 * m2))
@@ -43,7 +43,7 @@ def test_two_unequal_masses_against_the_characteristic_equation() -> None:
 
 def test_two_discs_on_a_shaft_turn_freely_and_swing() -> None:
     found = parts.VibratingSystem(
-        {"a": 0.4, "b": 0.1}, {"s": parts.Tie(("a", "b"), 900.0)}, turning=True
+        {"a": 0.4, "b": 0.1}, {"s": parts.Connector(("a", "b"), 900.0)}, turning=True
     ).solve()
     assert found.frequencies == pytest.approx([0.0, math.sqrt(900 * 0.5 / 0.04)], abs=1e-9)
 
@@ -105,7 +105,7 @@ def test_a_force_that_begins_and_ends_between_the_places_of_the_curve() -> None:
 
 def test_the_largest_displacement_is_found_between_the_places_of_the_curve() -> None:
     """A slow and a fast mass, 1 to 40: released from rest, x0 and the peaks of an undamped swing, v0/ω."""
-    ties = {"a": parts.Tie(("ground", "slow"), 1.0), "b": parts.Tie(("ground", "fast"), 1600.0)}
+    ties = {"a": parts.Connector(("ground", "slow"), 1.0), "b": parts.Connector(("ground", "fast"), 1600.0)}
     start = {"slow": parts.Start(0.0, 0.3), "fast": parts.Start(0.0, 0.7)}
     found = parts.VibratingSystem({"slow": 1.0, "fast": 1.0}, ties, start=start).solve()
     slow, fast = (abs(row["value"]) for row in found.data()["response"].values())
@@ -122,9 +122,9 @@ def test_damping_ratios_of_dampers_in_proportion_to_masses_and_springs() -> None
     """C = αM + βK: ζ = (α/ω + βω)/2 of every mode (Rayleigh), of modes that do not swing too."""
     masses, alpha, beta = {"a": 2.0, "b": 1.0, "c": 3.0}, 1.5, 0.06
     ties = {"1": ("ground", "a", 900.0), "2": ("a", "b", 400.0), "3": ("b", "c", 500.0)}
-    springs = {name: parts.Tie((first, last), rate) for name, (first, last, rate) in ties.items()}
-    dampers = {name: parts.Tie(tie.between, beta * tie.rate) for name, tie in springs.items()}
-    dampers |= {f"m{name}": parts.Tie(("ground", name), alpha * mass) for name, mass in masses.items()}
+    springs = {name: parts.Connector((first, last), rate) for name, (first, last, rate) in ties.items()}
+    dampers = {name: parts.Connector(tie.between, beta * tie.rate) for name, tie in springs.items()}
+    dampers |= {f"m{name}": parts.Connector(("ground", name), alpha * mass) for name, mass in masses.items()}
     found = parts.VibratingSystem(masses, springs, dampers).solve()
     ratios = (alpha / found.frequencies + beta * found.frequencies) / 2
     assert ratios.min() < 1 < ratios.max()
@@ -134,8 +134,8 @@ def test_damping_ratios_of_dampers_in_proportion_to_masses_and_springs() -> None
 def test_damping_ratios_of_dampers_that_couple_the_modes() -> None:
     """Roots of the characteristic polynomial: a pair that swings, a real pair with ζ = −(p1 + p2)/(2√(p1 p2))."""
     m1, m2, k1, k2, c = 4.0, 1.0, 600.0, 300.0, 60.0
-    springs = {"1": parts.Tie(("ground", "a"), k1), "2": parts.Tie(("a", "b"), k2)}
-    found = parts.VibratingSystem({"a": m1, "b": m2}, springs, {"c": parts.Tie(("a", "b"), c)}).solve()
+    springs = {"1": parts.Connector(("ground", "a"), k1), "2": parts.Connector(("a", "b"), k2)}
+    found = parts.VibratingSystem({"a": m1, "b": m2}, springs, {"c": parts.Connector(("a", "b"), c)}).solve()
     whole = np.polysub(np.polymul([m1, c, k1 + k2], [m2, c, k2]), np.polymul([c, k2], [c, k2]))
     roots = np.roots(whole)
     swinging, real = roots[roots.imag > 1e-9][0], roots[np.abs(roots.imag) < 1e-9].real
@@ -174,8 +174,8 @@ def test_tuned_absorber_has_peaks_near_the_fixed_points() -> None:
     centre = 1 / (1 + ratio)
     squares = [centre * (1 + sign * math.sqrt(ratio / (2 + ratio))) for sign in (-1, 1)]
     for scale in (1.0, 0.2, 3.0):
-        ties = {"k": parts.Tie(("ground", "m"), 4e5), "a": parts.Tie(("m", "a"), stiffness)}
-        dampers = {"c": parts.Tie(("m", "a"), scale * damping)}
+        ties = {"k": parts.Connector(("ground", "m"), 4e5), "a": parts.Connector(("m", "a"), stiffness)}
+        dampers = {"c": parts.Connector(("m", "a"), scale * damping)}
         force = parts.Excitation("m", force=1.0, frequency=w0)
         found = parts.VibratingSystem({"m": 100.0, "a": 5.0}, ties, dampers, force).solve()
         size = np.abs(found.amplitudes(w0 * np.sqrt(squares))[:, 0]) * 4e5

@@ -13,7 +13,7 @@ from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.analysis.outputs import coupler_points
 from linkwright.core.arrays import Floats
-from linkwright.core.attached import Plotted
+from linkwright.core.attached import PlotMixin
 from linkwright.core.plane import cross, crossings
 from linkwright.core.quantity import shown
 from linkwright.core.search import lowest
@@ -46,7 +46,7 @@ PlanePoint = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class CouplerCurve(Plotted):
+class CouplerCurve(PlotMixin):
     """Closed path of a point: ``length`` m, ``area`` m² (counter-clockwise positive, loops with their sign),
     ``double_points`` and ``cusps`` as (x, y) in m with the inputs there; ``path`` (n, 2) m, its positions once, or
     360 a turn where these do not divide into rounds. A path that is run several times over a cycle, as by a planet

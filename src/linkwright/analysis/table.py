@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from linkwright.analysis.base import CELLS, METRICS, REMARK, MetricValue
-from linkwright.core.attached import Plotted
+from linkwright.core.attached import PlotMixin
 from linkwright.core.table import Amount, Cell, Table, Tabular, dataframe
 from linkwright.errors import RequestError
 from linkwright.registry import offered
@@ -60,7 +60,7 @@ def _remarks(row: MetricValue | None, language: str) -> str:
     return f"{mark} {_('; ').translate(language).join(texts)}".strip()
 
 
-class MetricsTable(Plotted, Tabular, Sequence[MetricValue]):
+class MetricsTable(PlotMixin, Tabular, Sequence[MetricValue]):
     """Values of design numbers, in rows.
 
     ``table["stroke"]``: all values of one number; ``table["stroke", "guide"]``: the one of a subject;

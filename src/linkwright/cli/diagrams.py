@@ -64,9 +64,9 @@ def cycles(files: Sequence[str], steps: int, session: Session) -> dict[str, Moti
 
 def diagram_position(text: str | None, motions: Mapping[str, Motion]) -> float | str | None:
     """The input or time of a polygon; raises UsageError. For a model without driver the text itself."""
-    from linkwright.plotting.diagrams.source import Source
+    from linkwright.plotting.diagrams.source import PlotInput
 
-    first = Source(next(iter(motions.values())))
+    first = PlotInput(next(iter(motions.values())))
     if text is None or not first.mechanism.drivers:
         return text
     return one_place(text, first.mechanism, first.input_dimension, "--at")

@@ -13,7 +13,7 @@ from linkwright.words import _
 if TYPE_CHECKING:
     from linkwright.cli.options import Options
     from linkwright.cli.session import Session
-    from linkwright.core.attached import Plotted
+    from linkwright.core.attached import PlotMixin
     from linkwright.core.table import Tabular
     from linkwright.designs.optimise.optimum import Optimum
 
@@ -44,7 +44,7 @@ def default_path(source: str, suffix: str) -> Path:
     return Path(f"{Path(source.removeprefix('gallery:')).stem}{suffix}")
 
 
-def write_diagram(found: Plotted, options: Options, session: Session, *, kind: str | None = None) -> None:
+def write_diagram(found: PlotMixin, options: Options, session: Session, *, kind: str | None = None) -> None:
     """Draws a diagram of a result where ``--plot`` asks for one, the usual one unless a ``kind`` is named."""
     if options.plot is not None:
         path = Path(options.plot)

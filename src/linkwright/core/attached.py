@@ -32,7 +32,7 @@ def attached(declared: Method) -> Method:
     return cast("Method", call)
 
 
-class Plotted:
+class PlotMixin:
     """A result that has diagrams."""
 
     @attached

@@ -141,7 +141,7 @@ def sheets(found: Variants, language: str) -> Files:
         Table,
         literal,
     )
-    from linkwright.reports.legible import legible
+    from linkwright.reports.font_scaling import font_scaling
     from linkwright.reports.typst_pages import compiled
 
     say = speaker(language)
@@ -154,7 +154,7 @@ def sheets(found: Variants, language: str) -> Files:
         rows = tuple((literal(a), literal(b)) for a, b in data_rows(found, each, say))
         left = ROOM - ROW * (len(rows) + len(found.task.questions))
         tallest = min(max(left, LOWEST), TALLEST)
-        shown = legible(partial(drawing, found, each, language), SHARE, tallest)
+        shown = font_scaling(partial(drawing, found, each, language), SHARE, tallest)
         page.append(Figure(literal(found.name), ((shown, SHARE),), tallest=tallest))
         page.append(Table(say(_("Given")), (say(_("name")), say(_("value"))), rows, "<<"))
         asked = tuple((literal(q.text(language)), "…" * 14, q.unit) for q in found.task.questions)

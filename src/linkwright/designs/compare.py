@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 from linkwright.analysis.base import MetricValue
 from linkwright.analysis.by_name import ask
 from linkwright.core.arguments import STEPS, real, require
-from linkwright.core.attached import Plotted, attached
+from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, unused
@@ -82,7 +82,7 @@ class Rank:
 
 
 @dataclass(eq=False)
-class Comparison(Plotted, Tabular, Frozen):
+class Comparison(PlotMixin, Tabular, Frozen):
     """Alternatives side by side.
 
     ``rows``: criteria with values; ``ranking``: best first; ``curves``: data to overlay. ``text(language)`` is the

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from linkwright.analysis.by_name import wanted
 from linkwright.core.arguments import STEPS, integer, one_of, require
 from linkwright.core.arrays import Flags, Floats, Integers
-from linkwright.core.attached import Plotted
+from linkwright.core.attached import PlotMixin
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, columns_table, unused
@@ -40,7 +40,7 @@ _Piece = tuple[Integers, Flags, list[Floats], dict[int, str], Floats | None, dic
 
 
 @dataclass(eq=False)
-class Sweep(Plotted, Tabular, Frozen):
+class Sweep(PlotMixin, Tabular, Frozen):
     """Summaries of many designs; arrays are (designs,), SI.
 
     ``varied``: values of the varied dimensions; ``assembled``: number of ``positions`` at which each design can be

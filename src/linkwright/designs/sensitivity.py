@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.analysis.by_name import NO_OUTPUTS, wanted
 from linkwright.core.arguments import STEPS, one_of, one_or_more, require
 from linkwright.core.arrays import Floats
-from linkwright.core.attached import Plotted
+from linkwright.core.attached import PlotMixin
 from linkwright.core.read_only import Frozen, locked
 from linkwright.core.table import Amount, Cell, Table, Tabular, unused
 from linkwright.cycle.summary import Summary
@@ -38,7 +38,7 @@ REVERSE_PAYS = 6
 
 
 @dataclass(eq=False)
-class Sensitivity(Plotted, Tabular, Frozen):
+class Sensitivity(PlotMixin, Tabular, Frozen):
     """Values and exact derivatives at the mechanism as it is; SI units of the output per SI unit of the dimension.
 
     ``by``: the dimensions. An output asked by name alone has curves (n,): :meth:`curve`, :meth:`slope`; one asked

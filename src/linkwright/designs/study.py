@@ -17,7 +17,7 @@ from linkwright.analysis.of_output import Asked
 from linkwright.analysis.outputs import usual_output
 from linkwright.core.arguments import STEPS, require
 from linkwright.core.arrays import Flags, Floats, Indices
-from linkwright.core.attached import Plotted, attached
+from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, csv_text, unused
@@ -52,7 +52,7 @@ USUAL = ("travel", "transmission_angle", "peak_input_torque", "rms_input_torque"
 
 
 @dataclass(eq=False)
-class Study(Plotted, Tabular, Frozen):
+class Study(PlotMixin, Tabular, Frozen):
     """Metrics of many designs; arrays (designs,), SI, NaN where a design cannot move or a metric does not apply.
 
     ``ranges``: what varies; ``varied``: its values by address; ``metrics``: values by name; ``dimensions``: names of

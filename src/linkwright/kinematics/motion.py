@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
-from linkwright.core.attached import Plotted, attached
+from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.outputs import KINDS, NAMED, SLIDE, Output, row_name
 from linkwright.core.read_only import FrozenDict, locked
 from linkwright.errors import RequestError
@@ -176,7 +176,7 @@ class LinkMotion:
 
 
 @dataclass(eq=False)
-class Motion(Plotted):
+class Motion(PlotMixin):
     """Positions, velocities and accelerations of a mechanism at n positions.
 
     ``point("C")``, ``link("jaw")``, ``joint("guide")`` give the arrays; ``outcomes`` one sentence per position.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.attached import Plotted, attached
+from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.outputs import kind_of, row_name, row_names
 from linkwright.core.read_only import locked
 from linkwright.errors import RequestError
@@ -45,7 +45,7 @@ class LoadForce:
 
 
 @dataclass(eq=False)
-class Forces(Plotted):
+class Forces(PlotMixin):
     """Joint reactions and driver efforts at every position of a motion.
 
     Arrays have the position first; NaN where the motion was not solved. The driver effort is found from the

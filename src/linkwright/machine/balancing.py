@@ -10,7 +10,7 @@ from typing import Any
 
 from linkwright.analysis.analysis import Analysis
 from linkwright.core.arguments import STEPS, real, require
-from linkwright.core.attached import Plotted
+from linkwright.core.attached import PlotMixin
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import PERCENT, ROUNDING, Amount, Cell, Table, Tabular
 from linkwright.cycle.summary import Summary
@@ -42,7 +42,7 @@ class Counterweight:
 
 
 @dataclass(frozen=True)
-class Balancing(Plotted, Tabular, Frozen):
+class Balancing(PlotMixin, Tabular, Frozen):
     """A mechanism with counterweights, and the forces without and with them."""
 
     mechanism: Mechanism

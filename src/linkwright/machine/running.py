@@ -13,7 +13,7 @@ from linkwright.analysis.singularity import Singularity
 from linkwright.analysis.true_speed import steady_cycle
 from linkwright.core.arguments import real, require
 from linkwright.core.arrays import Floats
-from linkwright.core.attached import Plotted
+from linkwright.core.attached import PlotMixin
 from linkwright.core.quantity import shown
 from linkwright.core.rows import Block, Numbers, Row
 from linkwright.core.table import PERCENT
@@ -70,7 +70,7 @@ def speeds(curve: SpeedCurve, at: Callable[[float], float], say: Translate, befo
 
 
 @dataclass(frozen=True)
-class SteadyRunning(Plotted, Numbers):
+class SteadyRunning(PlotMixin, Numbers):
     """A machine over one cycle of steady running with a flywheel.
 
     ``required`` δ; ``flywheel`` J, kg·m² on the crank, by J = ΔE/(δ ω²) - mean J_e (the machine's own inertia is

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
-from linkwright.core.attached import Plotted
+from linkwright.core.attached import PlotMixin
 from linkwright.core.expressions import Expression, parse
 from linkwright.curves.curve import Curve, Integral
 from linkwright.errors import LinkwrightError
@@ -20,7 +20,7 @@ TURN = 2 * np.pi
 
 
 @dataclass(frozen=True)
-class TorqueCurve(Plotted):
+class TorqueCurve(PlotMixin):
     """Torque T(θ), N·m, periodic in θ with ``period`` rad; ``knots``: angles at which it may kink or jump.
 
     ``function`` takes angles (n,) within one period from ``start`` and gives torques (n,); ``known``: the same as

@@ -35,7 +35,7 @@ from linkwright.page.positions import packed, positions
 from linkwright.page.programs import SIZES, PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
 from linkwright.page.texts import TEXTS
-from linkwright.plotting.drawing.machine import Machine, fitted
+from linkwright.plotting.drawing.machine import DrawnMechanism, fitted
 from linkwright.words import LANGUAGES, _
 from linkwright.words.sentence import in_language
 
@@ -109,9 +109,9 @@ def _texts(mechanism: Mechanism, text: str) -> Plain:
     return {**translated, "text": text}
 
 
-def _machine(motion: Motion) -> Machine:
+def _machine(motion: Motion) -> DrawnMechanism:
     placed = placements(motion)
-    return Machine(motion, placed, fitted(motion, placed))
+    return DrawnMechanism(motion, placed, fitted(motion, placed))
 
 
 def _groups(programs: PagePrograms) -> list[Plain]:

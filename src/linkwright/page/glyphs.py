@@ -32,12 +32,12 @@ from linkwright.plotting.drawing.guides import (
 )
 from linkwright.plotting.drawing.load_marks import Press, Turn, mark_of
 from linkwright.plotting.drawing.loads import named_points, pressing
-from linkwright.plotting.drawing.machine import Machine, Part, bodies, flat, pins
+from linkwright.plotting.drawing.machine import DrawnMechanism, Part, bodies, flat, pins
 
 _LENGTHS = 2
 
 
-def glyphs(machine: Machine, index: int) -> list[Plain]:
+def glyphs(machine: DrawnMechanism, index: int) -> list[Plain]:
     """All of a machine's drawing; arrows of the drivers stand as at the position ``index``."""
     found = [*_Tracked(machine).all, *_links(machine), *_guides(machine)]
     found += [*_pins(machine), *_welds(machine)]
@@ -51,7 +51,7 @@ def glyphs(machine: Machine, index: int) -> list[Plain]:
     return found
 
 
-def key_of(machine: Machine, link: str, point: str) -> str:
+def key_of(machine: DrawnMechanism, link: str, point: str) -> str:
     """The key of a point's outputs."""
     return canonical(machine.motion.mechanism, link, point)
 
@@ -61,7 +61,7 @@ def _stamp(layer: str, at: str, along: str | float, shape: Shape, **more: Any) -
     return {"kind": "stamp", "layer": layer, "at": at, "along": along, "svg": svg, **more}
 
 
-def _links(machine: Machine) -> Iterator[Plain]:
+def _links(machine: DrawnMechanism) -> Iterator[Plain]:
     for link in machine.motion.mechanism.links.values():
         keys = [key_of(machine, link.name, point) for point in link.points]
         ends = _ends(machine, link)
@@ -72,7 +72,7 @@ def _links(machine: Machine) -> Iterator[Plain]:
     yield from (_tied(machine, part) for part in bodies(machine) if part.layer == "pins")
 
 
-def _ends(machine: Machine, link: Link) -> list[int] | None:
+def _ends(machine: DrawnMechanism, link: Link) -> list[int] | None:
     """Numbers of the two points at the ends of a straight link; all points (one or none) of a short one, None where
     they span an area."""
     cloud = machine.cloud(link.name)
@@ -84,7 +84,7 @@ def _ends(machine: Machine, link: Link) -> list[int] | None:
     return [int(np.hypot(*(cloud - end).T).argmin()) for end in ends]
 
 
-def _guides(machine: Machine) -> Iterator[Plain]:
+def _guides(machine: DrawnMechanism) -> Iterator[Plain]:
     for name, joint in machine.guides.items():
         ends = {"joint": name, "at": key_of(machine, joint.block, joint.at)}
         through = key_of(machine, joint.guide, joint.through)
@@ -114,7 +114,7 @@ def _guides(machine: Machine) -> Iterator[Plain]:
         )
 
 
-def _tube(machine: Machine, name: str) -> Plain:
+def _tube(machine: DrawnMechanism, name: str) -> Plain:
     """Lengths of barrel and piston rod, m."""
     short, longest = travel(machine, name)
     length = max(0.8 * short, min(0.62 * longest, 0.94 * short))
@@ -122,7 +122,7 @@ def _tube(machine: Machine, name: str) -> Plain:
     return {"barrel": length / machine.view.scale, "piston": piston / machine.view.scale}
 
 
-def _pins(machine: Machine) -> Iterator[Plain]:
+def _pins(machine: DrawnMechanism) -> Iterator[Plain]:
     yield from (_tied(machine, part) for part in pins(machine) if part.layer != "tops")
     for name, joint in machine.pins.items():
         for link in joint.links:
@@ -141,7 +141,7 @@ def _along(link: str) -> str | float:
 class _Tracked:
     """Wheels, each once, and cams, then belts and racks: what joints say of shapes that follow the dimensions."""
 
-    def __init__(self, machine: Machine) -> None:
+    def __init__(self, machine: DrawnMechanism) -> None:
         self.machine = machine
         self._wheels: list[tuple[Wheel, Plain]] = []
         self._cams: list[tuple[float, Plain]] = []
@@ -222,7 +222,7 @@ class _Tracked:
         }  # fmt: skip
 
 
-def undrawn(machine: Machine) -> list[str]:
+def undrawn(machine: DrawnMechanism) -> list[str]:
     """Joints that the page shows by their numbers only."""
     mechanism = machine.motion.mechanism
     known = {*mechanism.pins, *mechanism.guides, *mechanism.welds}
@@ -233,13 +233,13 @@ def undrawn(machine: Machine) -> list[str]:
     ]
 
 
-def _welds(machine: Machine) -> Iterator[Plain]:
+def _welds(machine: DrawnMechanism) -> Iterator[Plain]:
     joints = machine.motion.mechanism.welds.values()
     for joint, part in zip(joints, welds(machine), strict=True):
         yield _tied(machine, part, joint.at)
 
 
-def _tied(machine: Machine, part: Part, point: str | None = None) -> Plain:
+def _tied(machine: DrawnMechanism, part: Part, point: str | None = None) -> Plain:
     """A part in its carrier's axes, tied to one of the carrier's points."""
     names = list(machine.motion.mechanism.link(part.carrier).points)
     if point is None:
@@ -251,7 +251,7 @@ def _tied(machine: Machine, part: Part, point: str | None = None) -> Plain:
     return _stamp(part.layer, key_of(machine, part.carrier, point), _along(part.carrier), shape)
 
 
-def _load(machine: Machine, load: Load) -> Iterator[Plain]:
+def _load(machine: DrawnMechanism, load: Load) -> Iterator[Plain]:
     ends = [key_of(machine, each.link, each.point) for each in named_points(machine, load)]
     if load.kind in SYMBOLS and len(ends) == _LENGTHS:
         yield {"kind": load.kind, "layer": "bodies", "points": ends}
@@ -268,6 +268,6 @@ def _load(machine: Machine, load: Load) -> Iterator[Plain]:
         yield {"kind": "load", "layer": "marks", "load": load.name}
 
 
-def _common_pin(machine: Machine, load: Load) -> str | None:
+def _common_pin(machine: DrawnMechanism, load: Load) -> str | None:
     links = set(load.pair)
     return next((name for name, joint in machine.pins.items() if links and links <= set(joint.links)), None)

@@ -24,15 +24,15 @@ from .statics.rotor import HeavyPoint as HeavyPoint
 from .statics.rotor import Rotor as Rotor
 from .statics.structure import equilibrium as equilibrium
 from .statics.wedge import Wedge as Wedge
-from .statistics.samples import Asked as Asked
 from .statistics.samples import Fitting as Fitting
 from .statistics.samples import Limits as Limits
 from .statistics.samples import Samples as Samples
+from .statistics.samples import TestSpec as TestSpec
 from .trajectories.conveyor import Conveyor as Conveyor
 from .trajectories.particle import Particle as Particle
 from .vibration.excitation import Excitation as Excitation
 from .vibration.follower import FollowerSpring as FollowerSpring
 from .vibration.mounts import Mounts as Mounts
+from .vibration.system import Connector as Connector
 from .vibration.system import Start as Start
-from .vibration.system import Tie as Tie
 from .vibration.system import VibratingSystem as VibratingSystem

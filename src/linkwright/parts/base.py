@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, fields, is_dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.core.attached import Plotted, attached
+from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.quantity import number
 from linkwright.core.rows import Numbers
 from linkwright.core.table import ROUNDING, unused
@@ -117,7 +117,7 @@ def _plain(value: Any, kind: Field | None = None) -> Any:
     return kind.written(value)
 
 
-class Result(Plotted, Numbers):
+class Result(PlotMixin, Numbers):
     """What was found: its numbers in blocks, the way to them in steps."""
 
     @property

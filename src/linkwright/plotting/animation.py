@@ -27,7 +27,7 @@ from linkwright.pictures.labels import Label, Obstacles, place_moving, written
 from linkwright.pictures.picture import Circle, SvgNode
 from linkwright.pictures.svg.element import group
 from linkwright.pictures.svg.render import png
-from linkwright.plotting.diagrams.source import Source
+from linkwright.plotting.diagrams.source import PlotInput
 from linkwright.plotting.drawing.draw import Names, all_arrows, solved
 from linkwright.plotting.drawing.legend import Legend
 from linkwright.plotting.drawing.loads import load_marks, moving_springs
@@ -209,7 +209,7 @@ def curves_named(
     if forces is None and of_forces(motion.mechanism, names):
         forces = solved(motion, True)
     results = results_of(motion, forces) if names else {}
-    source = Source(motion if forces is None else forces)
+    source = PlotInput(motion if forces is None else forces)
     asked = dict.fromkeys(result_meant(motion.mechanism, name, results) for name in names)
     courses = {output: source.course_of(output) for output in asked}
     return {output: read(known) for output, (known, read, _) in courses.items()}, forces
@@ -413,7 +413,7 @@ class Animation:
     def _ends(self, output: Output) -> tuple[float, float]:
         """Smallest and largest value of a result: between the positions where it is found there."""
         values = self.results[output]
-        source = Source(self.scene.machine.motion if self.forces is None else self.forces)
+        source = PlotInput(self.scene.machine.motion if self.forces is None else self.forces)
         _, read, of = source.course_of(output)
         exact = source.angle_extremes(read, values) if output.kind == "angle" else source.extremes(read, of)
         found = [exact(kind) if exact is not None else None for kind in ("min", "max")]

@@ -14,10 +14,10 @@ from linkwright.plotting.drawing.draw import laid_out_with_ghosts
 from linkwright.plotting.drawing.machine import Part
 from linkwright.plotting.drawing.positions import Shown
 from linkwright.plotting.drawing.scene import Scene, point_labels
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 
 
-def group_picture(case: Case, chosen: Group) -> str:
+def group_picture(case: ReportContext, chosen: Group) -> str:
     """SVG of one group at the worked position, with its joints, the rest of the machine faded."""
     motion, index = case.worked_motion
     scene, place, _ = laid_out_with_ghosts(motion, Shown(motion, index), (), inputs=False, centres=False)

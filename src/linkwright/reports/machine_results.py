@@ -21,7 +21,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.reports.numbers import Heads, without_rounding
+from linkwright.reports.numbers import ColumnHeadings, without_rounding
 from linkwright.reports.settings import Settings, worked_place
 from linkwright.topology.analysis import Structure
 from linkwright.words import Translate, _
@@ -59,7 +59,7 @@ class Numbered:
     listed: bool = False
 
 
-class Case:
+class ReportContext:
     """A machine with its settings and language; ``source``: the file's name."""
 
     def __init__(self, mechanism: Mechanism, settings: Settings, language: str, source: str = "") -> None:
@@ -271,9 +271,9 @@ class Case:
         return solve_forces(self.numbered.motion)
 
     @cached_property
-    def heads(self) -> Heads:
+    def heads(self) -> ColumnHeadings:
         """Symbols of results as heads of columns."""
-        return Heads(self.mechanism, self.say)
+        return ColumnHeadings(self.mechanism, self.say)
 
     @property
     def links_text(self) -> str:

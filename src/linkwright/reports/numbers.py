@@ -28,7 +28,7 @@ _POWER_OF_TEN = re.compile(r"([-−]?\d+(?:\.\d+)?)e([+-]?\d+)((?: ?\S+)?)")
 _NEGATIVE = re.compile(r"-(?=\d)")
 
 
-class Heads:
+class ColumnHeadings:
     """Heads of columns with the symbols of the worked solution; links are numbered in the order of the file."""
 
     def __init__(self, mechanism: Mechanism, say: Translate) -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from linkwright.errors import RequestError
 from linkwright.parts.base import Problem
 from linkwright.registry import listed
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.section import SECTIONS, Section, section_names
 from linkwright.reports.settings import OTHER_SECTIONS, Chapter, Settings
 from linkwright.synthesis.task_file import TaskFile
@@ -38,7 +38,7 @@ class Part:
     ``own``: the settings that hold; ``within``: the machine or calculation of several whose part it is."""
 
     own: Settings
-    cases: tuple[Case, ...] = ()
+    cases: tuple[ReportContext, ...] = ()
     section: Section | None = None
     chapter: Chapter | None = None
     calculation: Problem | TaskFile | None = None
@@ -81,7 +81,7 @@ def _with_rest(entries: list[Entry]) -> list[Entry]:
 
 
 def parts(
-    subjects: Sequence[Case | Calculation], entries: Sequence[Entry], own: Settings, *, asked: bool
+    subjects: Sequence[ReportContext | Calculation], entries: Sequence[Entry], own: Settings, *, asked: bool
 ) -> Iterator[Part]:
     """What a report holds, in its order. Sections of machines that follow each other make a part for each machine.
 
@@ -90,7 +90,7 @@ def parts(
     are of the complete report. The chapters of further files stand in the parts of their machines and behind their
     calculations, unless sections were ``asked`` for by name.
     """
-    cases = tuple(each for each in subjects if isinstance(each, Case))
+    cases = tuple(each for each in subjects if isinstance(each, ReportContext))
     groups = list(_groups(_with_calculations(entries, subjects)))
     machines = [i for i, group in enumerate(groups) if _of_machine(group[0])]
     between = bool(cases) and CALCULATIONS not in entries
@@ -115,17 +115,19 @@ def parts(
                 yield from _of_case(each, held, several=len(subjects) > 1)
 
 
-def _with_calculations(entries: Sequence[Entry], subjects: Sequence[Case | Calculation]) -> list[Entry]:
+def _with_calculations(
+    entries: Sequence[Entry], subjects: Sequence[ReportContext | Calculation]
+) -> list[Entry]:
     """Entries with a place for calculations where no part of a machine has one: before the references."""
     found = list(entries)
-    interleaved = any(isinstance(each, Case) for each in subjects) and any(map(_of_machine, entries))
+    interleaved = any(isinstance(each, ReportContext) for each in subjects) and any(map(_of_machine, entries))
     if CALCULATIONS not in found and not interleaved:
         places = (i for i, each in enumerate(found, 1) if isinstance(each, str) and each != SOURCES)
         found.insert(max(places, default=0), CALCULATIONS)
     return found
 
 
-def _of_case(case: Case, entries: Sequence[Entry], *, several: bool) -> Iterator[Part]:
+def _of_case(case: ReportContext, entries: Sequence[Entry], *, several: bool) -> Iterator[Part]:
     """The part of a machine, under its name where there are several."""
     name = case.mechanism.name if several else ""
     if name:
@@ -183,7 +185,7 @@ def _of_other(own: Sequence[Entry], group: Sequence[Entry], first: bool, last: b
             yield from chapters
 
 
-def _part(own: Settings, cases: tuple[Case, ...], entry: Entry, within: str = "") -> Part:
+def _part(own: Settings, cases: tuple[ReportContext, ...], entry: Entry, within: str = "") -> Part:
     if isinstance(entry, Chapter):
         return Part(own, cases, chapter=entry, within=within)
     return Part(own, cases, SECTIONS[entry], within=within)

@@ -19,7 +19,7 @@ from linkwright.parts.base import Problem
 from linkwright.reports.assembly import add_part, note_dangling
 from linkwright.reports.cover import cover
 from linkwright.reports.document import Document, Source, walk
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.order import Calculation, chosen, parts
 from linkwright.reports.settings import settings, worked_place
 from linkwright.synthesis.task_file import TaskFile, task_file
@@ -144,11 +144,13 @@ def report(
     """
     require_language(language)
     subjects = _cases(_read(machines, language), sources, language, position, positions, folder)
-    cases = [each for each in subjects if isinstance(each, Case)]
+    cases = [each for each in subjects if isinstance(each, ReportContext)]
     calculations = [each for each in subjects if isinstance(each, Calculation)]
     own = (cases or calculations)[0].settings
     entries = chosen(sections, own)
-    names = [each.mechanism.name if isinstance(each, Case) else each.title(language) for each in subjects]
+    names = [
+        each.mechanism.name if isinstance(each, ReportContext) else each.title(language) for each in subjects
+    ]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
         speaker(language),
@@ -199,9 +201,9 @@ def _cases(
     position: str,
     positions: object,
     folder: str | Path,
-) -> list[Case | Calculation]:
+) -> list[ReportContext | Calculation]:
     """Machines and calculations with their settings; machines of one name are numbered."""
-    found: list[Case | Calculation] = []
+    found: list[ReportContext | Calculation] = []
     files = iter(sources)
     for each in subjects:
         if isinstance(each, tuple):
@@ -224,8 +226,8 @@ def _cases(
         more = {key: value for key, value in asked.items() if value is not None}
         own = {**mechanism.report, **more} if more else mechanism.report
         held = settings(own, language, mechanism, _picture_folder(folder, source))
-        found.append(Case(mechanism, held, language, source))
-    cases = [each for each in found if isinstance(each, Case)]
+        found.append(ReportContext(mechanism, held, language, source))
+    cases = [each for each in found if isinstance(each, ReportContext)]
     names = [case.mechanism.name for case in cases]
     for number, case in enumerate(cases, 1):
         if names.count(case.mechanism.name) > 1:

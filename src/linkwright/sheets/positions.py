@@ -17,7 +17,7 @@ from linkwright.kinematics.solve import with_times
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.settings import settings as report_settings
 from linkwright.sheets.settings import Subject, places
 from linkwright.words import _
@@ -42,7 +42,7 @@ class Positions:
         assert isinstance(subject.drawn, Mechanism)
         self.subject, self.mechanism = subject, subject.drawn
         settings = report_settings(self.mechanism.report, subject.language)
-        self.case = Case(self.mechanism, settings, subject.language)
+        self.case = ReportContext(self.mechanism, settings, subject.language)
 
     @cached_property
     def _passing(self) -> tuple[Motion, list[int], list[int]]:

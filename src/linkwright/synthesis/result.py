@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from linkwright.core.arguments import real
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
-from linkwright.core.attached import Plotted, attached
+from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.quantity import length_text
 from linkwright.core.table import Table, Tabular
 from linkwright.equations.text import Solution
@@ -131,7 +131,7 @@ class WorkedSynthesis(Solution):
 
 
 @dataclass(frozen=True, eq=False)
-class Synthesis(Plotted, Tabular):
+class Synthesis(PlotMixin, Tabular):
     """The candidates of a task, best first: without defects before others, then by error, then by merit (``merit``).
 
     Args:

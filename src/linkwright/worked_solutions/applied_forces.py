@@ -12,7 +12,7 @@ from linkwright.kinetostatics.applied_wrenches import AppliedWrench, applied_wre
 from linkwright.kinetostatics.forces import Forces
 from linkwright.words import _
 from linkwright.worked_solutions.load_formulas import LoadFormulas, turns_with, worked_couple, worked_force
-from linkwright.worked_solutions.symbols import Book, Spot
+from linkwright.worked_solutions.symbols import PointState, SymbolTable
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Known:
 class KnownForces:
     """The known forces of every link at one position."""
 
-    def __init__(self, forces: Forces, book: Book) -> None:
+    def __init__(self, forces: Forces, book: SymbolTable) -> None:
         self.forces = forces
         self.book = book
         self.formulas = LoadFormulas(book)
@@ -196,7 +196,7 @@ class KnownForces:
         several = sum(1 for each in self._found if each.name == name and each.link in self.on) > 1
         return f"{name}{self.book.numbers[link]}" if several else name
 
-    def _spot(self, link: str, place: complex) -> Spot | None:
+    def _spot(self, link: str, place: complex) -> PointState | None:
         """The point of the link at which a force acts, if it has one there."""
         for point in self.book.mechanism.links[link].points:
             spot = self.book.spot(link, point)

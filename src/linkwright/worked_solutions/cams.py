@@ -34,10 +34,10 @@ from linkwright.joints.cam import CamJoint
 from linkwright.words import _
 from linkwright.worked_solutions.lifts import Lift, LiftWriter
 from linkwright.worked_solutions.places import Places
-from linkwright.worked_solutions.symbols import Book
+from linkwright.worked_solutions.symbols import SymbolTable
 
 
-def cam_pair(joint: CamJoint, book: Book) -> CamPair:
+def cam_pair(joint: CamJoint, book: SymbolTable) -> CamPair:
     """The cam of a joint."""
     return Swinging(book, joint) if joint.side else Guided(book, joint)
 
@@ -46,7 +46,7 @@ def cam_pair(joint: CamJoint, book: Book) -> CamPair:
 class CamPair(ABC):
     """What both kinds have in common."""
 
-    book: Book
+    book: SymbolTable
     joint: CamJoint
 
     @cached_property

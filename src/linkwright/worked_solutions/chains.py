@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from linkwright.elements.topology import Connection, Group, TreeJoint
 from linkwright.equations.terms import NOWHERE, TWO, ZERO, Pair, Term, cosine, number, sine, symbol
-from linkwright.worked_solutions.symbols import Book, Slide, Spot
+from linkwright.worked_solutions.symbols import PointState, Slide, SymbolTable
 
 
 @dataclass
@@ -19,8 +19,8 @@ class Piece:
     """
 
     link: str
-    start: Spot
-    end: Spot
+    start: PointState
+    end: PointState
     slides: list[tuple[TreeJoint, Slide, int]] = field(default_factory=list)
 
     @property
@@ -34,8 +34,8 @@ class Turn:
     """A pin of a chain: the joint, its place, and where the part that it turns ends (next free pin, or the cut)."""
 
     step: TreeJoint
-    pivot: Spot
-    tip: Spot
+    pivot: PointState
+    tip: PointState
 
     @property
     def arm(self) -> Pair:
@@ -47,7 +47,7 @@ class Turn:
 class Chain:
     """A chain from a solved link to one end of a cut (or to any point of its last link)."""
 
-    base: Spot
+    base: PointState
     pieces: list[Piece]
     free: list[Turn]
     driven: list[Turn]
@@ -60,12 +60,12 @@ class Chain:
                 yield step, slide, sign, piece.link
 
 
-def attach(step: TreeJoint, link: str, book: Book) -> str:
+def attach(step: TreeJoint, link: str, book: SymbolTable) -> str:
     """Name of the point of a link at which a joint holds it."""
     return book.mechanism.joints[step.joint].point_on(link)
 
 
-def walk(book: Book, group: Group, end: str, tip: Spot, point: str) -> Chain:
+def walk(book: SymbolTable, group: Group, end: str, tip: PointState, point: str) -> Chain:
     """The chain to ``tip``; ``point`` is the point by which it starts if ``end`` is a solved link."""
     steps = list(reversed(list(group.path(end))))
     if not steps:
@@ -131,7 +131,7 @@ def columns(chain: Chain) -> dict[TreeJoint, Pair]:
     return found
 
 
-def drift(chain: Chain, book: Book) -> Pair:
+def drift(chain: Chain, book: SymbolTable) -> Pair:
     """Velocity of the tip with the unknown rates left out."""
     found = chain.base.velocity
     for piece, owned in zip(chain.pieces, chain.owned, strict=True):
@@ -145,7 +145,7 @@ def drift(chain: Chain, book: Book) -> Pair:
     return found
 
 
-def bends(chain: Chain, book: Book) -> list[Drift]:
+def bends(chain: Chain, book: SymbolTable) -> list[Drift]:
     """Parts of the tip's acceleration with the unknown second derivatives left out, one by one."""
     found = [Drift("base", chain.base.label, chain.base.acceleration)]
     for piece, owned in zip(chain.pieces, chain.owned, strict=True):
@@ -164,7 +164,7 @@ def bends(chain: Chain, book: Book) -> list[Drift]:
     return [each for each in found if not (each.vector.x.is_zero and each.vector.y.is_zero)]
 
 
-def _driven(chain: Chain, book: Book) -> Iterator[tuple[Turn, Term, Term]]:
+def _driven(chain: Chain, book: SymbolTable) -> Iterator[tuple[Turn, Term, Term]]:
     """Driven pins inside parts whose rotation is unknown, with their rates as the chain counts them."""
     if not chain.free:
         return
@@ -185,11 +185,11 @@ class Closure(ABC):
         """What a unit rate of an unknown does to each equation."""
 
     @abstractmethod
-    def known_rates(self, book: Book) -> list[Term]:
+    def known_rates(self, book: SymbolTable) -> list[Term]:
         """The equations differentiated, the unknown rates left out."""
 
     @abstractmethod
-    def known_seconds(self, book: Book, bend: Callable[[ChainClosure], Pair]) -> list[Term]:
+    def known_seconds(self, book: SymbolTable, bend: Callable[[ChainClosure], Pair]) -> list[Term]:
         """Differentiated twice, the unknown second derivatives left out; ``bend``: known part of the acceleration of
         one end of two chains against the other."""
 
@@ -201,7 +201,7 @@ class ChainClosure(Closure):
 
     cut: Connection
     chains: tuple[Chain, Chain]
-    tip: Spot
+    tip: PointState
     across: Slide | None
 
     def rows(self, vector: Pair) -> list[Term]:
@@ -218,24 +218,24 @@ class ChainClosure(Closure):
         """What a unit rate of an unknown does to one end against the other."""
         return self.joined([columns(chain).get(step, NOWHERE) for chain in self.chains])
 
-    def drifted(self, book: Book) -> Pair:
+    def drifted(self, book: SymbolTable) -> Pair:
         """Velocity of one end against the other, the unknown rates left out."""
         return self.joined([drift(chain, book) for chain in self.chains])
 
     def column(self, step: TreeJoint) -> list[Term]:
         return self.rows(self.moved(step))
 
-    def known_rates(self, book: Book) -> list[Term]:
+    def known_rates(self, book: SymbolTable) -> list[Term]:
         return self.rows(self.drifted(book))
 
-    def known_seconds(self, book: Book, bend: Callable[[ChainClosure], Pair]) -> list[Term]:
+    def known_seconds(self, book: SymbolTable, bend: Callable[[ChainClosure], Pair]) -> list[Term]:
         rows = self.rows(bend(self))
         if self.across is None:
             return rows
         return [rows[0] - TWO * book.omega(self.cut.a) * self.across.rate]
 
 
-def chain_closures(book: Book, group: Group) -> list[ChainClosure]:
+def chain_closures(book: SymbolTable, group: Group) -> list[ChainClosure]:
     """The pins and guides at which a group was cut."""
     found = []
     for cut in group.cuts:
@@ -264,7 +264,7 @@ def matrix(group: Group, cuts: Sequence[Closure]) -> list[list[Term]]:
     return rows
 
 
-def unknown_names(book: Book, group: Group, order: int) -> list[Term]:
+def unknown_names(book: SymbolTable, group: Group, order: int) -> list[Term]:
     """Symbols of the unknown rates (``order`` 1) or second derivatives (2)."""
     found = []
     for step in group.unknowns:
@@ -290,7 +290,9 @@ def turned(arm: Pair, angle: Term) -> Pair:
     return Pair(arm.x * c - arm.y * s, arm.x * s + arm.y * c)
 
 
-def trail(book: Book, steps: Sequence[TreeJoint], link: str, point: str, end: str, *, local: bool) -> Trail:
+def trail(
+    book: SymbolTable, steps: Sequence[TreeJoint], link: str, point: str, end: str, *, local: bool
+) -> Trail:
     """From ``point`` of ``link`` along ``steps`` to the point ``end`` of the last link.
 
     ``local``: in the axes of ``link``; otherwise in frame axes, with the angles of all links known.
@@ -308,13 +310,13 @@ def trail(book: Book, steps: Sequence[TreeJoint], link: str, point: str, end: st
     return found
 
 
-def _arm(book: Book, link: str, start: str, end: str) -> Pair:
+def _arm(book: SymbolTable, link: str, start: str, end: str) -> Pair:
     if link == "frame":
         return book.spot(link, end).place - book.spot(link, start).place if start != end else NOWHERE
     return book.arm(link, start, end)
 
 
-def _slide(book: Book, step: TreeJoint, angle: Term, found: Trail, *, local: bool) -> None:
+def _slide(book: SymbolTable, step: TreeJoint, angle: Term, found: Trail, *, local: bool) -> None:
     joint = book.mechanism.guides[step.joint]
     sign = 1 if step.child == joint.block else -1
     slide = book.slide(step.joint)
@@ -343,7 +345,7 @@ def merged(a: Term, b: Term) -> Term:
     return a + b
 
 
-def _next(book: Book, step: TreeJoint, angle: Term) -> Term:
+def _next(book: SymbolTable, step: TreeJoint, angle: Term) -> Term:
     if step.driver is not None and step.turns:
         q = book.drive(step.driver)[0]
         return angle + q if step.child == book.mechanism.drivers[step.driver].link else angle - q

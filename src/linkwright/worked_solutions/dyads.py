@@ -17,7 +17,7 @@ from linkwright.groups.rrr import RRR
 from linkwright.words import Message, _
 from linkwright.worked_solutions.chains import Trail, attach, trail
 from linkwright.worked_solutions.placing import Placing
-from linkwright.worked_solutions.symbols import Book, Spot
+from linkwright.worked_solutions.symbols import PointState, SymbolTable
 
 #: On which side a joint lies: with the root +, and with the root -.
 MODE_RPR = (
@@ -48,11 +48,11 @@ class DyadWriter:
     mode: int
 
     @property
-    def book(self) -> Book:
+    def book(self) -> SymbolTable:
         return self.placing.book
 
     @cached_property
-    def tip(self) -> Spot:
+    def tip(self) -> PointState:
         """The inner joint, where the group is cut."""
         cut = self.group.cuts[0]
         return self.book.spot(cut.a, cut.joint)
@@ -60,14 +60,14 @@ class DyadWriter:
     def _steps(self, end: str) -> list[TreeJoint]:
         return list(reversed(list(self.group.path(end))))
 
-    def arm(self, end: str) -> tuple[Spot, TreeJoint, Trail]:
+    def arm(self, end: str) -> tuple[PointState, TreeJoint, Trail]:
         """Pin, its joint and the way to the cut, for a chain that begins with a free pin."""
         steps = self._steps(end)
         pivot = self.book.spot(steps[0].parent, steps[0].joint)
         way = trail(self.book, steps[1:], steps[0].child, steps[0].joint, self.tip.key, local=True)
         return pivot, steps[0], way
 
-    def length(self, pivot: Spot, reach: Pair) -> tuple[Term, Term]:
+    def length(self, pivot: PointState, reach: Pair) -> tuple[Term, Term]:
         """Distance from pin to cut and the angle under which the link's axes see it."""
         sub = f"{pivot.label}{self.tip.label}"
         ahead, aside = reach.x, reach.y
@@ -85,7 +85,7 @@ class DyadWriter:
         self.step.find(size, root(parts[0].squared + parts[1].squared), "m")
         return size, self.step.define(f"ε_{sub}", direction(parts[1], parts[0]), "°", degrees=True)
 
-    def difference(self, p: Spot, q: Pair) -> tuple[Pair, Term]:
+    def difference(self, p: PointState, q: Pair) -> tuple[Pair, Term]:
         """The vector d from P to Q and the square of its length."""
         d = q - p.place
         named = Pair(symbol("d_x", d.x.value), symbol("d_y", d.y.value))
@@ -99,7 +99,7 @@ class DyadWriter:
         rho = symbol("ρ", math.sqrt(max(value, 0.0)))
         return self.step.find(rho, root(square), unit)
 
-    def note_mode(self, modes: tuple[Message, Message], *spots: Spot) -> None:
+    def note_mode(self, modes: tuple[Message, Message], *spots: PointState) -> None:
         p, q, b = (spot.label for spot in spots)
         message = modes[0] if self.mode > 0 else modes[1]
         self.step.say(self.book.say(message.format(p=p, q=q, b=b)))

@@ -12,7 +12,7 @@ from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, number, symbol
 from linkwright.joints.base import LackingError
 from linkwright.worked_solutions.chains import ChainClosure, Closure, chain_closures
 from linkwright.worked_solutions.contacts import contact_of
-from linkwright.worked_solutions.symbols import Book
+from linkwright.worked_solutions.symbols import SymbolTable
 
 #: Radians of a degree, as formulas show it.
 DEGREE = symbol("π", math.pi) / number(180.0)
@@ -46,7 +46,7 @@ class PairClosure(Closure):
     turns: tuple[Turned, ...]
     slides: tuple[Slid, ...]
     rest: float
-    book: Book
+    book: SymbolTable
     group: Group
 
     @property
@@ -128,7 +128,7 @@ class PairClosure(Closure):
                 parts.append(_times(part.factor, self._along(part, part.cut.moved(step))))
         return [total(parts)]
 
-    def known_rates(self, book: Book) -> list[Term]:
+    def known_rates(self, book: SymbolTable) -> list[Term]:
         found = [self.arm(part) * self._known(part, second=False) for part in self.turns]
         for part in self.slides:
             if part.cut is not None:
@@ -137,7 +137,7 @@ class PairClosure(Closure):
                 found.append(_times(part.factor, book.slide(part.guide).rate))
         return [total(found)]
 
-    def known_seconds(self, book: Book, bend: Callable[[ChainClosure], Pair]) -> list[Term]:
+    def known_seconds(self, book: SymbolTable, bend: Callable[[ChainClosure], Pair]) -> list[Term]:
         found = [self.arm(part) * self._known(part, second=True) for part in self.turns]
         for part in self.slides:
             if part.cut is not None:
@@ -165,7 +165,7 @@ class PairClosure(Closure):
         return found
 
 
-def pair_closures(book: Book, group: Group, chains: Sequence[ChainClosure]) -> list[PairClosure]:
+def pair_closures(book: SymbolTable, group: Group, chains: Sequence[ChainClosure]) -> list[PairClosure]:
     """The rows of a group's higher pairs; ``chains``: its other cuts.
 
     Raises:
@@ -189,17 +189,17 @@ def pair_closures(book: Book, group: Group, chains: Sequence[ChainClosure]) -> l
     return found
 
 
-def lever(book: Book, joint: str, link: str, value: float) -> Term:
+def lever(book: SymbolTable, joint: str, link: str, value: float) -> Term:
     """r: the lever arm of a link in the row of a pair, m."""
     return _named(book, "r", joint, link, value)
 
 
-def _named(book: Book, letter: str, joint: str, link: str, value: float) -> Term:
+def _named(book: SymbolTable, letter: str, joint: str, link: str, value: float) -> Term:
     n = book.numbers[link]
     return symbol(f"{letter}_{joint},{n}", value)
 
 
-def closures(book: Book, group: Group) -> list[Closure]:
+def closures(book: SymbolTable, group: Group) -> list[Closure]:
     """All cuts of a group, in their order."""
     chains = chain_closures(book, group)
     return sorted([*chains, *pair_closures(book, group, chains)], key=lambda c: group.cuts.index(c.cut))

@@ -14,7 +14,7 @@ from linkwright.joints.cam import CamJoint
 from linkwright.laws.base import LABELS
 from linkwright.laws.program import MotionProgram
 from linkwright.words import _
-from linkwright.worked_solutions.symbols import Book
+from linkwright.worked_solutions.symbols import SymbolTable
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Lift:
 class LiftWriter:
     """Symbols of a cam's lift, and the way to them; ``joint`` gives the only index where there are several cams."""
 
-    def __init__(self, book: Book, joint: CamJoint) -> None:
+    def __init__(self, book: SymbolTable, joint: CamJoint) -> None:
         self.book = book
         self.joint = joint
         cams = [each for each in book.mechanism.joints.values() if type(each) is type(joint)]

@@ -16,7 +16,7 @@ from linkwright.applied_loads.torsion_spring import TorsionSpring
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import FOUR, NOWHERE, Pair, Term, root, symbol
 from linkwright.fields.references import LinkPoint
-from linkwright.worked_solutions.symbols import Book
+from linkwright.worked_solutions.symbols import SymbolTable
 
 #: Shorter than this (m) a spring or damper has no direction.
 SHORTEST = 1e-9
@@ -25,7 +25,7 @@ SHORTEST = 1e-9
 class LoadFormulas:
     """Writes the formula of a load once, and tells its parts on every link."""
 
-    def __init__(self, book: Book) -> None:
+    def __init__(self, book: SymbolTable) -> None:
         self.book = book
         self._sizes: dict[str, Term | None] = {}
 

@@ -6,20 +6,20 @@ from linkwright.core.outputs import Output
 from linkwright.elements.topology import TreeJoint
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import Pair, Term, cosine, number, sine
-from linkwright.worked_solutions.symbols import Book, Slide, Spot
+from linkwright.worked_solutions.symbols import PointState, Slide, SymbolTable
 
 
 class Placing:
     """Writes points, angles and displacements, each once; remembers what is known."""
 
-    def __init__(self, book: Book) -> None:
+    def __init__(self, book: SymbolTable) -> None:
         self.book = book
         self.known: set[str] = set()
         self.angles: set[str] = {"frame"}
         self.guides: set[str] = set()
         self.slid: set[str] = set()
 
-    def point(self, step: Step, spot: Spot, formula: Pair) -> None:
+    def point(self, step: Step, spot: PointState, formula: Pair) -> None:
         """Notes where a point is."""
         if spot.key in self.known or spot.fixed:
             return
@@ -28,7 +28,7 @@ class Placing:
             step.find(term, part, self.output(spot, "position", c))
 
     @staticmethod
-    def output(spot: Spot, kind: str, component: str) -> str | Output:
+    def output(spot: PointState, kind: str, component: str) -> str | Output:
         """The output that a point's motion is, or its unit."""
         found = Output(kind, spot.key, component)
         return found.unit if spot.key.endswith("@centre") else found

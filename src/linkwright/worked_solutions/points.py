@@ -12,10 +12,10 @@ from linkwright.words import _
 from linkwright.worked_solutions.chains import attach, turned
 from linkwright.worked_solutions.higher_pairs import pair_closures
 from linkwright.worked_solutions.places import Places
-from linkwright.worked_solutions.symbols import Book, Slide, Spot
+from linkwright.worked_solutions.symbols import PointState, Slide, SymbolTable
 
 
-def named_points(book: Book, link: str) -> Iterator[tuple[str, Spot]]:
+def named_points(book: SymbolTable, link: str) -> Iterator[tuple[str, PointState]]:
     """The points of a moving link, its mass centre last if it has mass."""
     part = book.mechanism.links[link]
     for point in part.points:
@@ -24,13 +24,13 @@ def named_points(book: Book, link: str) -> Iterator[tuple[str, Spot]]:
         yield "@centre", book.spot(link, "@centre")
 
 
-def _start(book: Book, joint: TreeJoint) -> tuple[str, Spot, str, Spot]:
+def _start(book: SymbolTable, joint: TreeJoint) -> tuple[str, PointState, str, PointState]:
     """Where a joint holds its two links: point of the parent, point of the child."""
     held, own = attach(joint, joint.parent, book), attach(joint, joint.child, book)
     return held, book.spot(joint.parent, held), own, book.spot(joint.child, own)
 
 
-def place_points(book: Book, places: Places, step: Step, group: Group) -> None:
+def place_points(book: SymbolTable, places: Places, step: Step, group: Group) -> None:
     """Places of all points of a group's links, and for groups without closed form the closure put in."""
     for joint in group.tree:
         _unused, held, own, start = _start(book, joint)
@@ -48,7 +48,7 @@ def place_points(book: Book, places: Places, step: Step, group: Group) -> None:
             places.point(step, spot, base.place + arm)
 
 
-def _slid(book: Book, joint: TreeJoint, held: Spot) -> Pair:
+def _slid(book: SymbolTable, joint: TreeJoint, held: PointState) -> Pair:
     """Place of the point by which a guide holds its second link."""
     prismatic = book.mechanism.guides[joint.joint]
     slide = book.slide(joint.joint)
@@ -59,7 +59,7 @@ def _slid(book: Book, joint: TreeJoint, held: Spot) -> Pair:
     return held.place + shift if joint.child == prismatic.block else held.place - shift
 
 
-def cut_displacements(book: Book, places: Places, step: Step, group: Group) -> None:
+def cut_displacements(book: SymbolTable, places: Places, step: Step, group: Group) -> None:
     """Displacements of the guides at which a group was cut."""
     for cut in group.cuts:
         if cut.slides:
@@ -68,12 +68,12 @@ def cut_displacements(book: Book, places: Places, step: Step, group: Group) -> N
             places.displacement(step, slide, slide.along.dot(block.place - held.place))
 
 
-def _guide_ends(book: Book, joint: str) -> tuple[Spot, Spot]:
+def _guide_ends(book: SymbolTable, joint: str) -> tuple[PointState, PointState]:
     prismatic = book.mechanism.guides[joint]
     return book.spot(prismatic.guide, prismatic.through), book.spot(prismatic.block, prismatic.at)
 
 
-def check_closure(book: Book, places: Places, step: Step, group: Group) -> None:
+def check_closure(book: SymbolTable, places: Places, step: Step, group: Group) -> None:
     """What is left of the closure equations with the numbers put in: zero but for rounding."""
     step.say(book.say(_("The closure put in: what is left is zero to the digits shown.")))
     for cut in group.cuts:
@@ -100,7 +100,7 @@ def check_closure(book: Book, places: Places, step: Step, group: Group) -> None:
     places.check_pairs(step, pair_closures(book, group, ()))
 
 
-def attach_of(book: Book, group: Group, link: str) -> str:
+def attach_of(book: SymbolTable, group: Group, link: str) -> str:
     """The point by which a link hangs in its chain; any point for a link solved before."""
     for joint in group.tree:
         if joint.child == link:
@@ -111,7 +111,7 @@ def attach_of(book: Book, group: Group, link: str) -> str:
 class Movers:
     """Writes velocities and accelerations of points; remembers which are known."""
 
-    def __init__(self, book: Book) -> None:
+    def __init__(self, book: SymbolTable) -> None:
         self.book = book
         self.velocities: set[str] = set()
         self.accelerations: set[str] = set()
@@ -163,7 +163,7 @@ class Movers:
         found = Output("displacement", slide.joint).course[1 + second]
         step.find(slide.second if second else slide.rate, formula, found)
 
-    def _note(self, step: Step, spot: Spot, formula: Pair, known: set[str], *, second: bool) -> None:
+    def _note(self, step: Step, spot: PointState, formula: Pair, known: set[str], *, second: bool) -> None:
         if spot.key in known or spot.fixed:
             return
         known.add(spot.key)
@@ -172,14 +172,14 @@ class Movers:
         for c, term, part in (("x", target.x, formula.x), ("y", target.y, formula.y)):
             step.find(term, part, Places.output(spot, kind, c))
 
-    def _carried(self, link: str, start: Spot, spot: Spot, *, second: bool) -> Pair:
+    def _carried(self, link: str, start: PointState, spot: PointState, *, second: bool) -> Pair:
         arm = spot.place - start.place
         omega = self.book.omega(link)
         if not second:
             return start.velocity + arm.perp.times(omega)
         return start.acceleration + arm.perp.times(self.book.alpha(link)) - arm.times(omega.squared)
 
-    def _slid(self, joint: TreeJoint, held: Spot, start: Spot, *, second: bool) -> Pair:
+    def _slid(self, joint: TreeJoint, held: PointState, start: PointState, *, second: bool) -> Pair:
         """Through a guide: carried motion, motion along the guide, and for accelerations Coriolis'."""
         book = self.book
         slide = book.slide(joint.joint)

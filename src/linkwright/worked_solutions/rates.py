@@ -12,7 +12,7 @@ from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, symbol, total
 from linkwright.words import _
 from linkwright.worked_solutions.chains import ChainClosure, Closure, Drift, bends, matrix, unknown_names
 from linkwright.worked_solutions.higher_pairs import PairClosure
-from linkwright.worked_solutions.symbols import Book
+from linkwright.worked_solutions.symbols import SymbolTable
 
 #: Marks of parts of an acceleration as they are printed above its letter.
 RAISED = {"n": "ⁿ", "t": "ᵗ", "k": "ᵏ", "d": "ᵈ"}
@@ -61,7 +61,7 @@ def name_matrix(step: Step, group: Group, cuts: Sequence[Closure]) -> System:
 
 
 def solve(
-    step: Step, book: Book, system: System, unknowns: list[Term], right: list[Term],
+    step: Step, book: SymbolTable, system: System, unknowns: list[Term], right: list[Term],
     outputs: Sequence[str | Output], *, transposed: bool = False,
 ) -> None:  # fmt: skip
     """Notes the solution of J q = right (or Jᵀ q = right): Cramer's rule, or for more unknowns each row put in."""
@@ -89,7 +89,7 @@ def solve(
 class RateWriter:
     """Writes the rates of a group's unknowns and links."""
 
-    def __init__(self, book: Book) -> None:
+    def __init__(self, book: SymbolTable) -> None:
         self.book = book
         self.written: set[str] = set()
 

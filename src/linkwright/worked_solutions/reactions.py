@@ -19,7 +19,7 @@ from linkwright.worked_solutions.applied_forces import Known, KnownForces
 from linkwright.worked_solutions.chains import ChainClosure, Closure, attach
 from linkwright.worked_solutions.higher_pairs import closures
 from linkwright.worked_solutions.rates import System, name_matrix, solve
-from linkwright.worked_solutions.symbols import Book
+from linkwright.worked_solutions.symbols import SymbolTable
 from linkwright.worked_solutions.wheels import Wheels, tangential
 
 #: Unknowns of a system with their outputs, or units.
@@ -46,7 +46,7 @@ class Found:
 class Reactions:
     """Writes the joint forces group after group."""
 
-    def __init__(self, forces: Forces, book: Book, known: KnownForces) -> None:
+    def __init__(self, forces: Forces, book: SymbolTable, known: KnownForces) -> None:
         self.forces = forces
         self.book = book
         self.known = known

@@ -27,11 +27,11 @@ from linkwright.worked_solutions.places import Places
 from linkwright.worked_solutions.points import Movers, check_closure, cut_displacements, place_points
 from linkwright.worked_solutions.rates import RateWriter, System
 from linkwright.worked_solutions.reactions import Reactions
-from linkwright.worked_solutions.symbols import Book
+from linkwright.worked_solutions.symbols import SymbolTable
 from linkwright.worked_solutions.wheels import Wheels
 
 
-def force_steps(forces: Forces, book: Book, before: int) -> list[Step]:
+def force_steps(forces: Forces, book: SymbolTable, before: int) -> list[Step]:
     """All steps of the forces; ``before``: number of the last step of the motion."""
     number = before + 1
     known = KnownForces(forces, book)
@@ -52,7 +52,7 @@ def force_steps(forces: Forces, book: Book, before: int) -> list[Step]:
     return steps
 
 
-def named_step(book: Book, number: int) -> Step:
+def named_step(book: SymbolTable, number: int) -> Step:
     """Outputs that the model names: the formula of each, its value and its rates, where it has some."""
     step = Step(str(number), book.say(_("Outputs that the model names")))
     for name, named in book.mechanism.outputs.items():
@@ -65,7 +65,7 @@ def named_step(book: Book, number: int) -> Step:
     return step
 
 
-def power_step(forces: Forces, book: Book, known: KnownForces, number: int) -> Step:
+def power_step(forces: Forces, book: SymbolTable, known: KnownForces, number: int) -> Step:
     """Powers of all known forces, of the drivers, and the effort that follows from them."""
     step = Step(str(number), book.say(_("Check by virtual power")))
     step.say(book.say(_("Power of weight, inertia and loads of every link:")))
@@ -82,7 +82,7 @@ def power_step(forces: Forces, book: Book, known: KnownForces, number: int) -> S
     return step
 
 
-def _drivers(step: Step, forces: Forces, book: Book, sum_of: Term) -> None:
+def _drivers(step: Step, forces: Forces, book: SymbolTable, sum_of: Term) -> None:
     """With one driver its effort from the powers; with several the balance."""
     terms = []
     for name, driver in book.mechanism.drivers.items():
@@ -148,7 +148,7 @@ def worked(
     _refuse_missing(motion, position)
     index = position % motion.steps
     say = speaker(language)
-    book = Book(motion, index, say)
+    book = SymbolTable(motion, index, say)
     steps = _Kinematics(book).steps()
     if isinstance(source, Forces):
         from linkwright.worked_solutions.solution import force_steps
@@ -194,7 +194,7 @@ def _refuse_missing(motion: Motion, position: int) -> None:
         )
 
 
-def _legend(book: Book) -> list[str]:
+def _legend(book: SymbolTable) -> list[str]:
     say = book.say
     links = ", ".join(numbered_links(book.numbers, language_of(say)))
     return [
@@ -221,7 +221,7 @@ def _legend(book: Book) -> list[str]:
 class _Kinematics:
     """Steps of the motion, group by group."""
 
-    def __init__(self, book: Book) -> None:
+    def __init__(self, book: SymbolTable) -> None:
         self.book = book
         self.places = Places(book)
         self.movers = Movers(book)

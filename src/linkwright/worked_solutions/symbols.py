@@ -18,7 +18,7 @@ from linkwright.words import Translate
 
 
 @dataclass(frozen=True)
-class Spot:
+class PointState:
     """A point: its key, the label that the reader sees, where it is and how it moves."""
 
     key: str
@@ -40,7 +40,7 @@ class Slide:
     second: Term
 
 
-class Book:
+class SymbolTable:
     """Symbols of one position of a motion; links are numbered in the order of the file, the frame is 0."""
 
     def __init__(self, motion: Motion, index: int, say: Translate) -> None:
@@ -50,7 +50,7 @@ class Book:
         self.say = say
         self.numbers = {"frame": 0} | {name: i for i, name in enumerate(self.mechanism.links, 1)}
         self.given: set[str] = set()
-        self._spots: dict[str, Spot] = {}
+        self._spots: dict[str, PointState] = {}
 
     # links --------------------------------------------------------------------------------
     def angle_of(self, link: str) -> float:
@@ -117,7 +117,7 @@ class Book:
         return frozenset(found)
 
     # points -------------------------------------------------------------------------------
-    def spot(self, link: str, point: str) -> Spot:
+    def spot(self, link: str, point: str) -> PointState:
         """A point of a link; ``@centre`` is its mass centre."""
         point = self.centre_name(link) if point == "@centre" else point
         key = f"{link}.@centre" if point == "@centre" else canonical(self.mechanism, link, point)
@@ -130,20 +130,20 @@ class Book:
         part = self.mechanism.link(link)
         return next((name for name, place in part.points.items() if place == part.centre), "@centre")
 
-    def _make(self, key: str, link: str, point: str) -> Spot:
+    def _make(self, key: str, link: str, point: str) -> PointState:
         label = self._label(key, link, point)
         fixed = "frame" in (link, *self.mechanism.pin_links(key))
         if fixed:
             x, y = self.mechanism.frame.points[point]
             known = (t if t.amount else ZERO for t in self._coordinates(label, x, y))
-            return Spot(key, label, Pair(*known), NOWHERE, NOWHERE, True)
+            return PointState(key, label, Pair(*known), NOWHERE, NOWHERE, True)
         at = self.motion.point_of(key)
         place = Pair(*self._coordinates(label, *at.position[self.index]))
         if not self.mechanism.drivers:
-            return Spot(key, label, place, NOWHERE, NOWHERE, False)
+            return PointState(key, label, place, NOWHERE, NOWHERE, False)
         velocity = self._components("v", label, *at.velocity[self.index])
         acceleration = self._components("a", label, *at.acceleration[self.index])
-        return Spot(key, label, place, velocity, acceleration, False)
+        return PointState(key, label, place, velocity, acceleration, False)
 
     @staticmethod
     def _components(letter: str, label: str, x: float, y: float) -> Pair:

@@ -40,7 +40,7 @@ from linkwright.worked_solutions.higher_pairs import (
     pair_closures,
 )
 from linkwright.worked_solutions.places import Places
-from linkwright.worked_solutions.symbols import Book
+from linkwright.worked_solutions.symbols import SymbolTable
 
 
 class OwnForm(Protocol):
@@ -67,20 +67,20 @@ class OwnForm(Protocol):
 
 
 @singledispatch
-def own_form(joint: Joint, book: Book) -> OwnForm | None:
+def own_form(joint: Joint, book: SymbolTable) -> OwnForm | None:
     """The formulas of a pair that determines its group alone; None where ``sums`` and the contact say all."""
     return None
 
 
 @own_form.register
-def _cam_joint(joint: CamJoint, book: Book) -> OwnForm:
+def _cam_joint(joint: CamJoint, book: SymbolTable) -> OwnForm:
     return cam_pair(joint, book)
 
 
 class Wheels:
     """Writes the positions, rates and forces of such groups."""
 
-    def __init__(self, book: Book) -> None:
+    def __init__(self, book: SymbolTable) -> None:
         self.book = book
         self._own: dict[str, OwnForm | None] = {}
 

@@ -11,7 +11,7 @@ import pytest
 import linkwright as lw
 from linkwright.kinematics.placement import placements
 from linkwright.page.glyphs import glyphs
-from linkwright.plotting.drawing.machine import Machine, fitted
+from linkwright.plotting.drawing.machine import DrawnMechanism, fitted
 
 ENGINE = """
 format: 1
@@ -39,7 +39,7 @@ loads:
 
 def glyphs_of(motion: lw.Motion) -> list[dict[str, Any]]:
     placed = placements(motion)
-    return glyphs(Machine(motion, placed, fitted(motion, placed)), 0)
+    return glyphs(DrawnMechanism(motion, placed, fitted(motion, placed)), 0)
 
 
 def drawn(base: str = "60 mm", way: str = "backward") -> list[dict[str, Any]]:

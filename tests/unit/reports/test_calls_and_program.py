@@ -14,7 +14,7 @@ from tests import store
 
 import linkwright as lw
 from linkwright.reports.document import Code, Paragraph, Table
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.settings import settings
 
 CORE = ("shaper_quick_return", "swing_conveyor", "truss")
@@ -39,7 +39,7 @@ def check(name: str, language: str, folder: Path) -> None:
     """The listing prints what the tables hold; every call is in the table of its subprogram."""
     found, blocks = _blocks(name, language)
     listing = next(block for block in blocks if isinstance(block, Code) and block.language == "python")
-    case = Case(
+    case = ReportContext(
         store.machine(name),
         settings(dict(store.machine(name).report), language, store.machine(name)),
         language,

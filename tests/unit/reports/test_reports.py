@@ -24,7 +24,7 @@ from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.pictures.svg.render import natural_size
 from linkwright.reports.document import Figure, Formula, Heading, Paragraph, Table, plain
 from linkwright.reports.key_names import MODEL_KEYS
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.numbers import typeset, without_rounding
 from linkwright.reports.report import report
 from linkwright.reports.section import SECTIONS
@@ -63,7 +63,7 @@ def test_mobility_stands_with_its_numbers_and_both_torques_agree() -> None:
 
 
 def test_positions_are_numbered_from_the_limit_position_in_equal_steps_of_the_crank() -> None:
-    case = Case(lw.load("gallery:swing_conveyor"), settings({"numbered_from": "rocker max"}), "en")
+    case = ReportContext(lw.load("gallery:swing_conveyor"), settings({"numbered_from": "rocker max"}), "en")
     numbered = case.numbered
     assert numbered.start is not None and numbered.start.kind == "max"
     inputs = [float(numbered.motion.input[i]) for i in numbered.rows]
@@ -77,7 +77,7 @@ def test_an_unknown_element_is_refused_and_the_rest_is_there(monkeypatch: pytest
 
     reason = "of an element that is not known"
 
-    def refuse(case: Case, group: object) -> list[tuple[str, str]]:
+    def refuse(case: ReportContext, group: object) -> list[tuple[str, str]]:
         raise LinkwrightError(reason)
 
     monkeypatch.setattr(method, "loops", refuse)
@@ -90,7 +90,7 @@ def test_an_unknown_element_is_refused_and_the_rest_is_there(monkeypatch: pytest
 def test_an_error_of_the_program_does_not_end_the_report(monkeypatch: pytest.MonkeyPatch) -> None:
     from linkwright.reports.sections import limits
 
-    def broken(case: Case, rows: object) -> object:
+    def broken(case: ReportContext, rows: object) -> object:
         raise ZeroDivisionError("float division")
 
     monkeypatch.setattr(limits, "_quick_return", broken)
@@ -210,7 +210,7 @@ def test_what_a_train_does_not_carry_or_does_not_change_is_said_in_one_place() -
     assert any("= 20 N" in each and "= 60 N" in each for each in said)
     heads = [head for b in found.document.blocks if isinstance(b, Table) for head in b.head]
     assert not [head for head in every(heads) if head.startswith("$F_")]
-    train = Case(lw.load("gallery:planetary_two_inputs"), settings({}), "en")
+    train = ReportContext(lw.load("gallery:planetary_two_inputs"), settings({}), "en")
     carrying = [
         ("O", "sun"),
         ("O", "ring"),

@@ -20,9 +20,9 @@ from linkwright.cli import main
 from linkwright.designs import checkpoints
 from linkwright.formula import machine_code
 from linkwright.synthesis.free_curve import search as free_curve
-from linkwright.synthesis.free_curve.nodes import FOUR_BAR, Design, flat
 from linkwright.synthesis.free_curve.search import Search, polished
 from linkwright.synthesis.free_curve.target import Target
+from linkwright.synthesis.free_curve.topology import FOUR_BAR, Design, flat
 
 pytestmark = [
     pytest.mark.skipif(not machine_code.available(), reason="llvmlite does not run here"),

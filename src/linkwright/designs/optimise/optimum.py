@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright import units
 from linkwright.core.arrays import Floats
-from linkwright.core.attached import Plotted, attached
+from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular
 from linkwright.designs.changed_text import changed_text
@@ -37,7 +37,7 @@ class Choice:
 
 
 @dataclass(eq=False)
-class Optimum(Plotted, Tabular, Frozen):
+class Optimum(PlotMixin, Tabular, Frozen):
     """The designs that an optimisation found: one, or the front of several objectives in order of the first.
 
     Args:

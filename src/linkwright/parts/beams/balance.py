@@ -9,15 +9,15 @@ from linkwright.core.arrays import Floats
 from linkwright.core.table import ROUNDING
 from linkwright.equations.steps import Step
 from linkwright.parts.base import signed
-from linkwright.parts.beams.elastic import Hold, Point, Spread
+from linkwright.parts.beams.elastic import DistributedLoad, Point, SupportCondition
 
 
 def balance_laws(
     step: Step,
-    supports: Mapping[str, Hold],
+    supports: Mapping[str, SupportCondition],
     length: float,
     points: Sequence[Point],
-    spreads: Sequence[Spread],
+    spreads: Sequence[DistributedLoad],
 ) -> None:
     """ΣF = 0 and ΣM = 0 about the first support, the reactions as unknowns."""
     own = supports.items()
@@ -58,7 +58,7 @@ def polynomial_text(coefficients: Sequence[float] | Floats, largest: float, leng
     return text or "0"
 
 
-def line_moment(spread: Spread) -> float:
+def line_moment(spread: DistributedLoad) -> float:
     """Moment of a line load about x = 0."""
     a, b = spread.start, spread.end
     rate = (spread.last - spread.first) / (b - a)

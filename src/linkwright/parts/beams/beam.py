@@ -21,7 +21,14 @@ from linkwright.fields.base import Quantities, Quantity, Schema, Word, file_key,
 from linkwright.fields.tables import Flag, Listed, Named, Table
 from linkwright.parts.base import Problem, Result, signed
 from linkwright.parts.beams.balance import balance_laws, line_moment, polynomial_text, rounded
-from linkwright.parts.beams.elastic import ElasticLine, Hold, Point, Spread, free_motions, solve_line
+from linkwright.parts.beams.elastic import (
+    DistributedLoad,
+    ElasticLine,
+    Point,
+    SupportCondition,
+    free_motions,
+    solve_line,
+)
 from linkwright.parts.beams.materials import MATERIAL, Material
 from linkwright.parts.beams.sections import Section, section_field
 from linkwright.parts.motions import plain_motions
@@ -63,9 +70,9 @@ class BeamSupport:
     )
 
     @property
-    def hold(self) -> Hold:
+    def hold(self) -> SupportCondition:
         """What it holds."""
-        return Hold(
+        return SupportCondition(
             self.at, self.kind in ("fixed", "pinned", "roller"), self.kind in ("fixed", "guided"),
             self.settlement, self.stiffness, self.torsional_stiffness,
         )  # fmt: skip
@@ -267,7 +274,7 @@ class Beam(Problem):
             place=shown(-motion[0] / motion[1] * self.length, "length"),
         )
 
-    def _holds(self) -> list[Hold]:
+    def _holds(self) -> list[SupportCondition]:
         return [each.hold for each in self.supports.values()]
 
     def solve(self) -> BeamLine:
@@ -279,12 +286,12 @@ class Beam(Problem):
         line = solve_line(self.length, rigidity, self._holds(), points, spreads, sorted(self.hinges))
         return BeamLine(self, line, tuple(sections))
 
-    def _loads(self) -> tuple[list[Point], list[Spread]]:
+    def _loads(self) -> tuple[list[Point], list[DistributedLoad]]:
         points, spreads = [], []
         for load in self.loads.values():
             if load.line is not None:
                 end = self.length if load.end is None else min(load.end, self.length)
-                spreads.append(Spread(load.start, end, load.line[0], load.line[-1]))
+                spreads.append(DistributedLoad(load.start, end, load.line[0], load.line[-1]))
             else:
                 points.append(Point(load.at or 0.0, load.force or 0.0, load.couple or 0.0))
         if self.own_weight:
@@ -292,7 +299,7 @@ class Beam(Problem):
             sections = [self.section, *(s.section for s in sorted(self.steps, key=lambda s: s.start))]
             for a, b, section in zip(starts[:-1], starts[1:], sections, strict=True):
                 weight = -GRAVITY * (self.material.density or 0.0) * (section.area or 0.0)
-                spreads.append(Spread(a, b, weight, weight))
+                spreads.append(DistributedLoad(a, b, weight, weight))
         return points, spreads
 
 

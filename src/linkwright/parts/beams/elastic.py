@@ -23,7 +23,7 @@ ROUNDING = 1e-13
 
 
 @dataclass(frozen=True)
-class Hold:
+class SupportCondition:
     """What holds the beam at ``x``: the deflection and the slope, rigidly (``settlement`` m) or by springs."""
 
     x: float
@@ -44,7 +44,7 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Spread:
+class DistributedLoad:
     """A line load (N/m, up) from ``start`` to ``end``, linear from ``first`` to ``last``."""
 
     start: float
@@ -114,7 +114,7 @@ def _roots_within(polynomial: Polynomial, length: float) -> list[float]:
     return [float(u) * length for u in real if 0.0 < u < 1.0]
 
 
-def free_motions(length: float, holds: Sequence[Hold], hinges: Sequence[float]) -> Floats:
+def free_motions(length: float, holds: Sequence[SupportCondition], hinges: Sequence[float]) -> Floats:
     """Motions without bending that the holds leave: rows of (w at 0 over length, slope at 0, kink of every hinge)."""
     rows = []
     for hold in holds:
@@ -132,9 +132,9 @@ def free_motions(length: float, holds: Sequence[Hold], hinges: Sequence[float]) 
 def solve_line(
     length: float,
     rigidity: Sequence[tuple[float, float]],
-    holds: Sequence[Hold],
+    holds: Sequence[SupportCondition],
     points: Sequence[Point],
-    spreads: Sequence[Spread],
+    spreads: Sequence[DistributedLoad],
     hinges: Sequence[float] = (),
 ) -> ElasticLine:
     """The elastic line of a beam that cannot move (:func:`free_motions` has no rows).
@@ -185,7 +185,7 @@ def solve_line(
 
 
 def _reaction(
-    hold: Hold, dofs: Sequence[int], rigid: Floats, moved: Floats, force: float, length: float
+    hold: SupportCondition, dofs: Sequence[int], rigid: Floats, moved: Floats, force: float, length: float
 ) -> tuple[float, float]:
     """Force, N, and couple, N·m, of a hold: those of what is held rigidly, else of its springs."""
     deflection, left, right = dofs
@@ -200,9 +200,9 @@ def _reaction(
 def _nodes(
     length: float,
     rigidity: Sequence[tuple[float, float]],
-    holds: Sequence[Hold],
+    holds: Sequence[SupportCondition],
     points: Sequence[Point],
-    spreads: Sequence[Spread],
+    spreads: Sequence[DistributedLoad],
     hinges: Sequence[float],
 ) -> list[float]:
     places = [0.0, length, *hinges, *(start for start, _ in rigidity), *(each.x for each in holds)]
@@ -228,7 +228,7 @@ def _numbering(nodes: Sequence[float], hinges: Sequence[float], length: float) -
     return found, count
 
 
-def _load_on(a: float, b: float, spreads: Sequence[Spread], length: float) -> Polynomial:
+def _load_on(a: float, b: float, spreads: Sequence[DistributedLoad], length: float) -> Polynomial:
     """Line load over ξ/length from a to b, N/m."""
     total = Polynomial([0.0])
     for each in spreads:

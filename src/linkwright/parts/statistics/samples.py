@@ -92,7 +92,7 @@ _CONSTANT = _("all values of {sample} are equal, so {what} has no answer")
 
 
 @dataclass(frozen=True)
-class Asked:
+class TestSpec:
     """A test of ``kind`` ``of`` samples; ``value`` (SI) that the mean or deviation is compared with."""
 
     kind: str
@@ -119,8 +119,8 @@ class Limits:
     subgroup: int | None = None
 
 
-def _asked(kind: str, of: tuple[str, ...], value: Any = None) -> Asked:
-    return Asked(kind, of, *(value or ()))
+def _asked(kind: str, of: tuple[str, ...], value: Any = None) -> TestSpec:
+    return TestSpec(kind, of, *(value or ()))
 
 
 def _limits(lower: Any = None, upper: Any = None, subgroup: int | None = None) -> Limits:
@@ -154,7 +154,7 @@ class Samples(Problem):
     fit: tuple[str, ...] = file_key(
         Listed(Word(tuple(DISTRIBUTIONS)), "[normal, weibull]", doc=f"any of {', '.join(DISTRIBUTIONS)}"), ()
     )
-    tests: Mapping[str, Asked] = file_key(
+    tests: Mapping[str, TestSpec] = file_key(
         Named(
             Table(TEST_FIELDS, _asked), _("test"), doc="tests by name: {kind: mean, of: [a], value: 20 mm}"
         ),
@@ -242,7 +242,7 @@ class Samples(Problem):
                 )
         return found
 
-    def _test_findings(self, key: str, test: Asked) -> list[Finding]:
+    def _test_findings(self, key: str, test: TestSpec) -> list[Finding]:
         kind = TESTS[test.kind]
         found = self._unknown(f"{key}.of", test.of)
         wanted = kind.samples or 2

@@ -54,7 +54,7 @@ LABELS: Mapping[str, Message] = {
 
 
 @dataclass(frozen=True)
-class Tie:
+class Connector:
     """A spring or damper ``between`` two masses, or a mass and ``ground``; its ``rate`` N/m, N·s/m (N·m/rad …)."""
 
     between: tuple[str, ...]
@@ -123,10 +123,10 @@ class VibratingSystem(Problem):
     masses: Mapping[str, float] = file_key(
         MassesField(AnyQuantity(either("mass")), _("mass"), doc="masses (kg) by name"), dict
     )
-    springs: Mapping[str, Tie] = file_key(
+    springs: Mapping[str, Connector] = file_key(
         Named(SPRING, _("spring"), doc="springs by name: {between: [ground, body], stiffness: 20 kN/m}"), dict
     )
-    dampers: Mapping[str, Tie] = file_key(
+    dampers: Mapping[str, Connector] = file_key(
         Named(DAMPER, _("damper"), doc="dampers by name: {between: [ground, body], damping: 300 N·s/m}"), dict
     )
     excitation: Excitation | None = file_key(
@@ -154,7 +154,7 @@ class VibratingSystem(Problem):
         data["masses"] = {name: value for name, (value, _unused) in data["masses"].items()}
         for what in ("springs", "dampers"):
             ties = data.get(what, {})
-            data[what] = {name: Tie(tie["between"], tie["rate"][0]) for name, tie in ties.items()}
+            data[what] = {name: Connector(tie["between"], tie["rate"][0]) for name, tie in ties.items()}
         starts = data.get("start", {})
         data["start"] = {
             name: Start(**{word: value for word, (value, _unused) in each.items()})
@@ -187,8 +187,8 @@ class VibratingSystem(Problem):
         return replace(
             self,
             masses={**self.masses, "absorber": mass},
-            springs={**self.springs, "absorber": Tie(between, spring)},
-            dampers={"absorber": Tie(between, damper)},
+            springs={**self.springs, "absorber": Connector(between, spring)},
+            dampers={"absorber": Connector(between, damper)},
         )
 
     def findings(self) -> list[Finding]:
@@ -224,7 +224,7 @@ class VibratingSystem(Problem):
         ]
         return found or self._excitation_findings()
 
-    def _tie_findings(self, key: str, tie: Tie) -> list[Finding]:
+    def _tie_findings(self, key: str, tie: Connector) -> list[Finding]:
         known = [GROUND, *self.masses]
         if len(tie.between) != 2 or tie.between[0] == tie.between[-1]:
             return [
@@ -335,7 +335,7 @@ class VibratingSystem(Problem):
             np.diag(list(self.masses.values())), self._matrix(self.dampers), self._matrix(self.springs)
         )
 
-    def _matrix(self, ties: Mapping[str, Tie]) -> Floats:
+    def _matrix(self, ties: Mapping[str, Connector]) -> Floats:
         place = {name: i for i, name in enumerate(self.masses)}
         found = np.zeros((len(place), len(place)))
         for tie in ties.values():
@@ -347,7 +347,7 @@ class VibratingSystem(Problem):
                 found[ends[1], ends[0]] -= tie.rate
         return found
 
-    def to_ground(self, ties: Mapping[str, Tie]) -> Floats:
+    def to_ground(self, ties: Mapping[str, Connector]) -> Floats:
         """Rates of ties between each mass and the ground, (n,)."""
         names = list(self.masses)
         found = np.zeros(len(names))

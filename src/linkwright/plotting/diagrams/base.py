@@ -15,7 +15,7 @@ from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.pictures.diagram import INK, Figure
 from linkwright.pictures.drawing import Drawing
 from linkwright.plotting.diagrams.axes import Legend, wrapped
-from linkwright.plotting.diagrams.source import Source
+from linkwright.plotting.diagrams.source import PlotInput
 from linkwright.registry import Registry
 from linkwright.words import Message, Translate, _, say
 from linkwright.words.characters import printable
@@ -89,7 +89,7 @@ class Kind(ABC):
     options: ClassVar[tuple[str, ...]] = ()
 
     @abstractmethod
-    def draw(self, sources: Sequence[Source], request: Request) -> Figure | Drawing:
+    def draw(self, sources: Sequence[PlotInput], request: Request) -> Figure | Drawing:
         """The figure, or a drawing; several sources are overlaid in different colours.
 
         Raises LinkwrightError for unknown names, and where the diagram makes no sense for a mechanism.

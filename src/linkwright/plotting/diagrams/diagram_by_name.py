@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias, cast
 
 from linkwright.core.arguments import real, require
-from linkwright.core.attached import Plotted
+from linkwright.core.attached import PlotMixin
 from linkwright.errors import RequestError, about, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
@@ -15,7 +15,7 @@ from linkwright.machine.running import SteadyRunning
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.diagram import Diagram, drawing_in
 from linkwright.plotting.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, Request
-from linkwright.plotting.diagrams.source import Result, Source
+from linkwright.plotting.diagrams.source import PlotInput, Result
 from linkwright.registry import listed
 from linkwright.units import parse
 from linkwright.words import _
@@ -25,7 +25,7 @@ _Solved: TypeAlias = Result | Sequence[Result] | Mapping[str, Result]
 
 
 def plot(
-    result: _Solved | Plotted,
+    result: _Solved | PlotMixin,
     kind: str | None = None,
     *,
     of: str | Sequence[str] = (),
@@ -185,7 +185,7 @@ def _own_kind(result: object, kind: str | None) -> str | None:
     return kind
 
 
-def _sources(result: object, *, static: bool) -> list[Source]:
+def _sources(result: object, *, static: bool) -> list[PlotInput]:
     results: list[tuple[str | None, Any]]
     if isinstance(result, Mapping):
         results = [(label, each) for label, each in result.items()]
@@ -195,7 +195,7 @@ def _sources(result: object, *, static: bool) -> list[Source]:
         results = [(None, result)]
     for _unused, each in results:
         require(each, Mechanism, Motion, Forces, SteadyRunning)
-    found = [Source(each, label, static=static) for label, each in results]
+    found = [PlotInput(each, label, static=static) for label, each in results]
     if not found:
         raise RequestError(
             _("there is nothing to draw; give at least one result", code="picture.nothing_given")
@@ -216,7 +216,7 @@ def _usual(result: _Solved) -> str:
     return "speed" if isinstance(first, SteadyRunning) else "torque" if isinstance(first, Forces) else "sva"
 
 
-def _place(at: float | str | None, source: Source) -> float | None:
+def _place(at: float | str | None, source: PlotInput) -> float | None:
     """The coordinate of one position, SI."""
     if not isinstance(at, str):
         return at

@@ -24,7 +24,7 @@ from linkwright.plotting.diagrams.scaled_page import (
     position_cell,
     vector_cell,
 )
-from linkwright.plotting.diagrams.source import Source
+from linkwright.plotting.diagrams.source import PlotInput
 from linkwright.plotting.free_bodies.actions import STYLES, Action, free_bodies
 from linkwright.words import _, pgettext
 from linkwright.words.sentence import numbered_links
@@ -78,7 +78,7 @@ class ForcePolygon(Kind):
     )
     options = ("of", "at", "static")
 
-    def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
+    def draw(self, sources: Sequence[PlotInput], request: Request) -> Drawing:
         source, say = sources[0], request.say
         forces = source.forces_at(request.at)
         require_forces(forces)

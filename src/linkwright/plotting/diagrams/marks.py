@@ -22,7 +22,7 @@ from linkwright.pictures.diagram import INK, Axes
 from linkwright.pictures.picture import round_up
 from linkwright.plotting.diagrams.axes import InputAxis, Unit
 from linkwright.plotting.diagrams.names import Name, Names
-from linkwright.plotting.diagrams.source import Extremes, Source
+from linkwright.plotting.diagrams.source import Extremes, PlotInput
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class PhaseMark:
     end: float
 
 
-def limit_marks(source: Source, output: Output | None) -> list[LimitMark]:
+def limit_marks(source: PlotInput, output: Output | None) -> list[LimitMark]:
     """Limit positions of an output; none for points, or where the motion follows no law in time."""
     if output is None or output.is_point:
         return []
@@ -72,7 +72,7 @@ def limit_marks(source: Source, output: Output | None) -> list[LimitMark]:
     return [LimitMark(each.time if in_time else each.input, each.kind) for each in found]
 
 
-def phase_marks(source: Source, limits: list[LimitMark]) -> list[PhaseMark]:
+def phase_marks(source: PlotInput, limits: list[LimitMark]) -> list[PhaseMark]:
     """Where loads with a phase act; ends next to a limit position lie on it."""
     found: list[PhaseMark] = []
     x = source.axis.values
@@ -84,7 +84,7 @@ def phase_marks(source: Source, limits: list[LimitMark]) -> list[PhaseMark]:
     return found
 
 
-def acting(source: Source) -> dict[str, np.ndarray[tuple[int], np.dtype[np.bool_]]]:
+def acting(source: PlotInput) -> dict[str, np.ndarray[tuple[int], np.dtype[np.bool_]]]:
     """Of every load with a phase: at which positions it acts, up to the cycle's end."""
     found = {}
     signals = MotionSignals(source.motion)
@@ -175,7 +175,7 @@ def _extreme(curve: Curve, axis: InputAxis, kind: Kind) -> tuple[float, float]:
     return float((axis.values if curve.x is None else curve.x)[index]), float(curve.values[index])
 
 
-def jumps(source: Source) -> Floats:
+def jumps(source: PlotInput) -> Floats:
     """Indices i such that a load begins or ends to act between positions i and i + 1 of the closed cycle."""
     found: set[int] = set()
     for where in acting(source).values():

@@ -34,7 +34,7 @@ from linkwright.plotting.diagrams.scaled_page import (
     side_by_side,
     units,
 )
-from linkwright.plotting.diagrams.source import Source
+from linkwright.plotting.diagrams.source import PlotInput
 from linkwright.words import _
 
 #: Longest extent of the polygon on the paper, mm.
@@ -81,14 +81,14 @@ class MotionPolygons(Kind):
     def polygon(self, motion: Motion) -> MotionPolygon:
         """The polygon of a motion's first position."""
 
-    def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
+    def draw(self, sources: Sequence[PlotInput], request: Request) -> Drawing:
         motion = sources[0].at(request.at)
         polygon = self.polygon(motion)
         scale = scale_of_picture(polygon.places, POLYGON)
         return self._page(sources[0], motion, polygon, scale, request)
 
     def _page(
-        self, source: Source, motion: Motion, polygon: MotionPolygon, scale: float, request: Request
+        self, source: PlotInput, motion: Motion, polygon: MotionPolygon, scale: float, request: Request
     ) -> Drawing:
         say = request.say
         scale_text = scale_title(say(_("polygon")), self.letter, f"{significant(scale)} {per_mm(self.unit)}")

@@ -10,7 +10,7 @@ from linkwright.pictures.drawing import Drawing
 from linkwright.plotting.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plotting.diagrams.outputs import known_link
 from linkwright.plotting.diagrams.reactions import require_forces
-from linkwright.plotting.diagrams.source import Source
+from linkwright.plotting.diagrams.source import PlotInput
 from linkwright.plotting.flow_chart.content import flow_chart_steps
 from linkwright.plotting.flow_chart.picture import flow_chart_pages
 from linkwright.plotting.free_bodies.page import free_body_pages
@@ -28,7 +28,7 @@ class FlowChart(Kind):
         code="picture.one_flow_chart",
     )
 
-    def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
+    def draw(self, sources: Sequence[PlotInput], request: Request) -> Drawing:
         (source,) = sources
         nodes = flow_chart_steps(source.motion, range(source.motion.steps), request.language)
         title = request.titled(source.label)
@@ -48,7 +48,7 @@ class FreeBodies(Kind):
     )
     options = ("of", "at", "static")
 
-    def draw(self, sources: Sequence[Source], request: Request) -> Drawing:
+    def draw(self, sources: Sequence[PlotInput], request: Request) -> Drawing:
         (source,) = sources
         forces = source.forces_at(request.at)
         require_forces(forces)

@@ -30,7 +30,7 @@ from linkwright.plotting.diagrams.marks import (
     phase_marks,
     through_peaks,
 )
-from linkwright.plotting.diagrams.source import Source
+from linkwright.plotting.diagrams.source import PlotInput
 from linkwright.words import Translate, _
 
 #: A value below this in the unit of the axis has a unit of its own, below that share of the largest it is rounding.
@@ -99,22 +99,22 @@ class OverInput(Kind):
     """A diagram of panels over the input."""
 
     @abstractmethod
-    def panels(self, source: Source, request: Request) -> list[Panel]:
+    def panels(self, source: PlotInput, request: Request) -> list[Panel]:
         """The panels of one source, from the top down; the same number for every source."""
 
-    def subject(self, sources: Sequence[Source], request: Request) -> str:
+    def subject(self, sources: Sequence[PlotInput], request: Request) -> str:
         """What the title names besides the mechanism."""
         return request.say(self.title)
 
-    def output(self, source: Source, request: Request) -> Output | None:
+    def output(self, source: PlotInput, request: Request) -> Output | None:
         """The output whose limit positions are marked."""
         return None
 
-    def axis(self, source: Source) -> InputAxis:
+    def axis(self, source: PlotInput) -> InputAxis:
         """What the panels lie over."""
         return source.axis
 
-    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+    def draw(self, sources: Sequence[PlotInput], request: Request) -> Figure:
         panels = _laid_over([(each, self.axis(each), self.panels(each, request)) for each in sources])
         axis = self.axis(sources[0])
 
@@ -168,7 +168,7 @@ def fit_plane(figure: Figure, axes: Axes, request: Request) -> None:
         figure.set_size_inches(wide, AROUND + (wide - 1.2) * min(max(share, FLAT), TALL))
 
 
-def _laid_over(parts: list[tuple[Source, InputAxis, list[Panel]]]) -> list[Panel]:
+def _laid_over(parts: list[tuple[PlotInput, InputAxis, list[Panel]]]) -> list[Panel]:
     """The panels of the first source with the curves of the others, one colour for each source."""
     if len(parts) == 1:
         return parts[0][2]
@@ -248,7 +248,7 @@ def _set_range(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
 
 
 def _draw_marks(
-    axes: list[Axes], source: Source, output: Output | None, legend: Legend, say: Translate
+    axes: list[Axes], source: PlotInput, output: Output | None, legend: Legend, say: Translate
 ) -> None:
     factor = source.axis.unit.factor
     limits = limit_marks(source, output)

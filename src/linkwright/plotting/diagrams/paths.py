@@ -16,7 +16,7 @@ from linkwright.plotting.diagrams.marks import draw_curve, mark_inputs
 from linkwright.plotting.diagrams.names import LINK, Names, draw_machine, write_names
 from linkwright.plotting.diagrams.outputs import traced_points
 from linkwright.plotting.diagrams.panels import DASHES
-from linkwright.plotting.diagrams.source import Source
+from linkwright.plotting.diagrams.source import PlotInput
 from linkwright.plotting.drawing.machine import extent_of
 from linkwright.words import _
 
@@ -28,7 +28,7 @@ class Paths(Kind):
     title = _("paths of points")
     options = ("of",)
 
-    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+    def draw(self, sources: Sequence[PlotInput], request: Request) -> Figure:
         single = len(sources) == 1
         curves = [_curves(source, request) for source in sources]
         tiny = single and not any(_worth_marks(sources[0], curve) for curve in curves[0].values())
@@ -49,7 +49,7 @@ class Paths(Kind):
         return figure
 
 
-def _room(sources: Sequence[Source], curves: Sequence[dict[str, Floats]]) -> tuple[float, float]:
+def _room(sources: Sequence[PlotInput], curves: Sequence[dict[str, Floats]]) -> tuple[float, float]:
     """Width and height of a figure that the machines and the paths fill, inches."""
     clouds = [each for found in curves for each in found.values()]
     for source in sources:
@@ -65,7 +65,7 @@ def _room(sources: Sequence[Source], curves: Sequence[dict[str, Floats]]) -> tup
     return 6.8, 1.4 + 5.6 * min(max(share, 0.35), 0.75)
 
 
-def _curves(source: Source, request: Request) -> dict[str, Floats]:
+def _curves(source: PlotInput, request: Request) -> dict[str, Floats]:
     """Paths (n, 2) of the points, mm."""
     keys = [_point(source, name) for name in request.of] or traced_points(source.mechanism)
     return {key: source.closed(source.motion.point(key).position) * 1e3 for key in keys}
@@ -73,7 +73,7 @@ def _curves(source: Source, request: Request) -> dict[str, Floats]:
 
 def _draw(
     names: Names,
-    source: Source,
+    source: PlotInput,
     curves: dict[str, Floats],
     request: Request,
     legend: Legend,
@@ -96,13 +96,13 @@ def _draw(
             mark_inputs(names, curve, source.axis, colour)
 
 
-def _worth_marks(source: Source, curve: Floats) -> bool:
+def _worth_marks(source: PlotInput, curve: Floats) -> bool:
     """Whether a path is long enough, beside the whole machine, for marks along it."""
     good = curve[np.isfinite(curve).all(axis=1)]
     return len(good) > 2 and float(np.ptp(good, axis=0).max()) > 0.12e3 * extent_of(source.motion)
 
 
-def _point(source: Source, name: str) -> str:
+def _point(source: PlotInput, name: str) -> str:
     found = output_or_point(source.mechanism, name)
     if not found.is_point:
         raise RequestError(

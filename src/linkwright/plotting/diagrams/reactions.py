@@ -21,7 +21,7 @@ from linkwright.plotting.diagrams.marks import Curve, draw_curve, jumps, mark_in
 from linkwright.plotting.diagrams.names import Names, write_names
 from linkwright.plotting.diagrams.outputs import joint_and_link, known_link, loaded, main_output
 from linkwright.plotting.diagrams.panels import OverInput, Panel
-from linkwright.plotting.diagrams.source import Extremes, Source
+from linkwright.plotting.diagrams.source import Extremes, PlotInput
 from linkwright.words import _
 
 
@@ -35,16 +35,16 @@ class Reactions(OverInput):
     title = _("joint forces")
     options = ("of", "joint", "on", "axes", "static")
 
-    def output(self, source: Source, request: Request) -> Output | None:
+    def output(self, source: PlotInput, request: Request) -> Output | None:
         return main_output(source.motion)
 
-    def subject(self, sources: Sequence[Source], request: Request) -> str:
+    def subject(self, sources: Sequence[PlotInput], request: Request) -> str:
         if request.joint is None and request.on is None:
             return request.say(self.title)
         joint, link = joint_and_link(sources[0].forces, request.joint, request.on)
         return request.say(_("force of joint {joint} on {link}", joint=joint, link=link))
 
-    def panels(self, source: Source, request: Request) -> list[Panel]:
+    def panels(self, source: PlotInput, request: Request) -> list[Panel]:
         require_forces(source.forces)
         if request.joint is None and request.on is None:
             return [_of_all(source, request)]
@@ -64,7 +64,7 @@ def require_forces(forces: Forces) -> None:
         )
 
 
-def _of_all(source: Source, request: Request) -> Panel:
+def _of_all(source: PlotInput, request: Request) -> Panel:
     mechanism, sizes, signals = source.mechanism, {}, {}
     for joint, link in chosen_pairs(mechanism, request.of):
         force = source.closed(source.forces.reaction(joint, on=link))
@@ -79,7 +79,7 @@ def _of_all(source: Source, request: Request) -> Panel:
     return Panel(request.say(_("joint force")) + " F", "force", tuple(curves))
 
 
-def _of_one(source: Source, request: Request) -> list[Panel]:
+def _of_one(source: PlotInput, request: Request) -> list[Panel]:
     say = request.say
     joint, link = joint_and_link(source.forces, request.joint, request.on)
     axes = request.axes or "frame"
@@ -109,7 +109,7 @@ class Shaking(OverInput):
     title = _("shaking force and moment")
     options = ("static",)
 
-    def panels(self, source: Source, request: Request) -> list[Panel]:
+    def panels(self, source: PlotInput, request: Request) -> list[Panel]:
         say, forces = request.say, source.forces
         require_forces(forces)
         force = source.closed(forces.shaking_force)
@@ -138,7 +138,7 @@ class Hodograph(Kind):
     title = _("hodograph of a joint force")
     options = ("joint", "on", "axes", "static")
 
-    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+    def draw(self, sources: Sequence[PlotInput], request: Request) -> Figure:
         require_forces(sources[0].forces)
         joint, link = joint_and_link(sources[0].forces, request.joint, request.on)
         views = ("frame", link) if request.axes is None else (request.axes,)
@@ -160,7 +160,7 @@ class Hodograph(Kind):
 
 def draw_hodograph(
     axes: Axes,
-    sources: Sequence[Source],
+    sources: Sequence[PlotInput],
     what: tuple[str, str, str],
     request: Request,
     legend: Legend,
@@ -193,7 +193,7 @@ def draw_hodograph(
     return noted
 
 
-def _curve(source: Source, what: tuple[str, str, str]) -> Floats:
+def _curve(source: PlotInput, what: tuple[str, str, str]) -> Floats:
     """The joint force (n, 2) N, zero where a joint carries nothing but rounding."""
     joint, link, view = what
     found = source.closed(source.forces.reaction(joint, on=link, axes=view))
@@ -202,7 +202,7 @@ def _curve(source: Source, what: tuple[str, str, str]) -> Floats:
 
 def _largest(
     axes: Axes,
-    source: Source,
+    source: PlotInput,
     what: tuple[str, str, str],
     curve: Floats,
     unit: Unit,
@@ -236,7 +236,7 @@ class Hodographs(Kind):
     title = _("hodographs of all joint forces")
     options = ("of", "static")
 
-    def draw(self, sources: Sequence[Source], request: Request) -> Figure:
+    def draw(self, sources: Sequence[PlotInput], request: Request) -> Figure:
         require_forces(sources[0].forces)
         pairs = chosen_pairs(sources[0].mechanism, request.of)
         columns = min(ROW, len(pairs))

@@ -40,7 +40,7 @@ def _listed(solved: Motion | Forces, output: Output) -> Floats:
     return results_of(motion, forces)[output]
 
 
-class Source:
+class PlotInput:
     """One result, with what diagrams need of it; what was not solved yet is solved when it is asked for.
 
     Arrays over a closed cycle are drawn up to its end: ``closed`` repeats the first position there.

@@ -19,7 +19,7 @@ from linkwright.plotting.diagrams.base import DIAGRAMS, Request
 from linkwright.plotting.diagrams.marks import Curve
 from linkwright.plotting.diagrams.outputs import known_link, main_output, turning_links
 from linkwright.plotting.diagrams.panels import DASHES, OverInput, Panel
-from linkwright.plotting.diagrams.source import TURN, Source
+from linkwright.plotting.diagrams.source import TURN, PlotInput
 from linkwright.words import Translate, _
 
 ANGULAR = (
@@ -42,14 +42,14 @@ class Sva(OverInput):
     title = _("displacement, velocity, acceleration")
     options = ("of",)
 
-    def output(self, source: Source, request: Request) -> Output | None:
+    def output(self, source: PlotInput, request: Request) -> Output | None:
         first, *more = _asked(source, request)
         return first if first.kind in PLACES and not more else None
 
-    def subject(self, sources: Sequence[Source], request: Request) -> str:
+    def subject(self, sources: Sequence[PlotInput], request: Request) -> str:
         return request.say(_("motion of {output}", output=", ".join(map(str, _asked(sources[0], request)))))
 
-    def panels(self, source: Source, request: Request) -> list[Panel]:
+    def panels(self, source: PlotInput, request: Request) -> list[Panel]:
         asked = _asked(source, request)
         parts = [_panels(source, each, request.say) for each in asked]
         if len(asked) == 1:
@@ -57,7 +57,7 @@ class Sva(OverInput):
         return _together([(str(each), panels) for each, panels in zip(asked, parts, strict=True)])
 
 
-def _asked(source: Source, request: Request) -> list[Output]:
+def _asked(source: PlotInput, request: Request) -> list[Output]:
     """The outputs and points that are named, each once; else the main output."""
     mechanism, named = source.mechanism, dict[Output, Output]()
     for name in request.of:
@@ -80,7 +80,7 @@ def _together(parts: list[tuple[str, list[Panel]]]) -> list[Panel]:
     return list(found.values())
 
 
-def _panels(source: Source, output: Output, say: Translate) -> list[Panel]:
+def _panels(source: PlotInput, output: Output, say: Translate) -> list[Panel]:
     if output.kind in NAMED:
         return _of_named(source, output)
     if output.kind not in PLACES:
@@ -97,7 +97,7 @@ def _panels(source: Source, output: Output, say: Translate) -> list[Panel]:
     return found
 
 
-def _of_named(source: Source, output: Output) -> list[Panel]:
+def _of_named(source: PlotInput, output: Output) -> list[Panel]:
     """An output that the model names, with those of its rates that are known."""
     own = source.mechanism.outputs[output.owner].outputs
     return [
@@ -116,7 +116,7 @@ def _size(motion: Motion, key: str, word: str) -> Floats:
     return np.asarray(np.hypot(*getattr(motion.point_of(key), word).T))
 
 
-def _of_result(source: Source, output: Output) -> Panel:
+def _of_result(source: PlotInput, output: Output) -> Panel:
     """A force, or a rate that is named alone."""
     solved, read, of = source.course_of(output)
     values = source.closed(read(solved))
@@ -127,7 +127,7 @@ def _of_result(source: Source, output: Output) -> Panel:
     return Panel(output.name, output.dimension, (Curve("", np.where(over, np.nan, values), "both"),))
 
 
-def _of_point(source: Source, key: str, say: Translate) -> list[Panel]:
+def _of_point(source: PlotInput, key: str, say: Translate) -> list[Panel]:
     point = source.motion.point_of(key)
     found = []
     for word, title, symbol, dimension in (
@@ -152,12 +152,12 @@ class Angles(OverInput):
     title = _("angles of the links")
     options = ("of",)
 
-    def output(self, source: Source, request: Request) -> Output | None:
+    def output(self, source: PlotInput, request: Request) -> Output | None:
         if len(request.of) == 1:
             return Output("angle", request.of[0])
         return None if request.of else main_output(source.motion)
 
-    def panels(self, source: Source, request: Request) -> list[Panel]:
+    def panels(self, source: PlotInput, request: Request) -> list[Panel]:
         motion, say = source.motion, request.say
         links = [known_link(motion.mechanism, name) for name in request.of] or turning_links(motion)
         if not links:
@@ -194,7 +194,7 @@ class Angles(OverInput):
         ]
 
 
-def _curves(source: Source, links: list[str], values: list[Floats], quantity: str) -> tuple[Curve, ...]:
+def _curves(source: PlotInput, links: list[str], values: list[Floats], quantity: str) -> tuple[Curve, ...]:
     if len(links) > 1:
         return tuple(map(Curve, links, values))
     signal = partial(_of_link, name=links[0], quantity=quantity)

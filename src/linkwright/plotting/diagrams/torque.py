@@ -24,7 +24,7 @@ from linkwright.plotting.diagrams.base import DIAGRAMS, Request
 from linkwright.plotting.diagrams.marks import Curve
 from linkwright.plotting.diagrams.outputs import main_output
 from linkwright.plotting.diagrams.panels import Level, OverInput, Panel, with_mean
-from linkwright.plotting.diagrams.source import Extremes, Source
+from linkwright.plotting.diagrams.source import Extremes, PlotInput
 from linkwright.words import _
 
 
@@ -35,10 +35,10 @@ class Torque(OverInput):
     title = _("what the driver must supply")
     options = ("static",)
 
-    def output(self, source: Source, request: Request) -> Output | None:
+    def output(self, source: PlotInput, request: Request) -> Output | None:
         return main_output(source.motion)
 
-    def panels(self, source: Source, request: Request) -> list[Panel]:
+    def panels(self, source: PlotInput, request: Request) -> list[Panel]:
         motion, forces, say = source.motion, source.forces, request.say
         if not motion.mechanism.drivers:
             raise RequestError(
@@ -70,10 +70,10 @@ class Power(OverInput):
     title = _("power of the driver")
     options = ("static",)
 
-    def output(self, source: Source, request: Request) -> Output | None:
+    def output(self, source: PlotInput, request: Request) -> Output | None:
         return main_output(source.motion)
 
-    def panels(self, source: Source, request: Request) -> list[Panel]:
+    def panels(self, source: PlotInput, request: Request) -> list[Panel]:
         power = source.forces.power
         curve = Curve("", source.closed(power), "both", extremes=source.extremes(_total, "forces"))
         mean = Analysis.of(source.forces).mean_of(_total)
@@ -94,11 +94,11 @@ class Energy(OverInput):
     title = _("energy over the cycle")
     options = ("static",)
 
-    def axis(self, source: Source) -> InputAxis:
+    def axis(self, source: PlotInput) -> InputAxis:
         reduced, found = _reduced(source)
         return InputAxis("angle", reduced.start + reduced.direction * found.angle)
 
-    def panels(self, source: Source, request: Request) -> list[Panel]:
+    def panels(self, source: PlotInput, request: Request) -> list[Panel]:
         say = request.say
         reduced, found = _reduced(source)
         place = reduced.start + reduced.direction * np.append(reduced.angle, reduced.period)
@@ -124,7 +124,7 @@ def _of_torque(reduced: Equivalent) -> Extremes | None:
     return lambda kind: Analysis.of(forces).extreme(lambda each: each.input_torque, kind, of="forces")
 
 
-def _reduced(source: Source) -> tuple[Equivalent, EnergyFluctuation]:
+def _reduced(source: PlotInput) -> tuple[Equivalent, EnergyFluctuation]:
     if source.result_running is not None:
         return source.result_running.equivalent, source.result_running.energy
     reduced = source.once("energy", lambda: equivalent(source.forces))
@@ -138,13 +138,13 @@ class Speed(OverInput):
     title = _("speed over the cycle")
     options = ("fluctuation", "static")
 
-    def axis(self, source: Source) -> InputAxis:
+    def axis(self, source: PlotInput) -> InputAxis:
         if source.result_running is None:
             return source.axis
         reduced = source.result_running.equivalent
         return InputAxis("angle", reduced.start + reduced.direction * np.array([0.0, reduced.period]))
 
-    def panels(self, source: Source, request: Request) -> list[Panel]:
+    def panels(self, source: PlotInput, request: Request) -> list[Panel]:
         running = source.once(f"running {request.fluctuation}", lambda: source.running(request.fluctuation))
         say, mean = request.say, running.equivalent.speed
         title = say(_("speed of the input")) + " ω"

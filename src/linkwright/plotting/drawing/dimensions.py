@@ -16,7 +16,7 @@ from linkwright.pictures.labels import Label, Obstacles
 from linkwright.pictures.picture import Vec
 from linkwright.pictures.symbols.base import SYMBOLS, Shape, placed, points, vec, way
 from linkwright.plotting.drawing.guides import direction, line_start
-from linkwright.plotting.drawing.machine import Machine, moved
+from linkwright.plotting.drawing.machine import DrawnMechanism, moved
 from linkwright.words import _
 
 Dimension = str | tuple[str, str]
@@ -66,7 +66,7 @@ class Angle:
 
 
 def dimension_lines(
-    machine: Machine, wanted: Iterable[Dimension] | bool, index: int, ink: list[Floats]
+    machine: DrawnMechanism, wanted: Iterable[Dimension] | bool, index: int, ink: list[Floats]
 ) -> list[Dimensioned]:
     """Dimensions on the side where they cross least of what is drawn.
 
@@ -83,7 +83,9 @@ def dimension_lines(
     return found
 
 
-def _measures(machine: Machine, wanted: Iterable[Dimension] | bool, index: int) -> Iterator[Distance | Angle]:
+def _measures(
+    machine: DrawnMechanism, wanted: Iterable[Dimension] | bool, index: int
+) -> Iterator[Distance | Angle]:
     if isinstance(wanted, bool):
         for link in ("frame", *machine.motion.mechanism.links) if wanted else ():
             yield from _of_link(machine, link, index)
@@ -105,7 +107,7 @@ def _measures(machine: Machine, wanted: Iterable[Dimension] | bool, index: int) 
             yield Distance(start, end)
 
 
-def _of_link(machine: Machine, name: str, index: int) -> Iterator[Distance | Angle]:
+def _of_link(machine: DrawnMechanism, name: str, index: int) -> Iterator[Distance | Angle]:
     """What places the points of a link: lengths and the angle of a bent one, the frame's points across and up."""
     link = machine.motion.mechanism.link(name)
     at = {point: machine.paper(name, point, index) for point in link.points}
@@ -127,7 +129,7 @@ def _of_link(machine: Machine, name: str, index: int) -> Iterator[Distance | Ang
     yield from _offsets(machine, name, index)
 
 
-def _of_frame(machine: Machine, at: dict[str, Vec]) -> Iterator[Distance | Angle]:
+def _of_frame(machine: DrawnMechanism, at: dict[str, Vec]) -> Iterator[Distance | Angle]:
     """How far the frame's points are from the first one, across and up; directions of its inclined guides."""
     named = list(at)
     for point in named[1:]:
@@ -143,7 +145,7 @@ def _of_frame(machine: Machine, at: dict[str, Vec]) -> Iterator[Distance | Angle
                 yield Angle(at[joint.through], level, turned, value)
 
 
-def _offsets(machine: Machine, name: str, index: int) -> Iterator[Distance]:
+def _offsets(machine: DrawnMechanism, name: str, index: int) -> Iterator[Distance]:
     """Normal offsets of the link's guides."""
     for joint in machine.guides.values():
         if joint.guide == name and joint.offset:
@@ -152,7 +154,7 @@ def _offsets(machine: Machine, name: str, index: int) -> Iterator[Distance]:
             yield Distance(vec(start), vec(end))
 
 
-def _line(machine: Machine, measure: Distance, taken: Obstacles) -> Dimensioned:
+def _line(machine: DrawnMechanism, measure: Distance, taken: Obstacles) -> Dimensioned:
     """A dimension line on the better side."""
     a, b, rises = measure.start, measure.end, (0.0, 0.0)
     if measure.along is not None:

@@ -14,12 +14,12 @@ from linkwright.kinematics.placement import Placement
 from linkwright.pictures.picture import Vec
 from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.pictures.symbols.joints import HEIGHT, LENGTH
-from linkwright.plotting.drawing.machine import Machine, Part, support_direction
+from linkwright.plotting.drawing.machine import DrawnMechanism, Part, support_direction
 
 STUB = 8.0
 
 
-def guides(machine: Machine) -> Iterator[Part]:
+def guides(machine: DrawnMechanism) -> Iterator[Part]:
     """All prismatic joints."""
     for name, joint in machine.guides.items():
         if is_cylinder(machine, name):
@@ -28,7 +28,7 @@ def guides(machine: Machine) -> Iterator[Part]:
             yield from _block_on_guide(machine, name, joint)
 
 
-def direction(machine: Machine, joint: SlidingJoint) -> Vec:
+def direction(machine: DrawnMechanism, joint: SlidingJoint) -> Vec:
     """Direction of a guide on its link's piece of paper."""
     angle = joint.direction
     return math.cos(angle), -math.sin(angle)
@@ -39,7 +39,7 @@ def block_direction(joint: SlidingJoint) -> Vec:
     return math.cos(joint.block_angle), -math.sin(joint.block_angle)
 
 
-def travel(machine: Machine, name: str) -> tuple[float, float]:
+def travel(machine: DrawnMechanism, name: str) -> tuple[float, float]:
     """Smallest and largest displacement of a block at all positions that are drawn, in units of the paper."""
     joint, link = machine.guides[name], machine.motion.mechanism.link
     guide, block = machine.placed[joint.guide], machine.placed[joint.block]
@@ -52,7 +52,7 @@ def travel(machine: Machine, name: str) -> tuple[float, float]:
     return float(np.nanmin(s)), float(np.nanmax(s))
 
 
-def line_start(machine: Machine, joint: SlidingJoint) -> Vec:
+def line_start(machine: DrawnMechanism, joint: SlidingJoint) -> Vec:
     """Where the block's point is at displacement zero, on the piece of paper of the guide's link."""
     x, y = machine.local(joint.guide, joint.through)
     along = direction(machine, joint)
@@ -60,7 +60,7 @@ def line_start(machine: Machine, joint: SlidingJoint) -> Vec:
     return x + left * along[1], y - left * along[0]
 
 
-def is_cylinder(machine: Machine, name: str) -> bool:
+def is_cylinder(machine: DrawnMechanism, name: str) -> bool:
     """Whether a guide joins two links that have nothing but a pin each: a telescopic cylinder."""
     joint = machine.guides[name]
     ends = ((joint.guide, joint.through), (joint.block, joint.at))
@@ -72,7 +72,7 @@ def is_cylinder(machine: Machine, name: str) -> bool:
     return bare and pinned and not used and joint.offset == 0 and travel(machine, name)[0] > 40.0
 
 
-def _cylinder(machine: Machine, name: str, joint: SlidingJoint) -> Iterator[Part]:
+def _cylinder(machine: DrawnMechanism, name: str, joint: SlidingJoint) -> Iterator[Part]:
     short, longest = travel(machine, name)
     length = max(0.8 * short, min(0.62 * longest, 0.94 * short))
     piston = max(longest - 0.92 * length, short - length + 10.0)
@@ -86,7 +86,7 @@ def _cylinder(machine: Machine, name: str, joint: SlidingJoint) -> Iterator[Part
     )
 
 
-def _block_on_guide(machine: Machine, name: str, joint: SlidingJoint) -> Iterator[Part]:
+def _block_on_guide(machine: DrawnMechanism, name: str, joint: SlidingJoint) -> Iterator[Part]:
     at, along = machine.local(joint.block, joint.at), block_direction(joint)
     shift = clear_shift(machine, name, joint)
     place = (at[0] + shift * along[0], at[1] + shift * along[1])
@@ -105,7 +105,7 @@ def _block_on_guide(machine: Machine, name: str, joint: SlidingJoint) -> Iterato
     yield Part("blocks", joint.block, SYMBOLS["slider"](at=place, along=along))
 
 
-def _rod(machine: Machine, joint: SlidingJoint, low: float, high: float) -> Iterator[Part]:
+def _rod(machine: DrawnMechanism, joint: SlidingJoint, low: float, high: float) -> Iterator[Part]:
     """The line of a guide on a moving link, long enough for the full travel, and its tie to the link."""
     start, way = line_start(machine, joint), direction(machine, joint)
     through = machine.local(joint.guide, joint.through)
@@ -120,7 +120,7 @@ def _rod(machine: Machine, joint: SlidingJoint, low: float, high: float) -> Iter
         yield Part("bodies", joint.guide, SYMBOLS["bar"](through=[through, start]))
 
 
-def ground_side(machine: Machine, joint: SlidingJoint) -> int:
+def ground_side(machine: DrawnMechanism, joint: SlidingJoint) -> int:
     """The side of a fixed guide that faces away from the rest of the machine; below where there is none."""
     x, y = line_start(machine, joint)
     way = direction(machine, joint)
@@ -136,7 +136,7 @@ def ground_side(machine: Machine, joint: SlidingJoint) -> int:
     return -1 if mean > 0 else 1
 
 
-def clear_shift(machine: Machine, name: str, joint: SlidingJoint) -> float:
+def clear_shift(machine: DrawnMechanism, name: str, joint: SlidingJoint) -> float:
     """How far along its guide a block is drawn from its point, clear of fixed pivots and other blocks."""
     if joint.guide != "frame":
         return 0.0
@@ -160,7 +160,7 @@ def clear_shift(machine: Machine, name: str, joint: SlidingJoint) -> float:
     return float(np.nanmax(on_line(np.concatenate(moving)))) - low + 0.9 * LENGTH
 
 
-def _on_other_block(machine: Machine, joint: SlidingJoint) -> bool:
+def _on_other_block(machine: DrawnMechanism, joint: SlidingJoint) -> bool:
     """Whether the block of another guide is drawn at the same place."""
     pin = machine.pins.get(joint.at)
     together = {joint.block} if pin is None or joint.block not in pin.links else set(pin.links)
@@ -168,7 +168,7 @@ def _on_other_block(machine: Machine, joint: SlidingJoint) -> bool:
     return any(each.at == joint.at and each.block in together for each in others)
 
 
-def welds(machine: Machine) -> Iterator[Part]:
+def welds(machine: DrawnMechanism) -> Iterator[Part]:
     """Welds between links, and of links to the ground."""
     for joint in machine.motion.mechanism.welds.values():
         a, b = joint.links
@@ -186,7 +186,7 @@ def welds(machine: Machine) -> Iterator[Part]:
             yield Part("tops", b, SYMBOLS["weld"](at=at, first=first, second=second))
 
 
-def _towards(machine: Machine, link: str, point: str) -> Vec:
+def _towards(machine: DrawnMechanism, link: str, point: str) -> Vec:
     """Direction from a point to the rest of its link."""
     ways = machine.directions(link, point)
     x, y = sum(w[0] for w in ways), sum(w[1] for w in ways)
@@ -197,7 +197,7 @@ def _towards(machine: Machine, link: str, point: str) -> Vec:
 RADIUS = 21.0
 
 
-def input_arrows(machine: Machine, index: int) -> Iterator[Part]:
+def input_arrows(machine: DrawnMechanism, index: int) -> Iterator[Part]:
     """An arrow for every driver, for the position ``index``."""
     for driver in machine.motion.mechanism.drivers.values():
         if machine.motion.mechanism.joints[driver.joint].coordinate == "slide":
@@ -206,7 +206,7 @@ def input_arrows(machine: Machine, index: int) -> Iterator[Part]:
             yield _turn(machine, driver, index)
 
 
-def sense(machine: Machine, driver: Driver) -> int:
+def sense(machine: DrawnMechanism, driver: Driver) -> int:
     """+1 or -1 where the driver keeps its sense over the motion, 0 where it goes to and fro."""
     rate = machine.motion.positions.coordinates[driver.name][1]
     largest = float(np.max(np.abs(rate), initial=0.0))
@@ -214,7 +214,7 @@ def sense(machine: Machine, driver: Driver) -> int:
     return signs.pop() if len(signs) == 1 else 0
 
 
-def _turn(machine: Machine, driver: Driver, index: int) -> Part:
+def _turn(machine: DrawnMechanism, driver: Driver, index: int) -> Part:
     base = driver.relative_to
     at = machine.local(base, driver.joint)
     turn = _turned(machine.placed[base], index)
@@ -228,7 +228,7 @@ def _turn(machine: Machine, driver: Driver, index: int) -> Part:
     return Part("marks", base, arrow)
 
 
-def _slide(machine: Machine, driver: Driver, index: int) -> Part:
+def _slide(machine: DrawnMechanism, driver: Driver, index: int) -> Part:
     joint = machine.guides[driver.joint]
     way = sense(machine, driver)
     if is_cylinder(machine, driver.joint):
@@ -243,7 +243,7 @@ def _slide(machine: Machine, driver: Driver, index: int) -> Part:
     return Part("marks", carrier, SYMBOLS["slide_arrow"](at=place, along=forward, both=way == 0))
 
 
-def _free_angle(machine: Machine, pin: str, index: int) -> float:
+def _free_angle(machine: DrawnMechanism, pin: str, index: int) -> float:
     """The direction on the paper in which an arc about a pin is farthest from the links and the support."""
     joint = machine.pins[pin]
     taken = [math.atan2(way[1], way[0]) + _turned(machine.placed[link], index)

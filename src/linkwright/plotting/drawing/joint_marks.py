@@ -19,7 +19,7 @@ from linkwright.joints.rolling import RollingPair
 from linkwright.mechanism.cam_shape import CamShape, full_turn
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.symbols.base import SYMBOLS, Shape
-from linkwright.plotting.drawing.machine import Machine, Part
+from linkwright.plotting.drawing.machine import DrawnMechanism, Part
 
 Vec = tuple[float, float]
 #: Radius of the circle of a pair of no known shape, as a share of the mechanism's size.
@@ -184,7 +184,7 @@ BEYOND = 14.0
 _OVER = ("roller", "knife", "face")
 
 
-def wheels(machine: Machine) -> Iterator[Part]:
+def wheels(machine: DrawnMechanism) -> Iterator[Part]:
     """The marks of all joints, each wheel once: below everything else, rings and large ones first, but the ends of
     followers on top."""
     mechanism = machine.motion.mechanism
@@ -198,7 +198,7 @@ def wheels(machine: Machine) -> Iterator[Part]:
         yield Part("tops" if mark.symbol in _OVER else "ground", mark.link, _shape(machine, mark))
 
 
-def _shape(machine: Machine, mark: Mark) -> Shape:
+def _shape(machine: DrawnMechanism, mark: Mark) -> Shape:
     scale, at = machine.view.scale, machine.view.local(mark.at)
     if mark.symbol == "gear":
         return SYMBOLS["gear"](

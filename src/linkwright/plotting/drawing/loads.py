@@ -13,7 +13,7 @@ from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, joined
 from linkwright.pictures.symbols.joints import HEIGHT, LENGTH
 from linkwright.plotting.drawing.guides import clear_shift, is_cylinder
 from linkwright.plotting.drawing.load_marks import Press, Push, Turn, mark_of
-from linkwright.plotting.drawing.machine import Machine
+from linkwright.plotting.drawing.machine import DrawnMechanism
 from linkwright.plotting.drawing.moving import moving_lines
 from linkwright.plotting.drawing.scene import LINK_SIZE, Scene
 
@@ -21,12 +21,12 @@ PUSH = 52.0
 GAP, BLOCK_GAP = 7.0, 19.0
 
 
-def load_marks(machine: Machine, index: int, *, forces: bool = True) -> Shape:
+def load_marks(machine: DrawnMechanism, index: int, *, forces: bool = True) -> Shape:
     """The symbols of all loads at one position, on the paper; ``forces``: forces and torques among them."""
     return joined(mark(machine, load, index, forces) for load in machine.motion.mechanism.loads.values())
 
 
-def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape:
+def mark(machine: DrawnMechanism, load: Load, index: int, forces: bool = True) -> Shape:
     """The symbol of one load: of forces and torques an arrow, else the one of its kind or the general one."""
     shown = machine.mark(load, index)
     if shown is not None and not forces:
@@ -42,7 +42,7 @@ def mark(machine: Machine, load: Load, index: int, forces: bool = True) -> Shape
     return _held(machine, load, index) + anchors(machine, load, index)
 
 
-def _held(machine: Machine, load: Load, index: int) -> Shape:
+def _held(machine: DrawnMechanism, load: Load, index: int) -> Shape:
     """The symbol of a load that lies between points, about a pin or at a place, by what the load names."""
     ends = [machine.paper(each.link, each.point, index) for each in named_points(machine, load)]
     links = load.pair or ((load.acts_on,) if load.acts_on else ())
@@ -57,7 +57,7 @@ def _held(machine: Machine, load: Load, index: int) -> Shape:
     return SYMBOLS["general_load"](at=place, ends=tuple(ends[:2]))
 
 
-def named_points(machine: Machine, load: Load) -> list[LinkPoint]:
+def named_points(machine: DrawnMechanism, load: Load) -> list[LinkPoint]:
     """The points that a load of any kind names in its fields, and those of the joints that it names."""
     joints = [
         value
@@ -67,12 +67,12 @@ def named_points(machine: Machine, load: Load) -> list[LinkPoint]:
     return [*load.named_points, *(_joint_point(machine, name) for name in joints)]
 
 
-def _joint_point(machine: Machine, name: str) -> LinkPoint:
+def _joint_point(machine: DrawnMechanism, name: str) -> LinkPoint:
     joint = machine.motion.mechanism.joints[name]
     return LinkPoint(joint.joined[-1], getattr(joint, "at", name))
 
 
-def load_labels(machine: Machine, index: int, *, forces: bool = True) -> list[Label]:
+def load_labels(machine: DrawnMechanism, index: int, *, forces: bool = True) -> list[Label]:
     """Names of the loads that push, and of those that have the general symbol."""
     found = []
     for name, load in machine.motion.mechanism.loads.items():
@@ -85,13 +85,13 @@ def load_labels(machine: Machine, index: int, *, forces: bool = True) -> list[La
     return found
 
 
-def unmarked(machine: Machine, index: int) -> list[str]:
+def unmarked(machine: DrawnMechanism, index: int) -> list[str]:
     """Names of the loads of which there is nothing to draw, as they name neither a point nor a link."""
     loads = machine.motion.mechanism.loads
     return [name for name, load in loads.items() if mark(machine, load, index) == EMPTY]
 
 
-def anchors(machine: Machine, load: Load, index: int) -> Shape:
+def anchors(machine: DrawnMechanism, load: Load, index: int) -> Shape:
     """The walls that hold what lies between two points, at points of the frame where no pin is."""
     between = named_points(machine, load)
     if len(between) != 2:
@@ -100,7 +100,7 @@ def anchors(machine: Machine, load: Load, index: int) -> Shape:
     return joined(_anchor(machine, each, start, end, index) for each in between)
 
 
-def _anchor(machine: Machine, end: LinkPoint, first: Vec, last: Vec, index: int) -> Shape:
+def _anchor(machine: DrawnMechanism, end: LinkPoint, first: Vec, last: Vec, index: int) -> Shape:
     if end.link != "frame" or end.point in machine.pins:
         return EMPTY
     at = machine.paper(end.link, end.point, index)
@@ -111,7 +111,7 @@ def _anchor(machine: Machine, end: LinkPoint, first: Vec, last: Vec, index: int)
     )
 
 
-def _push(machine: Machine, push: Push, index: int) -> Shape:
+def _push(machine: DrawnMechanism, push: Push, index: int) -> Shape:
     """An arrow whose point is where the force acts."""
     way = (math.cos(push.angle), -math.sin(push.angle))
     x, y = machine.paper(push.link, push.at, index)
@@ -121,7 +121,7 @@ def _push(machine: Machine, push: Push, index: int) -> Shape:
     return SYMBOLS["arrow"](start=(tip[0] - PUSH * way[0], tip[1] - PUSH * way[1]), end=tip, style="lw-load")
 
 
-def _pressed(machine: Machine, press: Press, index: int) -> Shape:
+def _pressed(machine: DrawnMechanism, press: Press, index: int) -> Shape:
     """Arrows on the face of the block on which a pressure pushes; one arrow at the end of a cylinder's rod."""
     joint = machine.guides[press.joint]
     c, s = machine.placed[joint.guide].direction[index]
@@ -130,7 +130,7 @@ def _pressed(machine: Machine, press: Press, index: int) -> Shape:
     return pressing(machine, press, at, (math.cos(angle), -math.sin(angle)))
 
 
-def pressing(machine: Machine, press: Press, at: Vec, along: Vec) -> Shape:
+def pressing(machine: DrawnMechanism, press: Press, at: Vec, along: Vec) -> Shape:
     """The symbol of a pressure on a block whose point is ``at`` and whose guide leads ``along``, on the paper."""
     joint, sign = machine.guides[press.joint], press.sense
     way = (sign * along[0], sign * along[1])
@@ -154,14 +154,14 @@ def moving_springs(scene: Scene, run: Sequence[int], seconds: float) -> list[Svg
     return found
 
 
-def _common_pin(machine: Machine, links: tuple[str, str], index: int) -> Vec | None:
+def _common_pin(machine: DrawnMechanism, links: tuple[str, str], index: int) -> Vec | None:
     for name, joint in machine.pins.items():
         if set(links) <= set(joint.links):
             return machine.paper(links[0], name, index)
     return None
 
 
-def _middle(machine: Machine, link: str, index: int) -> Vec:
+def _middle(machine: DrawnMechanism, link: str, index: int) -> Vec:
     """A pin of the link on the frame, or its mass centre."""
     for name, joint in machine.pins.items():
         if {"frame", link} <= set(joint.links):

@@ -110,7 +110,7 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Machine:
+class DrawnMechanism:
     """A motion with the placements of its links and the view it is drawn in.
 
     ``others``: motions and positions in them that follow those of the motion in the placements.
@@ -168,7 +168,7 @@ def flat(cloud: Floats) -> Floats | None:
     return cloud[[int(along.argmin()), int(along.argmax())]]
 
 
-def bodies(machine: Machine) -> Iterator[Part]:
+def bodies(machine: DrawnMechanism) -> Iterator[Part]:
     """Bars and plates of the moving links, and dots at their plain points."""
     for link in machine.motion.mechanism.links.values():
         cloud = machine.cloud(link.name)
@@ -181,7 +181,7 @@ def bodies(machine: Machine) -> Iterator[Part]:
             yield Part("pins", link.name, SYMBOLS["point"](at=machine.local(link.name, name)))
 
 
-def _plain_points(machine: Machine, link: Link) -> list[str]:
+def _plain_points(machine: DrawnMechanism, link: Link) -> list[str]:
     guided = {j.at for j in machine.guides.values() if j.block == link.name}
     through = {j.through for j in machine.guides.values() if j.guide == link.name}
     joints = machine.motion.mechanism.joints
@@ -193,7 +193,7 @@ def _plain_points(machine: Machine, link: Link) -> list[str]:
     ]
 
 
-def pins(machine: Machine) -> Iterator[Part]:
+def pins(machine: DrawnMechanism) -> Iterator[Part]:
     """Pins; those of the frame on their supports; bars that go on through a pin are drawn over it."""
     for name, joint in machine.pins.items():
         carrier = "frame" if "frame" in joint.links else joint.links[0]
@@ -208,7 +208,7 @@ def pins(machine: Machine) -> Iterator[Part]:
                 yield Part("tops", link, SYMBOLS["bar"](through=through))
 
 
-def _passing(machine: Machine, link: str, point: str) -> Floats | None:
+def _passing(machine: DrawnMechanism, link: str, point: str) -> Floats | None:
     """A short piece of a straight bar about a pin inside it."""
     ends = flat(machine.cloud(link))
     if ends is None or len(ends) < 2:
@@ -220,7 +220,7 @@ def _passing(machine: Machine, link: str, point: str) -> Floats | None:
     return points([here - 1.3 * PIN * along, here + 1.3 * PIN * along])
 
 
-def support_direction(machine: Machine, point: str, joint: TurningJoint) -> Vec:
+def support_direction(machine: DrawnMechanism, point: str, joint: TurningJoint) -> Vec:
     """Direction of the ground under a fixed pivot: down, unless links reach there for most of the motion."""
     choices: list[tuple[Vec, float]] = [
         ((0.0, 1.0), 0.0),
@@ -238,7 +238,7 @@ def support_direction(machine: Machine, point: str, joint: TurningJoint) -> Vec:
     return min(choices, key=cost)[0]
 
 
-def _reaching(machine: Machine, link: str, point: str) -> Floats:
+def _reaching(machine: DrawnMechanism, link: str, point: str) -> Floats:
     """Directions (m, 2) on the paper in which a link reaches from a pin over all positions."""
     local = points(machine.directions(link, point))
     direction = machine.placed[link].direction

@@ -16,7 +16,7 @@ from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import solve_motion, with_times
 from linkwright.pictures.picture import Vec
 from linkwright.pictures.symbols.base import LINE
-from linkwright.plotting.drawing.machine import Machine
+from linkwright.plotting.drawing.machine import DrawnMechanism
 from linkwright.words import _
 
 At = float | Mapping[str, float]
@@ -100,7 +100,7 @@ def frame_indices(motion: Motion, frames: int) -> list[int]:
     return there_and_back if len(there_and_back) > 1 else [start, start]
 
 
-def key_indices(machine: Machine, frames: int) -> list[int]:
+def key_indices(machine: DrawnMechanism, frames: int) -> list[int]:
     """Positions of one cycle between which links move evenly: so many that pins part by half a line at most.
 
     At least as many as ``frame_indices`` gives; no more than the motion has.
@@ -114,7 +114,7 @@ def key_indices(machine: Machine, frames: int) -> list[int]:
     return run
 
 
-def parting(machine: Machine, run: list[int]) -> float:
+def parting(machine: DrawnMechanism, run: list[int]) -> float:
     """How far links part at pins, and blocks leave their guides, half-way between keyframes; units of the paper.
 
     Shift and turn of each link change evenly from one keyframe to the next, so its pins run along flat arcs.
@@ -132,7 +132,7 @@ def parting(machine: Machine, run: list[int]) -> float:
     return largest
 
 
-def _distance_from_guide(machine: Machine, joint: SlidingJoint, run: list[int]) -> float:
+def _distance_from_guide(machine: DrawnMechanism, joint: SlidingJoint, run: list[int]) -> float:
     """How far a block's point is from the line of its guide half-way between keyframes."""
     link = machine.motion.mechanism.link
     block = _half_way(machine, joint.block, link(joint.block).points[joint.at], run)
@@ -143,7 +143,7 @@ def _distance_from_guide(machine: Machine, joint: SlidingJoint, run: list[int]) 
     return float(np.abs(aside).max(initial=0.0))
 
 
-def _half_way(machine: Machine, link: str, point: Vec, run: list[int]) -> Floats:
+def _half_way(machine: DrawnMechanism, link: str, point: Vec, run: list[int]) -> Floats:
     """Where a point of a link is half-way between keyframes, on the paper, (k - 1, 2)."""
     origin = machine.view.paper(machine.placed[link].origin[run])
     (x, y), middle = machine.view.local(point), _half_turn(machine, link, run)
@@ -152,7 +152,7 @@ def _half_way(machine: Machine, link: str, point: Vec, run: list[int]) -> Floats
     return np.asarray((origin[1:] + origin[:-1]) / 2 + local)
 
 
-def _half_turn(machine: Machine, link: str, run: list[int]) -> Floats:
+def _half_turn(machine: DrawnMechanism, link: str, run: list[int]) -> Floats:
     """Turn of a link on the paper half-way between keyframes, rad, clockwise."""
     way = machine.placed[link].direction[run]
     turn = np.unwrap(np.arctan2(way[:, 1], way[:, 0]))

@@ -21,7 +21,7 @@ from linkwright.plotting.drawing.joint_marks import wheels
 from linkwright.plotting.drawing.machine import (
     DIAGONAL,
     LAYERS,
-    Machine,
+    DrawnMechanism,
     Part,
     View,
     bodies,
@@ -36,7 +36,7 @@ from linkwright.plotting.drawing.machine import (
 class Scene:
     """The machine and all its parts, each in the axes of its link."""
 
-    machine: Machine
+    machine: DrawnMechanism
     parts: tuple[Part, ...]
 
     def layered(self, carriers: Iterable[str] | None = None) -> Iterator[tuple[str, str, list[Part]]]:
@@ -116,7 +116,7 @@ def laid_out(
     which the machine has the ``diagonal``.
     """
     placed = with_placements_of(placements(motion), others)
-    machine = Machine(motion, placed, view or fitted(motion, placed, diagonal), others)
+    machine = DrawnMechanism(motion, placed, view or fitted(motion, placed, diagonal), others)
     parts = parts_of(machine)
     if inputs:
         parts += input_arrows(machine, index)
@@ -125,12 +125,12 @@ def laid_out(
     return Scene(machine, tuple(parts))
 
 
-def parts_of(machine: Machine) -> list[Part]:
+def parts_of(machine: DrawnMechanism) -> list[Part]:
     """Wheels, bodies and joints."""
     return [*wheels(machine), *bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
 
 
-def mass_centres(machine: Machine) -> Iterator[Part]:
+def mass_centres(machine: DrawnMechanism) -> Iterator[Part]:
     """The mass centre of every link that has a mass."""
     for link in machine.motion.mechanism.links.values():
         if link.mass > 0:
@@ -140,7 +140,7 @@ def mass_centres(machine: Machine) -> Iterator[Part]:
 LINK_SIZE = 12.0
 
 
-def point_labels(machine: Machine, index: int, links: Iterable[str] | None = None) -> Iterator[Label]:
+def point_labels(machine: DrawnMechanism, index: int, links: Iterable[str] | None = None) -> Iterator[Label]:
     """Names of all pins and points of moving links at one position; of some links where these are named."""
     labelled: set[tuple[str, float, float]] = set()
     for link in machine.motion.mechanism.links if links is None else links:

@@ -19,7 +19,7 @@ from linkwright.pictures.picture import GRAPHICAL, Line, SvgNode, round_up
 from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import group
 from linkwright.pictures.symbols.base import SYMBOLS, points, vec
-from linkwright.plotting.drawing.machine import Machine, Part, View
+from linkwright.plotting.drawing.machine import DrawnMechanism, Part, View
 from linkwright.plotting.drawing.scene import Scene, parts_of, point_labels
 from linkwright.plotting.drawing.vectors import NAME_SIZE
 from linkwright.plotting.free_bodies.actions import STYLES, Action, FreeBody
@@ -165,7 +165,7 @@ class LinkShapes:
     def _scene(self, metres: float) -> Scene:
         """All parts, ``metres`` a printed millimetre."""
         view = View(1.0 / (metres * MILLIMETRE))
-        machine = Machine(self.motion, self._placed, view)
+        machine = DrawnMechanism(self.motion, self._placed, view)
         return Scene(machine, tuple(parts_of(machine)))
 
     def of(self, link: str, metres: float) -> Scene:

@@ -20,7 +20,7 @@ from linkwright.plotting.diagrams.axes import SYMBOLS, InputAxis, Legend, Unit, 
 from linkwright.plotting.diagrams.base import Request, framed, result_diagram
 from linkwright.plotting.diagrams.marks import Curve
 from linkwright.plotting.diagrams.panels import Panel, look, stacked
-from linkwright.plotting.diagrams.source import Source
+from linkwright.plotting.diagrams.source import PlotInput
 from linkwright.plotting.diagrams.sva import ANGULAR, STRAIGHT
 from linkwright.plotting.result_diagrams.design_space import (
     DesignTable,
@@ -49,7 +49,7 @@ def draw_comparison(result: Comparison, request: Request) -> Figure:
 
     ``of``: travel, velocity, acceleration, pivot_reaction, input_torque; all that there are by default.
     """
-    sources = {each.label: Source(each.motion) for each in result.alternatives}
+    sources = {each.label: PlotInput(each.motion) for each in result.alternatives}
     axis = _axis(sources, request.say)
     panels = [
         panel
@@ -75,7 +75,7 @@ def draw_pivot_hodograph(result: Comparison, request: Request) -> Figure:
     unit = unit_of("force", [values for line in overlay.lines.values() for values in line])
     figure = new_figure(request.size or (6.4, 5.4))
     axes, legend = figure.subplots(), Legend()
-    sources = {each.label: Source(each.motion) for each in result.alternatives}
+    sources = {each.label: PlotInput(each.motion) for each in result.alternatives}
     for number, (label, components) in enumerate(overlay.lines.items()):
         x, y = map(sources[label].closed, components)
         colour, dash = look(number)
@@ -101,7 +101,7 @@ def _chosen(result: Comparison, names: Sequence[str]) -> list[Overlay]:
     return [known[name] for name in names or known]
 
 
-def _axis(sources: Mapping[str, Source], say: Translate) -> InputAxis:
+def _axis(sources: Mapping[str, PlotInput], say: Translate) -> InputAxis:
     """The input passed; raises LinkwrightError where one input turns and another slides."""
     turning = {next(iter(each.motion.positions.rotary.values())) for each in sources.values()}
     if len(turning) > 1:
@@ -117,13 +117,13 @@ def _axis(sources: Mapping[str, Source], say: Translate) -> InputAxis:
     return InputAxis(dimension, longest, f"{say(_('input passed'))} {SYMBOLS[dimension]}")
 
 
-def _passed(source: Source) -> Floats:
+def _passed(source: PlotInput) -> Floats:
     """How far the input has gone since the cycle began, up to its end."""
     return np.asarray(np.abs(source.input - source.input[0]))
 
 
 def _panels(
-    result: Comparison, overlay: Overlay, sources: Mapping[str, Source], request: Request
+    result: Comparison, overlay: Overlay, sources: Mapping[str, PlotInput], request: Request
 ) -> list[Panel]:
     """One panel for a quantity; two where some outputs turn and others slide."""
     looks = {label: look(n) for n, label in enumerate(result.labels)}
@@ -143,7 +143,12 @@ def _panels(
 
 
 def _curve(
-    overlay: Overlay, label: str, source: Source, looks: Mapping[str, tuple[str, str]], *, turns: bool = False
+    overlay: Overlay,
+    label: str,
+    source: PlotInput,
+    looks: Mapping[str, tuple[str, str]],
+    *,
+    turns: bool = False,
 ) -> Curve:
     """The curve of one alternative up to the end of its cycle; ``turns``: it is an angle."""
     values = source.closed(overlay.lines[label][1], turns=turns)

@@ -13,7 +13,7 @@ from linkwright.plotting.diagrams.axes import InputAxis, Legend, label_input, ma
 from linkwright.plotting.diagrams.base import Request, framed, result_diagram
 from linkwright.plotting.diagrams.marks import Curve
 from linkwright.plotting.diagrams.panels import DASHES, Panel, draw_panel, stacked, with_mean
-from linkwright.plotting.diagrams.source import Source
+from linkwright.plotting.diagrams.source import PlotInput
 from linkwright.words import _
 
 #: A shaking force of this share of the one before is zero but for rounding.
@@ -24,7 +24,7 @@ VANISHED = 1e-9
 def draw_balancing(result: Balancing, request: Request) -> Figure:
     """Left the hodograph of the shaking force, right shaking moment and input torque over the input."""
     say = request.say
-    before, after = Source(result.before), Source(result.after)
+    before, after = PlotInput(result.before), PlotInput(result.after)
     names, legend = (say(_("without counterweights")), say(_("with counterweights"))), Legend()
     figure = new_figure(request.size or (9.6, 4.9))
     places = figure.subplot_mosaic([["force", "moment"], ["force", "torque"]])

@@ -10,7 +10,7 @@ from linkwright.core.quantity import number, shown
 from linkwright.parts.statics.rotor import Rotor
 from linkwright.parts.vibration.excitation import STRAIGHT, TURNING
 from linkwright.parts.vibration.follower import FollowerSpring
-from linkwright.parts.vibration.system import GROUND, Tie, VibratingSystem
+from linkwright.parts.vibration.system import GROUND, Connector, VibratingSystem
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Vec
@@ -30,7 +30,7 @@ def draw_system(system: VibratingSystem, language: str) -> Drawing:
     left = {name: k * (WIDTH + GAP) for k, name in enumerate(names)}
     ties = [(name, tie, "spring") for name, tie in system.springs.items()]
     ties += [(name, tie, "damper") for name, tie in system.dampers.items()]
-    bundles: dict[tuple[int, int], list[tuple[str, Tie, str]]] = {}
+    bundles: dict[tuple[int, int], list[tuple[str, Connector, str]]] = {}
     for each in ties:
         bundles.setdefault(_ends(each[1], names), []).append(each)
     tall = max([HEIGHT, *(ROW * len(bundle) + 6.0 for bundle in bundles.values())])
@@ -51,7 +51,7 @@ def _inside(text: str, x: float, y: float) -> Label:
     return Label(text, ((x + WIDTH / 2, y),), "lw-value", 12.5, -8.0, leader=False)
 
 
-def _ends(tie: Tie, names: Sequence[str]) -> tuple[int, int]:
+def _ends(tie: Connector, names: Sequence[str]) -> tuple[int, int]:
     """Indices of the masses that a tie joins, rising; ground as -1 left of the first, as the number of masses right
     of the last, as the mass itself below an inner one."""
     inner = sorted(names.index(end) for end in tie.between if end != GROUND)
@@ -64,7 +64,7 @@ def _ends(tie: Tie, names: Sequence[str]) -> tuple[int, int]:
 
 
 def _bundle(
-    paper: Sketch, first: int, last: int, bundle: Sequence[tuple[str, Tie, str]], left: Mapping[str, float],
+    paper: Sketch, first: int, last: int, bundle: Sequence[tuple[str, Connector, str]], left: Mapping[str, float],
     names: Sequence[str], tall: float, kinds: Mapping[str, str],
 ) -> None:  # fmt: skip
     """Springs and dampers that join the same two, side by side."""
@@ -98,7 +98,7 @@ def _bundle(
         paper.name(text, ((start + end) / 2, y), style="lw-value", clearance=10.0)
 
 
-def _rate(name: str, tie: Tie, what: str, kinds: Mapping[str, str]) -> str:
+def _rate(name: str, tie: Connector, what: str, kinds: Mapping[str, str]) -> str:
     kind = kinds["stiffness" if what == "spring" else "damping"]
     return f"{name}: {shown(tie.rate, kind)}"
 

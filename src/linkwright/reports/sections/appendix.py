@@ -8,7 +8,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.table import force_results
 from linkwright.reports.document import Block, Paragraph
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.numbers import without_rounding
 from linkwright.reports.section import section
 from linkwright.reports.sections.cycle_tables import varying
@@ -16,7 +16,7 @@ from linkwright.words import _
 
 
 @section("appendix", _("Appendix: all numbers"), 30.0)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Every column of the result."""
     say = case.say
     try:

@@ -8,14 +8,14 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.parts.statics.balance import structure_balance
 from linkwright.parts.statics.structure import balance_step
 from linkwright.reports.document import Block
-from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.reports.sections.method import printed
 from linkwright.words import _
 
 
 @section("balance", _("Equilibrium in matrix form"), 8.4, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Names of unknowns and rows, the matrix, and its solution, of a machine without drivers."""
     result = None if case.mechanism.drivers else case.result
     found = structure_balance(result) if isinstance(result, Forces) else None

@@ -8,7 +8,7 @@ from linkwright.core.table import Table
 from linkwright.dyads.calls import FORMAL, Call, Calls, NumberedLink, NumberedPoint, calls, length
 from linkwright.dyads.plan import plan
 from linkwright.reports.document import Block, Code, Heading, Paragraph, literal, printed
-from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.numbers import typeset
 from linkwright.reports.section import section
 from linkwright.words import _, pgettext
@@ -23,7 +23,7 @@ KINDS = {
 
 
 @section("calls", _("Calls of the teaching subprograms"), 14.0, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Numbering, the calls in solving order, a table of formal and actual arguments for every subprogram."""
     say = case.say
     numbered = case.numbered
@@ -58,7 +58,7 @@ def blocks(case: Case) -> Iterator[Block]:
         yield Paragraph(literal(case.sentence(message)), "note")
 
 
-def _points(case: Case, points: Sequence[NumberedPoint]) -> Block:
+def _points(case: ReportContext, points: Sequence[NumberedPoint]) -> Block:
     say = case.say
     rows = []
     for point in points:
@@ -69,7 +69,7 @@ def _points(case: Case, points: Sequence[NumberedPoint]) -> Block:
     return printed(Table(head, rows, "><<<", _("Numbers of the points")), case.language)
 
 
-def _links(case: Case, made: Calls) -> Block:
+def _links(case: ReportContext, made: Calls) -> Block:
     """Links, and guides that need a direction of their own; masses where forces are found."""
     say, width = case.say, 5 if made.forces else 3
     rows = []
@@ -83,7 +83,7 @@ def _links(case: Case, made: Calls) -> Block:
     return printed(Table(head, rows, "><<>>"[:width], _("Numbers of the links")), case.language)
 
 
-def _direction(case: Case, link: NumberedLink) -> str:
+def _direction(case: ReportContext, link: NumberedLink) -> str:
     """What t(k) of a link is."""
     say = case.say
     if link.line is not None:
@@ -97,7 +97,7 @@ def _direction(case: Case, link: NumberedLink) -> str:
     return say(_("t({link}) + {angle} rad", angle=length(link.angle), link=link.against))
 
 
-def _others(case: Case, made: Calls) -> Iterator[Paragraph]:
+def _others(case: ReportContext, made: Calls) -> Iterator[Paragraph]:
     """Which steps have no call, and why; once for each reason."""
     say = case.say
     groups: dict[str, list[str]] = {}
@@ -131,7 +131,7 @@ def _program(group: Sequence[Call]) -> str:
     return "\n".join(f"Call {call.text}" for call in group)
 
 
-def _tables(case: Case, group: Sequence[Call]) -> Iterator[Block]:
+def _tables(case: ReportContext, group: Sequence[Call]) -> Iterator[Block]:
     """A table for every subprogram, a row for every call."""
     for name in FORMAL:
         mine = [call for call in group if call.name == name]

@@ -16,7 +16,7 @@ from linkwright.laws.base import LABELS
 from linkwright.laws.program import MotionProgram
 from linkwright.reports.calculation import numbers_and_way
 from linkwright.reports.document import Block, Heading, Paragraph, literal, printed
-from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.words import _
 
@@ -29,7 +29,7 @@ TOUCH = {
 
 
 @section("cams", _("Cams"), 8.6, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Every cam with its motion program, its profile, and the checks that a cam is designed by."""
     joints = [joint for joint in case.mechanism.joints.values() if isinstance(joint, CamJoint)]
     if not joints:
@@ -46,7 +46,7 @@ def blocks(case: Case) -> Iterator[Block]:
         yield from numbers_and_way(CamDesign(cam), case.say, case.language, 3)
 
 
-def _about(case: Case, joint: CamJoint) -> str:
+def _about(case: ReportContext, joint: CamJoint) -> str:
     say = case.say
     motion = _("pivoted") if joint.side else _("guided")
     law = (
@@ -65,7 +65,7 @@ def _about(case: Case, joint: CamJoint) -> str:
     ) + say(law)
 
 
-def _speed(case: Case, joint: CamJoint) -> float:
+def _speed(case: ReportContext, joint: CamJoint) -> float:
     """Angular velocity of the cam against its carrier, rad/s; zero where it varies."""
     if not case.mechanism.drivers:
         return 0.0
@@ -74,7 +74,7 @@ def _speed(case: Case, joint: CamJoint) -> float:
     return float(known[0]) if np.ptp(known) <= 1e-9 * abs(known[0]) else 0.0
 
 
-def _program(case: Case, program: MotionProgram, lift_unit: str) -> Block:
+def _program(case: ReportContext, program: MotionProgram, lift_unit: str) -> Block:
     """The segments of a program: from where to where, lifts, law."""
     kind = "angle" if lift_unit == "°" else "length"
     ends = list(itertools.pairwise(program.edges))

@@ -8,14 +8,14 @@ from dataclasses import replace
 from linkwright.designs.evaluation import ranking, sentences
 from linkwright.errors import LinkwrightError
 from linkwright.reports.document import Block, Figure, Heading, Paragraph, literal, printed
-from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.words import _
 from linkwright.words.sentence import in_language
 
 
 @section("comparison", _("Comparison and evaluation"), 20.0, optional=True, common=True)
-def blocks(cases: Sequence[Case]) -> Iterator[Block]:
+def blocks(cases: Sequence[ReportContext]) -> Iterator[Block]:
     """Design numbers side by side, best values marked; ranking with reasons; evaluation."""
     from linkwright.designs.compare import compare
 

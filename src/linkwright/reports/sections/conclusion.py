@@ -19,7 +19,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.plotting.diagrams.outputs import main_outputs
 from linkwright.reports.document import Block, Paragraph, literal
 from linkwright.reports.improvements import EFFORT, broken, improvements
-from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.numbers import typeset
 from linkwright.reports.section import section
 from linkwright.words import Message, _
@@ -57,7 +57,7 @@ SUPPLIED_ALONE = (
 
 
 @section("conclusion", _("Conclusion"), 21.0, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Motion, transmission of force, limits, forces, flywheel, and what to change."""
     found = list(_Conclusion(case).all())
     if not found:
@@ -68,7 +68,7 @@ def blocks(case: Case) -> Iterator[Block]:
 
 
 class _Conclusion:
-    def __init__(self, case: Case) -> None:
+    def __init__(self, case: ReportContext) -> None:
         self.case = case
         self.say = case.say
         self.moves = bool(case.mechanism.drivers)

@@ -8,7 +8,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.plotting.diagrams.base import title_of
 from linkwright.plotting.diagrams.outputs import main_outputs
 from linkwright.reports.document import Block, Figure, Paragraph, literal
-from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.words import _, pgettext
 
@@ -28,7 +28,7 @@ CAPTIONS = {
 
 
 @section("curves", pgettext("report", "Curves"), 7.0, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Diagrams of the motion."""
     if not case.mechanism.drivers:
         raise Missing(_("the machine has no driver, so nothing moves", code="report.no_motion"))
@@ -45,7 +45,7 @@ def blocks(case: Case) -> Iterator[Block]:
     yield from pictures(case, KINDS[bool(outputs) :])
 
 
-def pictures(case: Case, kinds: tuple[str, ...]) -> Iterator[Block]:
+def pictures(case: ReportContext, kinds: tuple[str, ...]) -> Iterator[Block]:
     """A figure per kind of diagram, or why there is none."""
     for kind in kinds:
         shown = _figure(case, kind, case.say(CAPTIONS[kind]))
@@ -53,7 +53,7 @@ def pictures(case: Case, kinds: tuple[str, ...]) -> Iterator[Block]:
             yield shown
 
 
-def _figure(case: Case, kind: str, caption: str, **options: object) -> Block | None:
+def _figure(case: ReportContext, kind: str, caption: str, **options: object) -> Block | None:
     """A diagram, or why there is none; None where the machine has nothing of its kind."""
     try:
         shown = case.diagram(kind, case.motion if kind in KINDS else None, **options)

@@ -12,14 +12,14 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.table import motion_results
 from linkwright.kinetostatics.table import force_results
 from linkwright.reports.document import Block, Paragraph, Table, literal
-from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.numbers import column, faded, residual, typeset, without_rounding
 from linkwright.reports.section import section
 from linkwright.words import Message, _
 
 
 @section("tables", _("Tables over the cycle"), 6.0)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Angles and rates of links, guides, points; joint forces and driver effort: at the numbered positions."""
     say, numbered = case.say, case.numbered
     count = str(len(numbered.rows))
@@ -93,7 +93,9 @@ def blocks(case: Case) -> Iterator[Block]:
         )
 
 
-def _motion_tables(case: Case, columns: Mapping[Output, Floats]) -> Iterator[tuple[Message, list[Output]]]:
+def _motion_tables(
+    case: ReportContext, columns: Mapping[Output, Floats]
+) -> Iterator[tuple[Message, list[Output]]]:
     """Titles and columns: of links that turn, of guides, of outputs that the model names, of points."""
     links = [each for each in columns if KINDS[each.kind].of == "link" and each in case.varying]
     points = [each for each in columns if KINDS[each.kind].of == "point" and each in case.varying]
@@ -113,7 +115,7 @@ def _of(columns: Iterable[Output], *kinds: str) -> list[Output]:
     return [each for each in columns if each.kind in kinds]
 
 
-def _unreached(case: Case) -> Iterator[Block]:
+def _unreached(case: ReportContext) -> Iterator[Block]:
     """Why positions that are listed have no numbers, those with the same reason together."""
     reasons: dict[str, list[str]] = {}
     for number, outcome in enumerate(case.numbered.motion.outcomes, 1):
@@ -131,7 +133,7 @@ def _unreached(case: Case) -> Iterator[Block]:
 
 
 def varying(
-    case: Case, title: Message, columns: Mapping[Output, Floats], names: Sequence[Output]
+    case: ReportContext, title: Message, columns: Mapping[Output, Floats], names: Sequence[Output]
 ) -> Iterator[Block]:
     """What does not change over the cycle in a sentence, the others in a table; all in it without a driver."""
     moving = [name for name in names if name in case.varying] if case.mechanism.drivers else names
@@ -149,7 +151,7 @@ def varying(
         yield table(case, case.say(title), columns, moving)
 
 
-def _equal(case: Case, columns: Mapping[Output, Floats], name: Output) -> str:
+def _equal(case: ReportContext, columns: Mapping[Output, Floats], name: Output) -> str:
     """What a result that does not change is equal to."""
     head, factor = case.heads.head(name)
     quantity, _unused, unit = head.rpartition("\u00a0/\u00a0")
@@ -158,7 +160,9 @@ def _equal(case: Case, columns: Mapping[Output, Floats], name: Output) -> str:
     return f"{quantity} = {value} {unit}".replace(" °", "°")
 
 
-def table(case: Case, title: str, columns: Mapping[Output, Floats], names: Sequence[Output]) -> Table:
+def table(
+    case: ReportContext, title: str, columns: Mapping[Output, Floats], names: Sequence[Output]
+) -> Table:
     """Columns at the numbered positions, in shown units."""
     rows = list(case.numbered.rows)
     key, first = leading(case)
@@ -172,7 +176,7 @@ def table(case: Case, title: str, columns: Mapping[Output, Floats], names: Seque
     return Table(title, head, body, ">" * len(head), "", len(key))
 
 
-def leading(case: Case) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+def leading(case: ReportContext) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Heads and cells of what every table begins with: numbers of the positions, the time where drivers follow laws
     of their own, the input; of several drivers the first one's, or the time alone."""
     motion, rows = case.numbered.motion, list(case.numbered.rows)

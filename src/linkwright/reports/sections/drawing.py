@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from linkwright.errors import LinkwrightError
 from linkwright.plotting.drawing.draw import draw
 from linkwright.reports.document import Block, Figure, Paragraph
-from linkwright.reports.legible import legible
-from linkwright.reports.machine_results import Case
+from linkwright.reports.font_scaling import font_scaling
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.section import section
 from linkwright.words import _
 
@@ -17,7 +17,7 @@ WIDE, TALLEST = 0.85, 104.0
 
 
 @section("drawing", _("Kinematic drawing"), 2.0)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """The machine at the worked position, and its limit positions."""
     say = case.say
     motion, index = case.worked_motion
@@ -41,9 +41,9 @@ def blocks(case: Case) -> Iterator[Block]:
 
     loaded = any(link.mass for link in case.mechanism.links.values()) or bool(case.mechanism.loads)
     caption = say(_("Kinematic drawing with mass centres and loads") if loaded else _("Kinematic drawing"))
-    yield Figure(caption, ((legible(shown, WIDE, TALLEST), WIDE),), "drawing", TALLEST)
+    yield Figure(caption, ((font_scaling(shown, WIDE, TALLEST), WIDE),), "drawing", TALLEST)
     try:
-        limits = legible(faded, WIDE, TALLEST)
+        limits = font_scaling(faded, WIDE, TALLEST)
     except LinkwrightError:
         return
     yield Figure(say(_("Limit positions of the output, dashed")), ((limits, WIDE),), "limit-drawing", TALLEST)

@@ -6,14 +6,14 @@ from collections.abc import Iterator, Sequence
 
 from linkwright.core.table import Table
 from linkwright.reports.document import Block, Paragraph, literal, printed
-from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.reports.settings import Erratum
 from linkwright.words import Translate, _, language_of
 
 
 @section("errata", _("Mistakes of the source"), 13.0, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """What is printed in the source, what is right, and why."""
     say, found = case.say, case.settings.errata
     if not found:

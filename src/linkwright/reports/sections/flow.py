@@ -7,14 +7,14 @@ from collections.abc import Iterator
 from linkwright.plotting.flow_chart.content import flow_chart_steps
 from linkwright.plotting.flow_chart.picture import TALLEST, flow_chart_pages
 from linkwright.reports.document import Block, Figure, Paragraph
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.own_size import own_share
 from linkwright.reports.section import section
 from linkwright.words import _
 
 
 @section("flow", _("Flow chart of the solution"), 3.5)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """The steps of the solution over the numbered positions, in as many pages as they need."""
     say, numbered = case.say, case.numbered
     nodes = flow_chart_steps(numbered.motion, numbered.rows, case.language)

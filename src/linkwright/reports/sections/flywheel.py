@@ -10,7 +10,7 @@ from linkwright.equations.reading import read, read_name
 from linkwright.errors import LinkwrightError
 from linkwright.machine.running import SteadyRunning
 from linkwright.reports.document import Block, Figure, Formula, Paragraph, literal, printed
-from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.reports.sections.curves import pictures
 from linkwright.words import _
@@ -20,7 +20,7 @@ WITHOUT = ("running.one_driver", "running.not_constant", "running.not_whole_turn
 
 
 @section("flywheel", _("Motor and flywheel"), 11.0, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Mean torque, motor, energy fluctuation, flywheel by the formula and exactly."""
     say, running = case.say, _running(case)
     yield Paragraph(
@@ -59,7 +59,7 @@ def blocks(case: Case) -> Iterator[Block]:
     yield from pictures(case, ("energy",))
 
 
-def _running(case: Case) -> SteadyRunning:
+def _running(case: ReportContext) -> SteadyRunning:
     """Motor and flywheel; raises Missing for machines that have none."""
     try:
         return case.running
@@ -69,7 +69,7 @@ def _running(case: Case) -> SteadyRunning:
         raise
 
 
-def _speed(case: Case) -> Iterator[Block]:
+def _speed(case: ReportContext) -> Iterator[Block]:
     try:
         shown = case.diagram("speed", case.running, fluctuation=case.settings.fluctuation)
     except LinkwrightError as error:

@@ -8,7 +8,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.plotting.free_bodies.actions import idle_loads
 from linkwright.plotting.free_bodies.page import free_body_pages
 from linkwright.reports.document import Block, Figure, Paragraph, literal
-from linkwright.reports.machine_results import NO_LOADS, Case, Missing
+from linkwright.reports.machine_results import NO_LOADS, Missing, ReportContext
 from linkwright.reports.own_size import own_share
 from linkwright.reports.section import section
 from linkwright.words import _
@@ -18,7 +18,7 @@ TALLEST, FIRST = 228.0, 178.0
 
 
 @section("free_bodies", _("Free-body diagrams"), 8.45, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """All that acts on each link, drawn and in numbers."""
     say = case.say
     forces, index = case.worked_result

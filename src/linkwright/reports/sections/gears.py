@@ -14,7 +14,7 @@ from linkwright.gears.gear import Gear
 from linkwright.gears.pair import GearPair, gear_pair
 from linkwright.mechanism.wheel_sizes import WheelSizes, wheel_sizes
 from linkwright.reports.document import Block, Figure, Formula, Heading, Paragraph, literal, printed
-from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.topology.trains import GearTrain, written
 from linkwright.words import _, pgettext
@@ -22,7 +22,7 @@ from linkwright.words.sentence import link_label
 
 
 @section("gears", _("Gears, racks and belts"), 8.5, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Pairs of wheels and racks with their sizes, ratios of trains, teeth where module and numbers are given."""
     mechanism = case.mechanism
     found = {joint.name: wheel_sizes(joint, mechanism) for joint in mechanism.joints.values()}
@@ -45,7 +45,7 @@ def blocks(case: Case) -> Iterator[Block]:
         yield from _teeth(case, names, pairs[names[0]])
 
 
-def _sizes(case: Case, pairs: Mapping[str, WheelSizes]) -> Block:
+def _sizes(case: ReportContext, pairs: Mapping[str, WheelSizes]) -> Block:
     rows = [_row(case, name, sizes) for name, sizes in pairs.items()]
     head = (
         _("joint"),
@@ -62,7 +62,7 @@ def _sizes(case: Case, pairs: Mapping[str, WheelSizes]) -> Block:
     return printed(table, case.language, "wheels")
 
 
-def _row(case: Case, name: str, sizes: WheelSizes) -> tuple[str, ...]:
+def _row(case: ReportContext, name: str, sizes: WheelSizes) -> tuple[str, ...]:
     """Name, kind, wheels, teeth, module, pitch radii, centre distance, pressure angle, ratio."""
     return (
         name, case.sentence(case.mechanism.joints[name].word()), ", ".join(sizes.links),
@@ -79,7 +79,7 @@ def _listed(values: float | Sequence[float] | None, factor: float = 1.0) -> str:
     return ", ".join(f"{factor * each:.6g}" for each in several)
 
 
-def _train(case: Case, train: GearTrain) -> Iterator[Block]:
+def _train(case: ReportContext, train: GearTrain) -> Iterator[Block]:
     """The table of the stopped carrier, and the equations that follow from it."""
     say, wheels = case.say, list(train.ratios)
     carrier = [train.carrier] if train.planetary else []
@@ -137,7 +137,7 @@ def _internal(sizes: WheelSizes) -> bool:
     return sizes.ratio is not None and sizes.ratio > 0
 
 
-def _teeth(case: Case, same: Sequence[str], sizes: WheelSizes) -> Iterator[Block]:
+def _teeth(case: ReportContext, same: Sequence[str], sizes: WheelSizes) -> Iterator[Block]:
     """Diameters and contact of equal pairs of gears."""
     say, internal = case.say, _internal(sizes)
     assert sizes.teeth is not None and sizes.module is not None and sizes.pressure_angle is not None
@@ -177,7 +177,7 @@ angle=number(mesh.working_pressure_angle, "angle"),
                  ((mesh.draw(language=case.language).svg, 0.7),), tallest=110.0)  # fmt: skip
 
 
-def _diameters(case: Case, mesh: GearPair, names: list[str]) -> Block:
+def _diameters(case: ReportContext, mesh: GearPair, names: list[str]) -> Block:
     rows: list[list[Cell]] = [
         [name, gear.teeth, *(Amount(each, "length", bare=True) for each in _circles(gear))]
         for name, gear in zip(names, (mesh.pinion, mesh.wheel), strict=True)

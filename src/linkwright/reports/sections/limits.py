@@ -10,7 +10,7 @@ from linkwright.core.quantity import number
 from linkwright.core.table import Table
 from linkwright.equations.reading import sides
 from linkwright.reports.document import Block, Formula, Paragraph, literal, printed
-from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.words import _
 
@@ -19,7 +19,7 @@ ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")
 
 
 @section("limits", _("Limit positions and design numbers"), 10.0, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Design numbers of the motion and the forces, with the limits that are recommended."""
     say = case.say
     rows = [row for row in case.metrics if row.metric not in ELSEWHERE]
@@ -36,7 +36,7 @@ def blocks(case: Case) -> Iterator[Block]:
         yield Paragraph(literal(sentence), "note")
 
 
-def _quick_return(case: Case, rows: list[MetricValue]) -> Iterator[Block]:
+def _quick_return(case: ReportContext, rows: list[MetricValue]) -> Iterator[Block]:
     """The quick-return ratio with its formula, where the crank turns uniformly."""
     angles = [row for row in rows if row.metric == "crank_angle_between_limits"]
     ratios = {row.subject: row for row in rows if row.metric == "quick_return_ratio"}

@@ -36,11 +36,11 @@ from linkwright.reports.document import (
     symbols,
 )
 from linkwright.reports.formula_lines import width
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.section import section
 from linkwright.words import _
 from linkwright.worked_solutions.chains import Chain, chain_closures
-from linkwright.worked_solutions.symbols import Book
+from linkwright.worked_solutions.symbols import SymbolTable
 
 VECTOR_N = Accent("vec", letter("n"))
 #: Width of a line of formulas, em.
@@ -48,7 +48,7 @@ LINE = 36.0
 
 
 @section("method", _("Method"), 4.0)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Closure of every group as vectors, then the formulas of positions, rates and forces, without numbers."""
     say, steps = case.say, list[Step]()
     case.require_position()
@@ -89,7 +89,7 @@ def blocks(case: Case) -> Iterator[Block]:
             yield from formulas(step)
 
 
-def _loops(case: Case, group: Group) -> Iterator[Block]:
+def _loops(case: ReportContext, group: Group) -> Iterator[Block]:
     found = loops(case, group)
     if found:
         yield Paragraph(case.say(_("Closure of its loops:")))
@@ -151,12 +151,12 @@ def side_by_side(formulas: list[Row]) -> Iterator[Formula]:
         yield Formula((Row(tuple(line)),), number=False)
 
 
-def loops(case: Case, group: Group) -> list[tuple[Row, Row]]:
+def loops(case: ReportContext, group: Group) -> list[tuple[Row, Row]]:
     """Left and right side of every loop; for the cut at a guide the component across it.
 
     Rows of gears and racks are no loops: they stand among the formulas.
     """
-    book = Book(*case.worked_motion, case.say)
+    book = SymbolTable(*case.worked_motion, case.say)
     found = []
     for closure in chain_closures(book, group):
         first, second = (_sum(chain) for chain in closure.chains)

@@ -8,13 +8,13 @@ from linkwright.dyads.listing import Listing
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.reports.document import Block, Code, Paragraph
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.section import section
 from linkwright.words import _
 
 
 @section("program", _("Program listing"), 14.5, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """The program, at the positions of the tables."""
     say, numbered = case.say, case.numbered
     try:

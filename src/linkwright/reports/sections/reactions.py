@@ -12,7 +12,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
 from linkwright.plotting.diagrams.base import title_of
 from linkwright.reports.document import Block, Figure, Paragraph, literal, printed
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.numbers import ROUNDING, faded
 from linkwright.reports.section import section
 from linkwright.reports.sections.curves import SHARE
@@ -31,7 +31,7 @@ CAPTIONS = {
 
 
 @section("reactions", _("Joint forces"), 8.0, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Sizes of all joint forces, the largest of each, and their hodographs."""
     say, _unused = case.say, case.forces
     yield Paragraph(
@@ -73,7 +73,7 @@ def blocks(case: Case) -> Iterator[Block]:
     yield from _figures(case, "hodographs", parts, [min(1.0, 0.34 * min(3, n)) for n in panels], TALLEST)
 
 
-def _parts(case: Case, most: int) -> list[list[str]]:
+def _parts(case: ReportContext, most: int) -> list[list[str]]:
     """The joints that carry something, as many together as have no more forces than ``most``."""
     forces = Counter(joint for joint, _unused in loaded_joints(case))
     parts: list[list[str]] = [[]] if forces else []
@@ -84,7 +84,7 @@ def _parts(case: Case, most: int) -> list[list[str]]:
     return parts
 
 
-def loaded_joints(case: Case) -> list[tuple[str, str]]:
+def loaded_joints(case: ReportContext) -> list[tuple[str, str]]:
     """The joint forces, those of joints that carry nothing left out."""
     peaks = {pair: float(np.nanmax(np.abs(case.forces.reaction(pair[0], on=pair[1])), initial=0.0))
              for pair in reaction_pairs(case.mechanism)}  # fmt: skip
@@ -94,7 +94,7 @@ def loaded_joints(case: Case) -> list[tuple[str, str]]:
 
 
 def _figures(
-    case: Case, kind: str, parts: list[list[str]], shares: list[float], tallest: float
+    case: ReportContext, kind: str, parts: list[list[str]], shares: list[float], tallest: float
 ) -> Iterator[Block]:
     """A figure of some joints each, or why there is none."""
     caption = case.say(CAPTIONS[kind])

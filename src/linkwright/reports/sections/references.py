@@ -12,7 +12,7 @@ from linkwright.elements.topology import Group
 from linkwright.errors import LinkwrightError
 from linkwright.groups.base import DYADS
 from linkwright.reports.document import Block, Sources, literal, printed
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.markdown import own_words
 from linkwright.reports.section import section
 from linkwright.reports.settings import Settings
@@ -20,7 +20,7 @@ from linkwright.words import _
 
 
 @section("references", _("References"), 31.0, common=True)
-def blocks(cases: Sequence[Case]) -> Iterator[Block]:
+def blocks(cases: Sequence[ReportContext]) -> Iterator[Block]:
     """Own sources of the files, sources of the machines and of the groups' formulas, each once; where the design
     numbers are defined. Nothing where none is known."""
     found: dict[str, str] = {}
@@ -43,7 +43,7 @@ def own_sources(own: Settings) -> Iterator[Block]:
         yield Sources(tuple((text, own_words(text)) for text in own.references.values()))
 
 
-def _groups(case: Case) -> Sequence[Group]:
+def _groups(case: ReportContext) -> Sequence[Group]:
     """The groups, none where the machine cannot be decomposed."""
     try:
         return case.structure.groups
@@ -51,7 +51,7 @@ def _groups(case: Case) -> Sequence[Group]:
         return ()
 
 
-def _definitions(cases: Sequence[Case]) -> Iterator[Block]:
+def _definitions(cases: Sequence[ReportContext]) -> Iterator[Block]:
     """Where the design numbers of the report are defined."""
     names = dict.fromkeys(name for case in cases for name in case.used)
     language = cases[0].language
@@ -61,7 +61,7 @@ def _definitions(cases: Sequence[Case]) -> Iterator[Block]:
         yield printed(Table(head, rows, "<<", _("Definitions of the design numbers")), language)
 
 
-def _titles(source: str, case: Case) -> str:
+def _titles(source: str, case: ReportContext) -> str:
     """A source; in other languages than its own the titles in it alone, without what it says about them."""
     if case.language == "en":
         return source

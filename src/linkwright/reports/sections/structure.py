@@ -11,7 +11,7 @@ from linkwright.joints.base import JOINTS
 from linkwright.kinematics.rank_of_motion import rank_sentence
 from linkwright.reports.document import Block, Figure, Formula, Paragraph, literal, printed, symbols
 from linkwright.reports.group_pictures import group_picture, to_one_scale
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.section import section
 from linkwright.topology.analysis import numeral
 from linkwright.topology.mobility import lower_pair_counts
@@ -20,7 +20,7 @@ from linkwright.words.sentence import in_language
 
 
 @section("structure", _("Structure analysis"), 3.0)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Mobility, Assur groups in solving order, class of the mechanism."""
     say, built = case.say, case.structure
     first, *rest = (in_language(each, case.language) for each in built.tables(case.language)[0].notes)
@@ -47,7 +47,7 @@ def blocks(case: Case) -> Iterator[Block]:
     )
 
 
-def _pictures(case: Case) -> Block:
+def _pictures(case: ReportContext) -> Block:
     """The groups drawn separately, or why they cannot be."""
     try:
         pictures = to_one_scale([group_picture(case, group) for group in case.structure.groups])
@@ -60,7 +60,7 @@ def _pictures(case: Case) -> Block:
     return Figure(caption, pictures, "group-pictures")
 
 
-def _mobility(case: Case) -> Formula:
+def _mobility(case: ReportContext) -> Formula:
     counts = case.structure.counts
     n, (turning, sliding, w) = counts["links"], lower_pair_counts(counts)
     p = turning + sliding
@@ -73,7 +73,7 @@ def _mobility(case: Case) -> Formula:
     return Formula(sides(f"F = {symbols} = {numbers} = {case.structure.grubler}"), "mobility")
 
 
-def _groups(case: Case) -> Block:
+def _groups(case: ReportContext) -> Block:
     rows: list[list[Cell]] = []
     for number, group in enumerate(case.structure.groups, 1):
         outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.reports.calculation import OwnText
 from linkwright.reports.document import Block, Figure, Heading, Paragraph, literal, symbols
-from linkwright.reports.machine_results import Case, Missing, picture
+from linkwright.reports.machine_results import Missing, ReportContext, picture
 from linkwright.reports.section import section
 from linkwright.reports.sections.method import printed
 from linkwright.reports.sections.worked_position import to_scale
@@ -28,7 +28,7 @@ CAPTIONS = {
 
 
 @section("synthesis", _("Synthesis"), 12.0, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """The way to the first candidate, pictures and the choice."""
     if not case.mechanism.synthesis or not case.source:
         raise Missing(_("the file has no task for a synthesis", code="report.no_synthesis"))

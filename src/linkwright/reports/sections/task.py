@@ -17,7 +17,7 @@ from linkwright.joints.base import PAIRS
 from linkwright.laws.base import LABELS
 from linkwright.reports.document import Block, Paragraph, literal, printed
 from linkwright.reports.key_names import MODEL_KEYS, VALUES
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.section import section
 from linkwright.words import Message, Translate, _, pgettext
 
@@ -48,7 +48,7 @@ KINDS: Mapping[str, Message] = {
 
 
 @section("task", _("Task and data"), 1.0)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """What the machine is for, and everything that is given about it."""
     say, mechanism = case.say, case.mechanism
     if case.purpose:
@@ -76,7 +76,7 @@ def blocks(case: Case) -> Iterator[Block]:
         yield Paragraph(say(_("Gravity acts with ({x}; {y}) m/s².", x=x, y=y)))
 
 
-def _points(case: Case) -> Block:
+def _points(case: ReportContext) -> Block:
     rows: list[list[Cell]] = [
         [name, *(Amount(each, "length", bare=True) for each in place)]
         for name, place in case.mechanism.frame.points.items()
@@ -85,7 +85,7 @@ def _points(case: Case) -> Block:
     return printed(Table(head, rows, "<>>", _("Points of the frame")), case.language, "frame")
 
 
-def _links(case: Case) -> Block:
+def _links(case: ReportContext) -> Block:
     rows: list[tuple[Cell, ...]] = []
     for index, (name, link) in enumerate(case.mechanism.links.items(), 1):
         points = [f"{point} {_place(*at)}" for point, at in link.points.items()]

@@ -10,7 +10,7 @@ from linkwright.analysis.analysis import Analysis
 from linkwright.cycle.summary import Summary
 from linkwright.equations.reading import sides
 from linkwright.reports.document import Block, Formula, Paragraph, Table
-from linkwright.reports.machine_results import Case, Missing
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.numbers import column, small, typeset
 from linkwright.reports.section import section
 from linkwright.reports.sections.curves import pictures
@@ -19,7 +19,7 @@ from linkwright.words import _
 
 
 @section("torque", _("Driving effort by two methods"), 9.0, optional=True)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Effort from the joint forces next to effort from the powers of all forces."""
     if not case.mechanism.drivers:
         raise Missing(_("the machine has no driver, so nothing moves", code="report.no_motion"))

@@ -18,7 +18,7 @@ from linkwright.reports.document import (
     literal,
     symbols,
 )
-from linkwright.reports.machine_results import Case
+from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.section import section
 from linkwright.reports.sections.method import printed
 from linkwright.words import Translate, _
@@ -37,7 +37,7 @@ CAPTIONS = {
 
 
 @section("worked", _("One position worked out"), 5.0)
-def blocks(case: Case) -> Iterator[Block]:
+def blocks(case: ReportContext) -> Iterator[Block]:
     """Every equation of the position with the numbers put in; polygons of velocities, accelerations and forces."""
     say = case.say
     case.require_position()
@@ -71,7 +71,7 @@ def _solution(solution: Worked) -> Iterator[Block]:
         yield from printed(step)
 
 
-def _polygons(case: Case) -> Iterator[Block]:
+def _polygons(case: ReportContext) -> Iterator[Block]:
     source, index = case.worked_result
     pages: list[tuple[str, list[str]]] = []
     if case.mechanism.drivers:

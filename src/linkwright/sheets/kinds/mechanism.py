@@ -15,7 +15,7 @@ from linkwright.plotting.diagrams.base import Request
 from linkwright.plotting.diagrams.force_polygon import link_forces, worth_drawing
 from linkwright.plotting.diagrams.outputs import main_output
 from linkwright.plotting.diagrams.panels import Panel as Plotted
-from linkwright.plotting.diagrams.source import Source
+from linkwright.plotting.diagrams.source import PlotInput
 from linkwright.plotting.diagrams.sva import Sva
 from linkwright.plotting.diagrams.torque import Torque
 from linkwright.sheets.curves import CurvePanel
@@ -93,7 +93,7 @@ def _curves(positions: Positions) -> Iterator[Panel]:
         return
     subject = positions.subject
     request = Request("sva", language=subject.language)
-    source = Source(positions.case.motion)
+    source = PlotInput(positions.case.motion)
     try:
         name = _moving(positions.mechanism, main_output(source.motion))
         for (word, rank, title), plotted in zip(_MOTION, Sva().panels(source, request), strict=False):
@@ -102,7 +102,7 @@ def _curves(positions: Positions) -> Iterator[Panel]:
         subject.note(_("No diagrams on the sheet: {sentence}", sentence=error.sentence))
     if positions.forces is None:
         return
-    efforts = Torque().panels(Source(positions.case.forces), request)
+    efforts = Torque().panels(PlotInput(positions.case.forces), request)
     for number, plotted in enumerate(efforts, 1):
         title = _("Driving torque") if plotted.dimension == "torque" else _("Driving force")
         key = "balance" if len(efforts) == 1 else f"balance_{number}"

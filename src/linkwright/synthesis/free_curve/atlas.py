@@ -25,7 +25,8 @@ from linkwright.core.arrays import Complexes, Floats, Indices, Integers
 from linkwright.formula.cache import folder
 from linkwright.formula.threads import cores, spread_over
 from linkwright.synthesis.free_curve.curve_similarity import ANGLES, LANDMARKS, POINTS, REACH, RINGS, TURNS
-from linkwright.synthesis.free_curve.nodes import (
+from linkwright.synthesis.free_curve.target import Target, even_points, normal
+from linkwright.synthesis.free_curve.topology import (
     Design,
     Draw,
     kernels,
@@ -33,7 +34,6 @@ from linkwright.synthesis.free_curve.nodes import (
     random_structure,
     turned_paths,
 )
-from linkwright.synthesis.free_curve.target import Target, even_points, normal
 
 #: Points of a curve; lengths of the parts tried for open curves; steps of one byte in a coordinate.
 M, WINDOWS, STEP = 64, (16, 23, 33, 46, 64), 1 / 36

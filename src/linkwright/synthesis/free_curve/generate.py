@@ -15,9 +15,9 @@ from linkwright.designs.checkpoints import RESUME, current_checkpoints
 from linkwright.synthesis.free_curve.curve_file import read_curve
 from linkwright.synthesis.free_curve.drawing_order import drawing
 from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
-from linkwright.synthesis.free_curve.nodes import Design
 from linkwright.synthesis.free_curve.search import JOINTS, Search
 from linkwright.synthesis.free_curve.target import Target
+from linkwright.synthesis.free_curve.topology import Design
 from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.requirements.slider_crank import not_negative, positive
 from linkwright.synthesis.result import (

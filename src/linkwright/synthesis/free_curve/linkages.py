@@ -10,8 +10,8 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER
-from linkwright.synthesis.free_curve.nodes import Design, Node, node_paths, rods_of
 from linkwright.synthesis.free_curve.target import LINE, Target, even_points
+from linkwright.synthesis.free_curve.topology import Design, Node, node_paths, rods_of
 from linkwright.synthesis.linkage import Guide, Linkage
 
 SLIDES = {SLIDER: "slider_crank", BLOCK: "crank_swinging_block"}

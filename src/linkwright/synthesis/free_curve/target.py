@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.synthesis.free_curve.dyad_gain import NUMBERS, ROWS
 from linkwright.synthesis.free_curve.kernels import FAR
-from linkwright.synthesis.free_curve.nodes import Design, kernels, node_paths
+from linkwright.synthesis.free_curve.topology import Design, kernels, node_paths
 
 #: Positions of a turn at which a design is examined; positions on the drawn part for each of a fine descent, points
 #: of the curve where it is so much longer through them, and the largest share of it between two of them.

@@ -16,7 +16,7 @@ POINT = 25.4 / 72
 ENOUGH, AIM, SMALLEST = 6.5, 7.2, 260.0
 
 
-def legible(drawn: Callable[[float], str], share: float, tallest: float) -> str:
+def font_scaling(drawn: Callable[[float], str], share: float, tallest: float) -> str:
     """A drawing for a share of the page's width and a height, mm: smaller where its letters would be too small.
 
     ``drawn`` gives its SVG text for a diagonal of the machine.
