@@ -122,8 +122,8 @@ def version(session: Session) -> None:
             _("llvmlite {version}: sweeps of many designs run compiled", version=compiled)
             if compiled
             else _(
-                "llvmlite is not installed: everything works, sweeps of many designs are slower (pip "
-                "install llvmlite)"
+                "llvmlite is not installed: sweeps of many designs are slower, searches for paths and "
+                "living pages do not run (pip install llvmlite)"
             )
         )
     )

@@ -20,22 +20,20 @@ _HARMLESS_TAGS = frozenset(
 )
 _INNER_TAB = re.compile(r"(?<=\S)\t|(?<=\S )\t")
 _NAME = re.compile(r"[&*]([^\s,\[\]{}]*)")
+_SECOND = "another document"
 #: What the composer refuses, by a part of its complaint.
 _REFUSED = {
-    "another document": (
+    _SECOND: (
         _("a second document begins here"),
         _("one file holds one model: remove the --- and what follows"),
-        "documents",
     ),
     "undefined alias": (
         _('the alias "*{name}" has no anchor "&{name}" before it'),
         _("write the value itself"),
-        "alias",
     ),
     "second occurrence": (
         _('the anchor "&{name}" is given twice'),
         _("give every anchor a name of its own"),
-        "alias",
     ),
 }
 
@@ -81,7 +79,8 @@ def _unreadable(error: Exception) -> Remark:
 def _refused(error: ComposerError, text: str) -> Remark:
     """The remark about what is YAML but makes no tree."""
     mark = error.problem_mark
-    message, remedy, code = next(each for sign, each in _REFUSED.items() if sign in error.problem)
+    message, remedy = next(each for sign, each in _REFUSED.items() if sign in error.problem)
+    code = "documents" if _SECOND in error.problem else "alias"
     return Remark(mark.line, mark.column, message.format(name=_name(text, mark)), remedy.format(), code)
 
 

@@ -26,7 +26,7 @@ _BASE: Any = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 class Refused(Exception):
     """A text that no tree is made of, with the remark that says why."""
 
-    def __init__(self, mark: Any, message: str, remedy: Message, code: str) -> None:
+    def __init__(self, mark: Any, message: str, remedy: Message, *, code: str) -> None:
         self.remark = Remark(mark.line, mark.column, message, remedy.format(), code)
 
 
@@ -34,7 +34,7 @@ def check_count(count: int, mark: Any) -> None:
     """Refuse more values than a model can have."""
     if count > MAX_NODES:
         message, remedy = _("the file holds too many values"), _("a model needs far fewer; remove aliases")
-        raise Refused(mark, message.format(), remedy, "size")
+        raise Refused(mark, message.format(), remedy, code="size")
 
 
 class _Loader(_BASE):  # type: ignore[misc]
@@ -47,7 +47,7 @@ class _Loader(_BASE):  # type: ignore[misc]
         self.depth, self.count = self.depth + 1, self.count + 1
         if self.depth > MAX_DEPTH + 1:
             message = _("nested deeper than {most} levels", most=MAX_DEPTH)
-            raise Refused(parent.start_mark, message, _("a model needs at most ten"), "depth")
+            raise Refused(parent.start_mark, message, _("a model needs at most ten"), code="depth")
         if parent is not None:
             check_count(self.count, parent.start_mark)
 
