@@ -109,7 +109,8 @@ def test_the_command_prints_every_named_position(capsys: pytest.CaptureFixture[s
 
 
 def test_worked_and_output_exclude_each_other() -> None:
-    is_refused(["solve", CONVEYOR, "--worked", "--output", "x.csv"], "cli.not_together", name="--worked")
+    refused = is_refused(["solve", CONVEYOR, "--worked", "--output", "x.csv"], "cli.not_together")
+    assert {refused.values["name"], refused.values["other"]} == {"--worked", "--output"}
 
 
 LOADED = """
