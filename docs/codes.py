@@ -13,7 +13,7 @@ import linkwright
 
 SOURCE = Path(linkwright.__file__).parent
 #: Index of the code among the arguments of calls that report a finding.
-PLACES = {"Saying": 0,
+PLACES = {"Saying": 0, "Refused": 3,
     "Finding": 5, "finding": 3, "error": 4, "remark": 3, "Remark": 4, "_remarks": 4, "_refuse": 3,
     "add": 3, "_wrong": 2, "wrong": 2, "say": 3, "ExpressionError": 4, "note": 2,
 }  # fmt: skip
@@ -209,6 +209,8 @@ def _noted(node: ast.AST) -> Iterator[str]:
             elif called(node) in ("wrong", "_wrong") and len(given) == 2:
                 yield from (text.replace("_", "-") for text in texts(given[1]))
             yield from (text for each in named if each.arg == "code" for text in texts(each.value))
+        case ast.Assign(targets=[ast.Name(id="_REFUSED")], value=ast.Dict(values=rows)):
+            yield from (text for row in rows if isinstance(row, ast.Tuple) for text in texts(row.elts[-1]))
         case ast.Assign(targets=[target], value=value) if "code" in map(_name, ast.walk(target)):
             yield from texts(value)
         case ast.arguments(args=given, kwonlyargs=only):
