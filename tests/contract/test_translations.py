@@ -68,6 +68,12 @@ def test_findings_and_results_are_translated(tmp_path: Path) -> None:
     assert OPEN in solved
 
 
+def test_a_living_page_is_written_in_any_language() -> None:
+    with pseudo_locale():
+        page = lw.living_page(lw.load("gallery:crank_rocker"), language=PSEUDO).html
+    assert f'<html lang="{PSEUDO}">' in page and OPEN in page
+
+
 def test_pseudo_texts_keep_their_values() -> None:
     assert (
         pseudo("links reach {reach:.2f}, {name!r}") == f"{OPEN}línks réách {{reach:.2f}}, {{name!r}}{CLOSE}"

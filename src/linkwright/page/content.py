@@ -39,7 +39,7 @@ from linkwright.plotting.drawing.machine import DrawnMechanism, fitted
 from linkwright.words import LANGUAGES, _
 from linkwright.words.sentence import in_language
 
-_TAGS = {"en": "en", "zh": "zh-CN"}
+_TAGS = {"zh": "zh-CN"}
 
 
 def solved(machine: Mechanism | Document, steps: int) -> tuple[Motion, str | None]:
@@ -159,7 +159,7 @@ def document(data: Plain, title: str, language: str) -> str:
     )
     opening = _("Opening … This page needs scripts, and a browser of 2023 or later.").translate(language)
     return (
-        f'<!doctype html>\n<html lang="{_TAGS[language]}">\n<head>\n<meta charset="utf-8">\n'
+        f'<!doctype html>\n<html lang="{_TAGS.get(language, language)}">\n<head>\n<meta charset="utf-8">\n'
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f'<meta name="color-scheme" content="light dark">\n<title>{escape(title)}</title>\n'
